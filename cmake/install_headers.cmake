@@ -5,7 +5,7 @@ file(STRINGS ${SOURCE}/rooms.txt lines REGEX "^[a-z]")
 set(rooms "")
 foreach(line IN LISTS lines)
   string(REGEX MATCH "^[a-z]+" room "${line}")
-  if(NOT room MATCHES "^(report|urdf|commands)$")  # of the program alone
+  if(NOT room MATCHES "^(report|urdf|commands)$")  # rooms that only the program uses
     list(APPEND rooms ${room})
   endif()
 endforeach()

@@ -1,5 +1,5 @@
-# What is installed beside the program and the library, and the package of Debian: cmake --build DIR --target package.
-# The manual and the completion are written by the program itself.
+# Installs the files that accompany the program and the library, and defines the package of Debian: cmake --build DIR
+# --target package. The program itself writes the manual and the completion.
 set(texts ${CMAKE_CURRENT_BINARY_DIR}/texts)
 find_program(GZIP gzip)
 add_custom_command(OUTPUT ${texts}/done
@@ -39,8 +39,8 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++ | clang")  # simulate, sweep and bench compile
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, pkg-config, libeigen3-dev, libfmt-dev, libginac-dev, libcln-dev")  # find_package(alembert)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "g++ | clang")  # simulate, sweep and bench need a compiler
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, pkg-config, libeigen3-dev, libfmt-dev, libginac-dev, libcln-dev")  # for find_package(alembert)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_SOURCE_DIR}/cmake/debian.cmake)
 set(CPACK_ALEMBERT_SOURCE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -1,4 +1,4 @@
-# Has the program write its manual (compressed where GZIP is there) and its completion into the folder TO.
+# Runs the program to write its manual (compressed if GZIP is given) and its completion into the folder TO.
 #   cmake -DPROGRAM=… -DTO=… -DGZIP=… -P texts.cmake
 function(written file)
   execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_FILE ${file} COMMAND_ERROR_IS_FATAL ANY)

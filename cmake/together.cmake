@@ -1,10 +1,10 @@
-# Files of one folder are compiled together (a "unity build"): the headers that they share, those of GiNaC and Eigen above
-# all, are read and instantiated once and not for every file. The 22 files of the room `formalism` take 12 s of processor
-# time together and 44 s one by one (g++ 12). The preset `debug` compiles each file by itself, which is faster for a person
-# who changes one file after the other.
+# Files of one folder are compiled together (a "unity build"): the headers that they share, above all those of
+# GiNaC and Eigen, are read and instantiated once instead of once per file. The 22 files of the room `formalism`
+# take 12 s of processor time if they are compiled together, and 44 s one by one (g++ 12). The preset `debug`
+# compiles each file by itself, which is faster for a person who changes one file after the other.
 #   alembert_together(TARGET [ALONE FILE...])
-# At most `most` files stand together, so that two processors have something to do; files after ALONE use the same short
-# names for different things and stay by themselves.
+# At most `most` files form a group, so that two processors have work. The files after ALONE use the same short names for
+# different things and are compiled by themselves.
 function(alembert_together target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ALONE")
   set(most 12)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Claims that are no equations of motion: motions in closed form, and equations to first order.
+// Claims that are not equations of motion: motions in closed form, and equations that hold to first order.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ void check_verdicts(const Checked& result, const std::vector<Verdict>& expected)
     }
 }
 
-const std::string chain =  // slides off a smooth table: T = m x'^2/2, V = -m g x^2/(2 l)
+const std::string chain =  // a chain that slides off a smooth table: T = m x'^2/2, V = -m g x^2/(2 l)
     "parameters = { m = 1, g = 9.81, l = 2 }\ncoordinates = { x = 0.1 }\n[energy]\nkinetic = \"m*x'^2/2\"\n"
     "potential = \"-m*g*x^2/(2*l)\"\n";
 
@@ -48,7 +48,7 @@ const std::string bead_on_hoop =
 
 }  // namespace
 
-TEST_CASE("closed forms: a motion is put into the equations, for all values of its constants") {
+TEST_CASE("closed forms: a motion is proved by inserting it into the equations, for all values of its constants") {
     check_verdicts(checked(chain, "constants x0\nsolution\nx = x0*cosh(sqrt(g/l)*t)\n"), {Verdict::proved});
     check_verdicts(checked(chain,
                            "constants x0 v0\nsolution\n"
@@ -98,14 +98,14 @@ TEST_CASE("closed forms: linear equations hold to first order near an equilibriu
     check_verdicts(wrong, {Verdict::refuted, Verdict::refuted, Verdict::refuted});
     CHECK(wrong.claims[0].difference == "-M*g*theta");
     CHECK(wrong.claims[2].reason == "it does not even hold at the point itself");
-    // Upside down the sign of gravity turns.
+    // In the inverted position the term of gravity has the opposite sign.
     check_verdicts(checked(pendulum_on_cart,
                            "near theta = pi\nM*l*theta'' - (M+m)*g*(theta - pi) = 0\n"
                            "M*l*theta'' + (M+m)*g*(theta - pi) = 0\n"),
                    {Verdict::proved, Verdict::refuted});
 }
 
-TEST_CASE("closed forms: an equilibrium that depends on parameters, and a point that is none") {
+TEST_CASE("closed forms: an equilibrium may depend on parameters, and at no other point is a claim decided") {
     check_verdicts(checked(bead_on_hoop,
                            "near theta = acos(g/(R*w^2))\n"
                            "theta'' + (w^2 - g^2/(R^2*w^2))*(theta - acos(g/(R*w^2))) = 0\n"
@@ -124,7 +124,8 @@ TEST_CASE("closed forms: third derivatives are those of the differentiated equat
                            "l*theta''' + g*theta'*cos(theta) = 0\n"
                            "l*theta''' + g*cos(theta) = 0\nl*theta''' + g*theta'*sin(theta) = 0\n"),
                    {Verdict::proved, Verdict::refuted, Verdict::refuted});
-    // The same pendulum by a constraint: x''' from two equations and the constraint, with its multiplier.
+    // The same pendulum, described with a constraint: x''' from two equations and the constraint, with its
+    // multiplier.
     const std::string cartesian =
         "gravity = [0, \"-g\"]\nparameters = { m = 1, l = 0.5, g = 9.81 }\n"
         "coordinates = { x = 0.3, y = -0.4 }\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", "
@@ -137,7 +138,7 @@ TEST_CASE("closed forms: third derivatives are those of the differentiated equat
                    {Verdict::proved, Verdict::proved, Verdict::refuted});
 }
 
-TEST_CASE("closed forms: what cannot be read has its place") {
+TEST_CASE("closed forms: a claim that cannot be read is reported with its place") {
     const auto message = [](const std::string& claims) {
         try {
             checked(chain, claims);

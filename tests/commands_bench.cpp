@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `bench` and the error estimate of `simulate` against digits from elsewhere (the cases' pages: Kepler's equation
-// in 50 digits, Taylor series in 110).
+// `bench` and the error estimate of `simulate` are compared with digits from other sources (Kepler's equation in
+// 50 digits, Taylor series in 110).
 #include <doctest/doctest.h>
 
 #include <array>
@@ -156,7 +156,7 @@ TEST_CASE("simulate: the estimated error is within a factor of 30 of the true on
     CHECK(!without.contains("error_estimate"));
 }
 
-// Measured on the page: errors grow 10^6 to 10^7 fold in 10 s, 10^13 in 20 s: an exponent of 1.4 to 1.6.
+// Measured: errors grow 10^6 to 10^7 fold in 10 s, 10^13 in 20 s: an exponent of 1.4 to 1.6.
 TEST_CASE("simulate: chaos is reported with its exponent, and the first line of a result without digits says so") {
     const std::string chaotic = scene("double_pendulum_chaotic");
     const Json good = result_of({"simulate", chaotic, "--json"});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Positions and turns are written here once more, in long double, and differentiated by differences of the sixth
-// order in time: with h = 2e-3 they err by h⁶ and by rounding/h², both below 1e-12.
+// The test computes positions and orientations a second time, in long double, and differentiates them by
+// differences of the sixth order in time. With h = 2e-3 their errors are h⁶ and rounding/h², both below 1e-12.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -40,12 +40,13 @@ Value second(const std::function<Value(Real)>& f, Real h = 2e-3L) {
            (180 * h * h);
 }
 
-/// Of a skew matrix, or of the skew part of any.
+/// The vector of a skew matrix, or of the skew part of any matrix.
 Vector vector_of(const Matrix& m) {
     return Vector(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)) / 2;
 }
 
-/// A body on an arm of changing length on a turntable that turns as given, with a support that an input moves.
+/// A body on an arm of variable length. The arm is on a turntable with a given rotation, and an input moves the
+/// support.
 const std::string arm = R"toml(
 gravity = [0, 0, -9.81]
 [parameters]
@@ -89,7 +90,7 @@ Pose pose_at(Real t, Real theta, Real phi, Real s) {
     return {A, table * Vector(l, F, s * s / 4) + A * Vector(l + s, 0.1L, -s * theta)};
 }
 
-/// Along q(t) with the given q, q', q''.
+/// The pose along a motion q(t) with the given q, q', q''.
 std::function<Pose(Real)> path(const Json& state) {
     const auto value = [&state](const char* kind, const char* name) -> Real {
         return static_cast<Real>(state[kind][name].get<double>());
@@ -180,7 +181,7 @@ spin = "dot(alpha(rod), ez(rod)) + g*sin(theta)/l"
     CHECK(count > 100);
 }
 
-TEST_CASE("kinematics: claims are decided without masses, and told to be kinematics") {
+TEST_CASE("kinematics: claims are decided without masses, and are reported as kinematics") {
     const std::string frames = R"toml(
 [parameters]
 l = 1.5
@@ -236,7 +237,7 @@ offset = ["l*sin(theta)", "l*cos(theta)"]
             CHECK_FALSE(claim["counterexample"].empty());
         }
     }
-    // What needs a force is no kinematics; what a constraint implies is.
+    // A claim that needs a force is not kinematics; a claim that the constraints imply is.
     const Json pushed = judged(symmetric + "[forces]\nphi = \"l\"\n", {"phi'' = l", "phi'' - l = 0*theta''"});
     CHECK(pushed[0]["verdict"] == "proved");
     CHECK(pushed[0]["kinematic"] == false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The method taylor in whole runs: against the digits of the cases' pages (Kepler's equation, 110-digit series),
-// closed forms, and the same pendulum in other coordinates.
+// The method taylor in whole runs is compared with digits from other sources (Kepler's equation, 110-digit
+// series), closed forms, and the same pendulum in other coordinates.
 #include <doctest/doctest.h>
 
 #include <cmath>

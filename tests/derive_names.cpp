@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scene's definitions as names in what is derived, and the sign of a printed equation.
+// The scene's definitions appear as names in the derived equations; and the sign of a printed equation.
 #include <doctest/doctest.h>
 
 #include "check/check.hpp"

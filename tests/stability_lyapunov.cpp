@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a Lyapunov function that somebody proposes proves: cases with known answers, solutions of Lyapunov's matrix
-// equation for random linear systems, and signs of random forms against a fine grid.
+// The conclusions from a proposed Lyapunov function are compared with known answers and with solutions of
+// Lyapunov's matrix equation for random linear systems; the signs of random forms are compared with a fine grid.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -74,7 +74,7 @@ TEST_CASE("lyapunov: a definite V proves stability, with dV/dt definite or LaSal
         {one("x^2/2", force("-x^2*x'")), "x'^2 + x^2", V::asymptotically_stable, T::lasalle},
         {one("x^2/2", force("-x^4*x'^3")), "x'^2 + x^2", V::asymptotically_stable, T::lasalle},
         {one("0*x", force("-x^3 - x'")), "x'^2/2 + x^4/4", V::asymptotically_stable, T::lasalle},
-        // Damping of the difference alone: the motion x = y never ends, and V cannot prove more than is true.
+        // Only the difference is damped: the motion x = y never ends, and V cannot prove more than is true.
         {two("(x^2 + y^2)/2", rayleigh("(x' - y')^2/2")), "x'^2 + y'^2 + x^2 + y^2", V::stable,
          T::lyapunov_stable},
         {two("(x^2 + 4*y^2)/2", rayleigh("(x' - y')^2/2")), "x'^2 + y'^2 + x^2 + 4*y^2", V::asymptotically_stable,
@@ -100,7 +100,7 @@ TEST_CASE("lyapunov: an indefinite V proves instability by the theorems of Lyapu
     });
 }
 
-TEST_CASE("lyapunov: a V that proves nothing leaves the verdict open, and what is sampled is no proof") {
+TEST_CASE("lyapunov: a V that proves nothing leaves the verdict open, and sampling is not reported as a proof") {
     check({
         {one("x^2/2"), "x'^2/2 - x^2/2", V::undecided, T::none},
         {one("x^2/2"), "x^2", V::undecided, T::none},
@@ -116,7 +116,7 @@ TEST_CASE("lyapunov: a V that proves nothing leaves the verdict open, and what i
     CHECK(s.reason.find("without V: asymptotically stable") != std::string::npos);
 }
 
-TEST_CASE("lyapunov: the rate of V along a pendulum on a cart is the one of its equations") {
+TEST_CASE("lyapunov: dV/dt for a pendulum on a cart follows from its equations of motion") {
     const std::string scene = R"toml(
 [parameters]
 m = 2
@@ -135,7 +135,7 @@ rayleigh = "c*x'^2/2"
     const Stability s = with_function(
         scene, "(m + 1)*x'^2/2 + m*l*x'*theta'*cos(theta) + m*l^2*theta'^2/2 + m*g*l*(1 - cos(theta)) + x^2/2");
     REQUIRE(s.lyapunov);
-    CHECK(s.lyapunov->rate == "-c*x'^2");  // the power of the damper
+    CHECK(s.lyapunov->rate == "-c*x'^2");  // this is the power of the damper
     CHECK(s.lyapunov->rate_sign == "negative semidefinite");
     CHECK(s.lyapunov->set == "x' = 0");
     CHECK(s.theorem == T::lasalle);
@@ -148,7 +148,8 @@ TEST_CASE("lyapunov: solutions of Lyapunov's equation decide random linear syste
     for (int k = 0; k < 24; ++k) {
         int c[8];
         for (int& one_of : c) one_of = whole(random);
-        if (k % 2 == 0) c[0] = c[5] = 7, c[2] = c[7] = 6;  // more damping and stiffness: stable ones too
+        // With more damping and stiffness, so that stable systems occur too.
+        if (k % 2 == 0) c[0] = c[5] = 7, c[2] = c[7] = 6;
         const auto row = [&](int i) {
             return std::to_string(-c[4 * i]) + "*x - (" + std::to_string(c[4 * i + 1]) + ")*y - (" +
                    std::to_string(c[4 * i + 2]) + ")*x' - (" + std::to_string(c[4 * i + 3]) + ")*y'";
@@ -159,7 +160,7 @@ TEST_CASE("lyapunov: solutions of Lyapunov's equation decide random linear syste
             for (int j = 0; j < 4; ++j) A(2 + i, j) = -c[4 * i + j];
         const Eigen::Vector4cd roots = A.eigenvalues();
         if (roots.real().cwiseAbs().minCoeff() < 0.05) continue;
-        // AᵀP + PA = −1 as 16 equations; V = xᵀPx, with decimals.
+        // AᵀP + PA = −1 is solved as 16 equations; V = xᵀPx is written with decimals.
         const Eigen::Matrix4d I = Eigen::Matrix4d::Identity();
         Eigen::MatrixXd K = Eigen::kroneckerProduct(I, A.transpose());
         K += Eigen::kroneckerProduct(A.transpose(), I);
@@ -230,7 +231,7 @@ TEST_CASE("lyapunov: quartic forms are called definite only where a fine grid fi
     CHECK(both > 10);
 }
 
-TEST_CASE("lyapunov: what is no Lyapunov function is refused, each with its reason") {
+TEST_CASE("lyapunov: an expression that cannot be a Lyapunov function is refused with the reason") {
     const auto refused = [](const std::string& scene, const std::string& function, const std::string& with,
                             double period = 0) {
         std::string message;

@@ -272,8 +272,8 @@ private:
                 result_.integrable[k] = false;
             else if (!zero)
                 result_.reason =
-                    "it is not integrable beside the surface of the holonomic constraints; on it nothing is "
-                    "proved";
+                    "it is not integrable outside the surface of the holonomic constraints; on the surface "
+                    "nothing is proved";
             else
                 result_.reason = "the forms are of too high a degree for a bound on the failure of sampling";
         }

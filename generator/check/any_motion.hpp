@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Equations that every motion obeys which the constraints allow: q'' = w + Aᵀλ, A q'' = γ with any w. What holds
-/// by them is kinematics.
+/// Equations that every motion obeys that the constraints allow: q'' = w + Aᵀλ, A q'' = γ with any w. What follows
+/// from them alone is kinematics.
 ///
 ///     ExactStates states(mechanism, any_motion(equations, mechanism), Motions::At::motion, 0, 0);
 
@@ -10,7 +10,8 @@
 
 namespace alembert {
 
-/// With the constraints of `equations`; w is written as q'' itself, which exact states draw before they solve.
+/// The result has the constraints of `equations`. For w it contains the symbols q'' themselves, since exact states
+/// choose values for them before they solve.
 Equations any_motion(Equations equations, const Mechanism& mechanism);
 
 }  // namespace alembert

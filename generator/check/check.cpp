@@ -348,7 +348,7 @@ private:
         for (const std::size_t k : open) {
             CheckedClaim& c = result_.claims[k];
             if (!forms_[k].linear) {
-                c.reason = "it is not linear in what it leaves open";
+                c.reason = "it is not linear in the names that it leaves open";
                 continue;
             }
             if (mixes(k)) {

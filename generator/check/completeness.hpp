@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Do right claims say everything about the motion?
+/// Do the right claims determine the motion completely?
 
 #include "check/claims.hpp"
 
 namespace alembert {
 
-/// With the constraints, and with what the claims leave open eliminated, do the forms `right` determine every
-/// acceleration? Decided by ranks at an exact state.
+/// Do the forms `right`, together with the constraints, determine every acceleration after the open names of the
+/// claims are eliminated? Ranks at an exact state decide this.
 bool fix_accelerations(const Claims& claims, const std::vector<const ClaimForm*>& right);
 
 }  // namespace alembert

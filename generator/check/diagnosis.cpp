@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    /// Nothing if it cannot be translated or contains open names.
+    /// The node of `value`. Returns nothing if the expression cannot be translated or contains open names.
     std::optional<int> node_of(Program& p, const Expression& value) {
         try {
             const ex e = claims_.read(value);
@@ -113,8 +113,8 @@ private:
 
     bool holds_quickly(const ClaimForm& form) {
         if (!form.open.empty()) {
-            // The claim is tested with the right claims of its group; if these do not determine the open names,
-            // with all.
+            // The claim is tested with the right claims of its group; if these do not determine the open names, it
+            // is tested with all claims of the group.
             std::vector<ClaimForm> forms = asked_.forms;
             forms[asked_.claim] = form;
             std::vector<std::size_t> group = group_of(asked_.scene, forms, asked_.claim), right = group;
@@ -163,7 +163,7 @@ private:
         return usable == 2;
     }
 
-    /// Which factor of an equation of rest vanishes where the claim does not.
+    /// Finds which factor of an equation of rest vanishes at a state where the claim does not hold.
     std::string name_branch() {
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {form_.residual})[0]};

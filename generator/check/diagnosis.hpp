@@ -18,25 +18,25 @@
 namespace alembert {
 
 struct Diagnosis {
-    std::string reason;      ///< in words; may be empty
+    std::string reason;      ///< the reason in words; may be empty
     std::string difference;  ///< claim − nearest right equation, term by term
     std::string nearest;     ///< that right equation
     std::optional<Slip> likely;
 };
 
-/// The claim in question, and the others.
+/// The claim that is wrong, and the other claims.
 struct WrongClaim {
     const Scene& scene;
     Claims& claims;
-    const Equations& law;                 ///< those that it was held against
-    const std::vector<ClaimForm>& forms;  ///< of all claims
+    const Equations& law;                 ///< the equations that the claim was compared with
+    const std::vector<ClaimForm>& forms;  ///< the forms of all claims
     const std::set<std::size_t>&
         wrong;          ///< other claims known to be wrong, of those that share open names with it
-    std::size_t claim;  ///< which
+    std::size_t claim;  ///< position of the wrong claim
     bool in_motion, at_impact;
 };
 
-/// `states`: those at which the claim was held against the equations.
+/// `states`: the states at which the claim was compared with the equations.
 Diagnosis diagnose(const WrongClaim& asked, ExactStates& states);
 
 }  // namespace alembert

@@ -85,12 +85,13 @@ public:
 private:
     struct Small {
         GiNaC::symbol variable;
-        ex value;  ///< from which it differs little
+        ex value;  ///< the value from which the variable differs little
     };
 
     ex at_base(const ex& e) const { return e.subs(base_, GiNaC::subs_options::no_pattern); }
 
-    /// Of the claim by each small quantity, with the accelerations of the equations: r_v − r_q'' M⁻¹ R_v.
+    /// The derivatives of the claim with respect to each small quantity, with the accelerations of the equations
+    /// inserted: r_v − r_q'' M⁻¹ R_v.
     std::vector<ex> eliminated() const {
         const auto n = static_cast<unsigned>(m_.size()), count = static_cast<unsigned>(small_.size());
         GiNaC::matrix M(n, n), S(n, count), by(1, n);
@@ -119,7 +120,8 @@ private:
         return in_print(sum);
     }
 
-    /// The linear equation of the first coordinate whose acceleration the claim holds, on the claim's scale.
+    /// The linear equation of the first coordinate whose acceleration the claim contains, multiplied so that its
+    /// scale is that of the claim.
     std::string nearest() const {
         for (int i = 0; i < m_.size(); ++i) {
             const ex own = at_base(residual_.diff(m_.qddot[i]));

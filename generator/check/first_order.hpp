@@ -4,16 +4,17 @@
 /// Claims that hold to first order near an equilibrium or a steady motion, such as theta'' + g*theta/l = 0 near
 /// theta = 0.
 ///
-/// With q = q0 + ε ξ, q' = u0 + ε η and the accelerations of the equations, q'' = −ε M⁻¹(D η + P ξ), both sides of
-/// such a claim agree but for terms with ε².
+/// With q = q0 + ε ξ, q' = u0 + ε η and the accelerations of the equations, q'' = −ε M⁻¹(D η + P ξ), the two sides
+/// of such a claim differ only by terms with ε².
 
 #include "check/claims.hpp"
 #include "check/verdict.hpp"
 
 namespace alembert {
 
-/// `claim` has Claim::near. Coordinates that it does not name may have any value, rates that it does not name are
-/// small; so are inputs. Undecided, with the reason, where there are constraints or more than four coordinates.
+/// `claim` has Claim::near. Coordinates that it does not name may have any value; rates that it does not name, and
+/// inputs, are small. The claim stays undecided, with the reason, if there are constraints or more than four
+/// coordinates.
 void check_first_order(const Claim& claim, Claims& read, CheckedClaim& result);
 
 }  // namespace alembert

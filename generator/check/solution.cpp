@@ -35,7 +35,7 @@ public:
         }
     }
 
-    /// The equations of motion, then the constraints, as what must vanish.
+    /// The expressions that must vanish: those of the equations of motion, then those of the constraints.
     std::vector<ex> rows() const {
         std::vector<ex> result;
         for (int i = 0; i < e_.size(); ++i) {
@@ -54,10 +54,10 @@ public:
 
     bool is_readable(const ex& row) const { return m_.z->tree_size(row) <= longest_tested; }
 
-    /// Along the motion that the claims give.
+    /// The value of `row` along the motion that the claims give.
     ex along(const ex& row) const { return in_time(m_.z->expand(row)).subs(at_, GiNaC::subs_options::no_pattern); }
 
-    /// What is not given and would be needed: coordinates and multipliers that are left.
+    /// Coordinates and multipliers that remain in `along`: the claims would have to give them as well.
     std::vector<std::string> missing(const ex& along) const {
         std::vector<std::string> names;
         for (int i = 0; i < m_.size(); ++i)
@@ -87,7 +87,7 @@ public:
     const Mechanism& mechanism() const { return m_; }
 
 private:
-    /// With inputs written out; one may stand in another.
+    /// `e` with the inputs written out. An input may contain another one, therefore the substitution is repeated.
     ex in_time(ex e) const {
         for (std::size_t k = 0; k < m_.inputs.size(); ++k) e = e.subs(inputs_, GiNaC::subs_options::no_pattern);
         return e;

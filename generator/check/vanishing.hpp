@@ -8,8 +8,8 @@
 ///     2^failure
 ///
 /// An identity of degree d that is false holds at a random point of GF(p) with a probability of at most d/p
-/// (Schwartz, J. ACM 27 (1980) 701). Where the constraints have branches, states are taken until the chance that
-/// one of the branches was never met is as small.
+/// (Schwartz, J. ACM 27 (1980) 701). Where the constraints have branches, states are added until the probability
+/// that one of the branches was never met is as small.
 
 #include <optional>
 #include <string>
@@ -18,23 +18,23 @@
 
 namespace alembert {
 
-constexpr double wanted_failure = -60;     ///< log₂ of the chance of an error that is small enough
-constexpr int states_of_rest = 48;         ///< states at rest lie on branches that are not counted
-constexpr std::size_t most_states = 1200;  ///< after these the question stays open
+constexpr double wanted_failure = -60;     ///< log₂ of the probability of an error that is small enough
+constexpr int states_of_rest = 48;         ///< number of states of rest: their branches are not counted
+constexpr std::size_t most_states = 1200;  ///< after this many states the question stays undecided
 
-/// Is the node `root` zero at all states? Nothing if that cannot be decided. `failure` is log₂ of the probability
-/// of an error.
+/// Is the node `root` zero at all states? Returns nothing if that cannot be decided. `failure` is log₂ of the
+/// probability of an error.
 std::optional<bool> vanishes_at(ExactStates& states, const Program& program, int root, double& failure);
 
-/// The same at two states, or at eight where constraints have branches or the states are those of rest: good
-/// enough to find a repair, not to prove one.
+/// The same question at two states only, or at eight if the constraints have branches or the states are states of
+/// rest. This is enough to find a correction, but not to prove it.
 bool vanishes_at_two(ExactStates& states, const Program& program, int root);
 
-/// log₂ of the probability that a given branch of the constraints is not that of this state.
+/// log₂ of the probability that this state does not lie on a given branch of the constraints.
 double chance_of_another_branch(const ExactState& state);
 
-/// Does it vanish for the least reactions of constraints that depend on each other, and not for other reactions
-/// with the same effect?
+/// When constraints depend on each other, does the node vanish for their least reactions, but not for other
+/// reactions with the same effect?
 bool depends_on_shares(ExactStates& states, const Program& program, int root);
 
 }  // namespace alembert

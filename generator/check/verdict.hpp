@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What is said of one claim.
+/// The verdict on one claim.
 
 #include <string>
 #include <utility>

@@ -18,9 +18,9 @@ using GiNaC::numeric;
 namespace {
 
 constexpr long digits = 40;
-constexpr double nothing = 1e-30;  // of the sum of the terms' sizes: a zero in 40 digits
+constexpr double nothing = 1e-30;  // relative to the sum of the terms' sizes; less counts as zero in 40 digits
 
-/// GiNaC's precision is one for the whole program.
+/// Sets GiNaC's precision, which is one for the whole program, and restores it.
 class InDigits {
 public:
     InDigits() { GiNaC::Digits = digits; }
@@ -37,14 +37,14 @@ void gather(const ex& e, GiNaC::exset& symbols) {
     for (const ex& part : e) gather(part, symbols);
 }
 
-/// Real and finite, or nothing.
+/// The value of `e` if it is real and finite, otherwise nothing.
 std::optional<numeric> real_value(const ex& e) {
     const ex value = e.evalf();
     if (!is_a<numeric>(value) || !GiNaC::ex_to<numeric>(value).is_real()) return std::nullopt;
     return GiNaC::ex_to<numeric>(value);
 }
 
-/// |value| of each term of the outermost sum, added.
+/// The sum of |value| over the terms of the outermost sum.
 std::optional<numeric> size_of(const ex& e, const GiNaC::exmap& at) {
     numeric sum = 0;
     const auto add = [&](const ex& term) {
@@ -85,7 +85,7 @@ ZeroTest zero_test(const ex& given, const Mechanism& m) {
             if (!value || !size || GiNaC::abs(*value) <= numeric(nothing) * *size) continue;
             result.value = value->to_double();
             return result;
-        } catch (const std::runtime_error&) {  // GiNaC's word for a pole at these values
+        } catch (const std::runtime_error&) {  // GiNaC throws it at a pole
             continue;
         }
     return {};

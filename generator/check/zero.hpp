@@ -6,8 +6,8 @@
 ///     const ZeroTest test = zero_test(l*theta0*(w^2 - g/l), mechanism);
 ///     test.zero      // false, with values of the symbols at which it is not
 ///
-/// For expressions in independent symbols alone: solutions in closed form, first approximations. Claims about the
-/// state go by exact states (vanishing.hpp).
+/// The test is for expressions whose symbols are all independent: solutions in closed form and first
+/// approximations. Claims about the state are decided at exact states (vanishing.hpp).
 
 #include <optional>
 #include <string>
@@ -18,20 +18,21 @@
 
 namespace alembert {
 
-/// Nodes that an expression may have, written out, to be tested.
+/// The largest number of nodes that an expression, written out, may have to be tested.
 constexpr double longest_tested = 30000;
 
 struct ZeroTest {
-    std::optional<bool> zero;  ///< true: proved by normal form; false: it is not at `values`; nothing: not decided
+    std::optional<bool> zero;  ///< true: proved by normal form; false: not zero at `values`; nothing: not decided
     std::vector<std::pair<std::string, std::string>> values = {};  ///< name → value
-    double value = 0;                                              ///< of the expression there
+    double value = 0;                                              ///< of the expression at `values`
 };
 
-/// `e` is written out, without intermediate symbols. Values are tried in 40 digits between 1/3 and 3, the time as
-/// well.
+/// `e` must be written out, without intermediate symbols. The values that are tried, also for the time, lie
+/// between 1/3 and 3 and have 40 digits.
 ZeroTest zero_test(const GiNaC::ex& e, const Mechanism& mechanism);
 
-/// Proved, refuted or undecided by several such tests of parts of one claim; the first that is not zero is shown.
+/// Proves or refutes a claim, or leaves it undecided, from several such tests of parts of the claim. The first
+/// part that is not zero is shown.
 struct CheckedClaim;
 void settle_by(const std::vector<ZeroTest>& tests, CheckedClaim& claim);
 

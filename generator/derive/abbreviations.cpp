@@ -19,7 +19,7 @@ struct Power {
     numeric power;
 };
 
-/// e as a sum to a rational power; nothing where it is none.
+/// `e` as a sum to a rational power; nothing if it does not have this form.
 std::optional<Power> power_of_sum(const ex& e) {
     if (is_a<GiNaC::add>(e)) return Power{e, 1};
     if (is_a<GiNaC::power>(e) && is_a<GiNaC::add>(e.op(0)) && is_a<numeric>(e.op(1)) &&
@@ -28,7 +28,7 @@ std::optional<Power> power_of_sum(const ex& e) {
     return std::nullopt;
 }
 
-/// μ with a = μ b, where that is a product of parameters and numbers.
+/// The factor μ with a = μ b, if it is a product of parameters and numbers.
 template <class IsSteady>
 std::optional<ex> ratio(const ex& a, const ex& b, const IsSteady& is_steady) {
     if (a.nops() != b.nops()) return std::nullopt;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The scene's definitions as abbreviations in what is derived: gamma for 1/sqrt(1 - (x'^2+y'^2)/c^2).
+/// The scene's definitions serve as abbreviations in the derived equations: gamma for 1/sqrt(1 - (x'^2+y'^2)/c^2).
 ///
 ///     const Abbreviations abbreviate(mechanism);
 ///     abbreviate(m*x''*pow(1 - (x'^2+y'^2)/c^2, -1/2))        // gamma*m*x''
 ///
-/// A definition is found where it, or the sum of which it is a power, stands as one piece: under a root, in a
-/// denominator, as the angle of a sine, or as a factor; each time up to a factor of parameters. A sum that has
-/// been multiplied out is not found.
+/// A definition is found wherever it, or the sum of which it is a power, appears undivided: under a root, in a
+/// denominator, as the angle of a sine, or as a factor. In each case it may differ by a factor of parameters. A
+/// sum that has been multiplied out is not found.
 
 #include <optional>
 #include <vector>
@@ -19,20 +19,20 @@ namespace alembert {
 
 class Abbreviations {
 public:
-    /// Definitions that are c·(sum)^r with a factor c of parameters, and that change with the state.
+    /// Uses the definitions that change with the state and have the form c·(sum)^r with a factor c of parameters.
     explicit Abbreviations(const Mechanism& mechanism);
 
     bool any() const { return !list_.empty(); }
 
     struct Kept {
         GiNaC::symbol name;
-        GiNaC::ex value;  ///< written out
+        GiNaC::ex value;  ///< with intermediate symbols written out
         GiNaC::ex factor, sum;
         GiNaC::numeric power;  ///< value = factor·sum^power
     };
     const std::vector<Kept>& list() const { return list_; }
 
-    /// With the names in place of the values. `e` is written out, without intermediate symbols.
+    /// `e` with the names in place of the values. `e` must be written out, without intermediate symbols.
     GiNaC::ex operator()(const GiNaC::ex& e) const;
 
 private:

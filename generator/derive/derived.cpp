@@ -88,11 +88,12 @@ std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechan
     if (std::any_of(p.scene.rolling.begin(), p.scene.rolling.end(),
                     [&](const RollingRule& r) { return r.name.place == c.place; }))
         return {};
-    return describe(p.scene, {{c.place,
-                               fmt::format("constraint '{}' follows from the others; its equation is left "
-                                           "out, and the reactions of all are the least that keep them",
-                                           c.name),
-                               Severity::warning}});
+    return describe(p.scene,
+                    {{c.place,
+                      fmt::format("constraint '{}' follows from the others; its equation is left "
+                                  "out, and of all reactions that satisfy the constraints the least are taken",
+                                  c.name),
+                      Severity::warning}});
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using Element = FigureElement::Kind;
 
-constexpr double margin = 58;  // for labels and hatching, on the screen
+constexpr double margin = 58;  // space for labels and hatching, in units of the screen
 
 class ViewFinder {
 public:

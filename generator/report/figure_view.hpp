@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// From where a drawing is seen, and how large.
+/// The direction from which a drawing is seen, and its scale.
 ///
 ///     const FigureView view = figure_view(drawing, poses);
 ///     // on the screen: x = (p − centre)·right·scale, y = −(p − centre)·up·scale, from the middle
 ///
-/// A plane mechanism is seen along the normal of its plane, with gravity downwards; one in space from above and
-/// aside.
+/// A plane mechanism is seen along the normal of its plane, with gravity downwards; a mechanism in space is seen
+/// obliquely from above.
 
 #include "figure/drawing.hpp"
 
@@ -22,7 +22,7 @@ struct FigureView {
     std::vector<int> followed = {};
 };
 
-/// Scaled so that all poses fit. There is one pose at least.
+/// The view is scaled so that all poses fit. `poses` must not be empty.
 FigureView figure_view(const Drawing& drawing, const std::vector<Pose>& poses);
 
 }  // namespace alembert

@@ -106,10 +106,10 @@ void find_quick_times(const Program& program, Ensemble& e, std::vector<std::stri
             if (used[i]) key.push_back(parameters[i]);
         const auto [at, is_new] = known.try_emplace(std::move(key));
         if (is_new && known.size() == most_searches + 1)
-            warnings.push_back(fmt::format(
-                "inputs are looked through for narrow pulses in {} of their variants, not in more; a longest step "
-                "(max_step) bounds the steps of all\n",
-                most_searches));
+            warnings.push_back(
+                fmt::format("only {} variants of the inputs were searched for narrow pulses; a longest step "
+                            "(max_step) bounds the steps of all\n",
+                            most_searches));
         if (is_new && known.size() <= most_searches)
             at->second = quick_times(program, parameters, e.starts[k], e.starts[k] + e.durations[k]);
         any = any || !at->second.empty();

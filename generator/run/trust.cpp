@@ -47,9 +47,10 @@ std::vector<std::string> doubts(const Evidence& e) {
     else if (!(scaled <= two_digits))
         reasons.push_back(fmt::format("the estimated error is {:.1e} of the motion's size", scaled));
     if (e.fixed_step == 0 && e.error.moved > 0 && e.error.moved < e.precision)
-        reasons.push_back(fmt::format(
-            "the coordinates move by {:.1e} at the most, less than the tolerance {:g}: no step was held to them",
-            e.error.moved, e.precision));
+        reasons.push_back(
+            fmt::format("the coordinates move by {:.1e} at the most, less than the tolerance {:g}, so the "
+                        "tolerance limited no step",
+                        e.error.moved, e.precision));
     if (e.error.lyapunov && !reasons.empty())
         reasons.push_back(
             fmt::format("the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left",

@@ -16,7 +16,7 @@ std::vector<Expansion> field(const Local& local, const std::vector<Expansion>& x
         for (std::size_t j = 0; j <= i; ++j) M[i][j] = M[j][i] = value[r.mass[next++]];
         M[i][p] = value[r.forcing[i]];
     }
-    for (std::size_t k = 0; k < p; ++k)  // a mass matrix needs no row exchanges
+    for (std::size_t k = 0; k < p; ++k)  // elimination in a mass matrix needs no row exchanges
         for (std::size_t i = 0; i < p; ++i) {
             if (i == k) continue;
             const Expansion factor = M[i][k] / M[k][k];

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The equations of motion without constraints as x' = f(x), x being the coordinates that something depends on,
-/// then all speeds.
+/// Equations of motion without constraints in the form x' = f(x), where x consists of the coordinates on which
+/// something depends, followed by all speeds.
 
 #include "stability/local.hpp"
 
 namespace alembert {
 
-/// x' as series where the states are these series. Throws NotAnalytic.
+/// The series of x' if the states are the given series. Throws NotAnalytic.
 std::vector<Expansion> field(const Local& local, const std::vector<Expansion>& x);
 
 /// The value at the point of state k.

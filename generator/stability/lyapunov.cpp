@@ -21,7 +21,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr std::size_t widest = 200;  // letters of dV/dt in the answer
+constexpr std::size_t widest = 200;  // the most letters of dV/dt that the answer shows
 const char* const unknown_sign = "not known";
 
 ex read_function(const std::string& text, const LinearizedScene& scene) {
@@ -79,12 +79,12 @@ std::string text_of_set(const Semidefinite& half, const Symbols& symbols) {
     return fmt::format("{}", fmt::join(sets, " or "));
 }
 
-/// An expression in q and q' as one in q and u, without intermediate symbols.
+/// Rewrites an expression in q and q' in terms of q and u, without intermediate symbols.
 ex in_states(const ex& in_rates, const Local& local) {
     return local.mechanism.z->expand(local.in_speeds({in_rates})[0]);
 }
 
-/// dV/dt = λ V + W with W definite, of V's sign: by the quadratic forms.
+/// Is dV/dt = λ V + W with W definite and of V's sign? λ is found from the quadratic forms.
 bool by_second_theorem(const Expansion& V, const Expansion& rate, int sign, const Neighbourhood& near) {
     const CertainMatrix Q = Certain(sign) * hessian(V, near.monomials),
                         Q_rate = Certain(sign) * hessian(rate, near.monomials);
@@ -94,7 +94,7 @@ bool by_second_theorem(const Expansion& V, const Expansion& rate, int sign, cons
     return sign_near(rate + Expansion(-lambda) * V, near.monomials).is(sign);
 }
 
-/// dV/dt = g V with a g that is positive at the point, or definite.
+/// Is dV/dt = g V with a factor g that is positive at the point, or positive definite?
 bool is_positive_multiple(const ex& V, const ex& rate, const Neighbourhood& near) {
     const auto in_numbers = near.with_numbers(in_states(V, near.local));
     if (!in_numbers || in_numbers->is_zero()) return false;

@@ -10,17 +10,18 @@
 ///     dV/dt = λ V + W, λ > 0, W definite, likewise   unstable (Lyapunov's second theorem)
 ///     dV/dt > 0 wherever V > 0, likewise             unstable (Chetaev)
 ///
-/// dV/dt is taken along the equations of motion. All signs are proved, from the Taylor series and the normal form
-/// (signs.hpp, semidefinite.hpp); where that does not succeed they are sampled, which proves nothing. References:
+/// dV/dt is taken along the equations of motion. The signs are proved from the Taylor series and the normal form
+/// (signs.hpp, semidefinite.hpp). If that does not succeed, they are sampled, which proves nothing. References:
 /// Lyapunov (1892) §§13-16, Chetaev, The Stability of Motion (1961), LaSalle & Lefschetz (1961), chapter 2.
 
 #include "stability/verdict.hpp"
 
 namespace alembert {
 
-/// The answer, and the verdict of V alone. `local`: null where the equations have no series at the point. Throws
-/// ModelError for a V that cannot be read or is not zero at the point, that holds accelerations, multipliers, t or
-/// a coordinate that nothing depends on, and for scenes with constraints or whose equations change with time.
+/// The answer, and the verdict that follows from V alone. `local` is null if the equations have no series at the
+/// point. Throws ModelError if V cannot be read, is not zero at the point, or contains accelerations, multipliers,
+/// t or a coordinate on which nothing depends; also if the scene has constraints or its equations change with
+/// time.
 std::pair<LyapunovAnswer, Decision> by_lyapunov_function(const std::string& V, const LinearizedScene& scene,
                                                          const Local* local);
 

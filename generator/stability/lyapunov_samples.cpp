@@ -18,7 +18,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// V, dV/dt and the size of what dV/dt is the sum of, at any state.
+/// V, dV/dt and the size of the terms whose sum is dV/dt, at any state.
 class SampledFunction {
 public:
     SampledFunction(const ex& in_rates, const LinearizedScene& scene)
@@ -73,7 +73,7 @@ public:
         for (std::size_t i = 0; i < s; ++i) add(slopes[n + i] * udot[static_cast<Eigen::Index>(i)]);
         return result;
     }
-    /// What may move: coordinates that something depends on, and speeds.
+    /// Marks the states that are varied: speeds, and coordinates on which something depends.
     std::vector<bool> moving() const {
         std::vector<bool> result;
         const std::vector<std::string>& cyclic = scene_.matrices.cyclic;

@@ -81,7 +81,7 @@ std::optional<ex> Neighbourhood::rate(const ex& in_rates) const {
         for (unsigned i = 0; i < n; ++i) sum += V.diff(e.u[i]) * udot(i, 0);
         for (std::size_t i = 0; i < e.q.size(); ++i) sum += V.diff(e.q[i]) * m.z->expand(e.h[i]);
         return lowest_terms(in_single_angles(sum));
-    } catch (const std::exception&) {  // of GiNaC: a pole, a derivative that it does not know
+    } catch (const std::exception&) {  // from GiNaC: at a pole, or for a derivative that it does not know
         return {};
     }
 }
@@ -111,7 +111,7 @@ bool Neighbourhood::vanishes_on(const ex& e, const CertainMatrix& Z) const {
         ex value = *at;
         for (int c = 0; c < Z.columns; ++c) {
             if (Z(k, c).is_zero()) continue;
-            // A state of its own stands for each z: the columns' own, which are known to the normal form.
+            // The first states serve as the symbols z, one for each column, because the normal form knows them.
             const auto share = exact_expression(Z(k, c));
             if (!share) return false;
             value += *share * states[static_cast<std::size_t>(c)];
@@ -128,7 +128,7 @@ bool Neighbourhood::vanishes_on(const ex& e, const CertainMatrix& Z) const {
 std::optional<Certain> Neighbourhood::value(const ex& e) const {
     const Monomials none(1, 0);
     const std::vector<int> held(variables_.size(), -1);
-    // In speeds already.
+    // `e` is already an expression in the speeds.
     Program program = begun(local.mechanism);
     std::vector<std::pair<GiNaC::symbol, int>> given;
     for (int i = 0; i < local.residuals.s; ++i)

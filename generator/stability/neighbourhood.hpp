@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A scene without constraints near a point, for functions of its state: series and expressions side by side.
+/// A scene without constraints near a point. Functions of its state are available as series and as expressions.
 ///
 ///     const Neighbourhood near(local);
 ///     near.series(V), near.rate(near.series(V))       // V and dV/dt about the point
 ///     near.rate(V)                                    // dV/dt as an expression, where it is short
 ///
-/// The variables are the coordinates that something depends on, then the speeds; dV/dt = Σ V_q h + V_u M⁻¹ f.
+/// The variables are the coordinates on which something depends, then the speeds; dV/dt = Σ V_q h + V_u M⁻¹ f.
 
 #include "stability/field.hpp"
 
@@ -26,11 +26,12 @@ public:
     Expansion series(const GiNaC::ex& in_rates) const;
     /// The time derivative along the motions.
     Expansion rate(const Expansion& of) const;
-    /// In the states and the parameters, in lowest terms. Nothing where it is too long to be read.
+    /// The time derivative as an expression in the states and the parameters, in lowest terms. Nothing if it is
+    /// too long to be read.
     std::optional<GiNaC::ex> rate(const GiNaC::ex& in_rates) const;
-    /// The same with the numbers of all parameters; nothing where one of them is not rational.
+    /// The same with the values of all parameters inserted; nothing if one of them is not rational.
     std::optional<GiNaC::ex> with_numbers(const GiNaC::ex& e) const;
-    /// Is `e` zero for all z where the states are point + Z z?
+    /// Is `e` zero at the states point + Z z for all z?
     bool vanishes_on(const GiNaC::ex& e, const CertainMatrix& Z) const;
     /// The value of an expression in numbers at the point.
     std::optional<Certain> value(const GiNaC::ex& e) const;

@@ -11,7 +11,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int most_parts = 400;  // nodes of what is factored
+constexpr int most_parts = 400;  // the most nodes of an expression that is factored
 
 int count_nodes(const ex& e) {
     int count = 1;
@@ -19,7 +19,7 @@ int count_nodes(const ex& e) {
     return count;
 }
 
-/// Series of an expression in the states.
+/// The series of an expression in the states.
 std::optional<Expansion> series_of(const ex& f, const Neighbourhood& near) {
     GiNaC::exmap in_rates;
     const Equations& e = near.local.equations;
@@ -31,7 +31,7 @@ std::optional<Expansion> series_of(const ex& f, const Neighbourhood& near) {
     }
 }
 
-/// All derivatives of this order and below vanish on the space.
+/// Do all derivatives up to this order vanish on the space?
 bool vanishes_to_order(const ex& f, int order, const CertainMatrix& Z, const Neighbourhood& near) {
     if (!near.vanishes_on(f, Z)) return false;
     if (order > 0)
@@ -40,7 +40,7 @@ bool vanishes_to_order(const ex& f, int order, const CertainMatrix& Z, const Nei
     return true;
 }
 
-/// Row r of `rows`, times the deviations; a text where its coefficients are rational.
+/// Adds the function (row r of `rows`) · (deviations), also as an expression if its coefficients are rational.
 void add_linear(Semidefinite::ZeroSet& set, const CertainMatrix& rows, int r, const Neighbourhood& near) {
     Expansion linear(0);
     ex text = 0;
@@ -63,7 +63,7 @@ void add_linear(Semidefinite::ZeroSet& set, const CertainMatrix& rows, int r, co
     if (is_exact) set.texts.push_back(text);
 }
 
-/// The form of lowest degree, in the variables that it depends on.
+/// The second way: the form of lowest degree, in the variables on which it depends.
 std::optional<Semidefinite> by_leading_form(const ex& f, const Neighbourhood& near) {
     const auto series = series_of(f, near);
     if (!series) return {};
@@ -161,10 +161,10 @@ std::optional<Semidefinite> by_factors(const ex& f, const Neighbourhood& near, b
     return result;
 }
 
-/// Functions of which linear parts are independent, and the others.
+/// Functions whose linear parts are independent, and the other functions.
 struct Observed {
     std::vector<Expansion> leading, rest;
-    CertainMatrix rows;  ///< linear parts of `leading`
+    CertainMatrix rows;  ///< the linear parts of `leading`
 };
 
 Observed observed(const std::vector<Expansion>& functions, const Neighbourhood& near) {
@@ -209,7 +209,8 @@ bool holds_no_other_motion(const Semidefinite::ZeroSet& set, const Neighbourhood
     const int rank_seen = seen.rows.rows;
     if (rank_seen == n) return true;
     if (rank_seen + 1 != n) return false;
-    // One direction is left: x = Z z + …, on which the leading functions vanish; another of them does not.
+    // One direction remains: the curve x = Z z + …, on which the leading functions vanish. One of the other
+    // functions must not vanish on it.
     const auto Z = null_space(seen.rows);
     if (!Z || Z->columns != 1) return false;
     const CertainMatrix across = transposed(seen.rows);
@@ -231,7 +232,8 @@ bool holds_no_other_motion(const Semidefinite::ZeroSet& set, const Neighbourhood
     }
     for (const Expansion& h : seen.rest) {
         const Expansion along = put_into(h, x);
-        for (int k = 1; k < line.degree(); ++k) {  // what the highest order of x adds is left out
+        // The terms that the highest order of x contributes are not used.
+        for (int k = 1; k < line.degree(); ++k) {
             const Certain c = along.coefficient(k);
             if (c.is_zero()) continue;
             if (c.sign()) return true;

@@ -14,7 +14,7 @@ namespace {
 
 using Exponents = Monomials::Exponents;
 
-/// The coefficients of one degree.
+/// The terms of one degree.
 struct LeadingForm {
     int degree = 0;
     std::vector<std::pair<Exponents, Certain>> terms;
@@ -44,7 +44,8 @@ std::optional<LeadingForm> leading_form(const Expansion& f, const Monomials& mon
     return form;
 }
 
-/// Signs that the form has at whole points: where it has one, the function has it arbitrarily near.
+/// The signs that the form has at points with integer coordinates. Each of them is a sign of the function
+/// arbitrarily near the point.
 SignNear at_points(const LeadingForm& form, int n) {
     SignNear found;
     const auto look = [&](const std::vector<int>& x) {
@@ -70,7 +71,8 @@ SignNear at_points(const LeadingForm& form, int n) {
     return found;
 }
 
-/// Positive for x ≠ 0 as a sum of squares: zᵀ G z with a positive definite G, z all monomials of half the degree.
+/// Is the form positive for x ≠ 0 because it is a sum of squares, zᵀ G z with a positive definite G, where z are
+/// all monomials of half the degree?
 bool is_sum_of_squares(const LeadingForm& form, int sign, int n) {
     const Monomials half(n, form.degree / 2);
     std::vector<int> basis;
@@ -86,7 +88,7 @@ bool is_sum_of_squares(const LeadingForm& form, int sign, int n) {
             pairs[sum].emplace_back(i, j);
         }
     CertainMatrix G(size, size);
-    std::vector<CertainMatrix> more;  // that change nothing in zᵀ G z
+    std::vector<CertainMatrix> more;  // matrices that may be added to G without a change of zᵀ G z
     const auto add = [](CertainMatrix& m, const std::pair<int, int>& at, const Certain& share) {
         const auto& [i, j] = at;
         m(i, j) += i == j ? share : share * Certain(Rational(1) / 2);
@@ -159,7 +161,7 @@ SignNear sign_of_rest(const Expansion& f, const Monomials& monomials, const Cert
         for (int c = 0; c < nz; ++c) x[i] += Expansion(Z(i, c)) * Expansion::variable(rest, c, 0);
     const CertainMatrix Q_yy = transformed(Q, Y);
     for (int order = 2; order < monomials.degree(); ++order) {
-        // f_y along y so far: its terms of this degree are what y lacks.
+        // f_y along the y found so far: its terms of this degree give the next terms of y.
         std::vector<Expansion> slope;
         for (int i = 0; i < n; ++i) slope.push_back(put_into(slopes[i], x));
         for (int k = 0; k < rest.size(); ++k) {
@@ -206,7 +208,7 @@ SignNear sign_of_binary_form(const CertainVector& c) {
                 (*sign > 0 ? result.positive : result.negative) = true;
     if (form.degree % 2 == 1) result.positive = result.negative = result.positive || result.negative;
     if (result.positive == result.negative || c.front().may_be_zero() || c.back().may_be_zero()) return result;
-    // Without a real root the form has the sign of x^d.
+    // If there is no real root, the form has the sign of x^d.
     result.definite = true;
     for (const RootOf& root : roots_of(c))
         result.definite = result.definite && std::abs(root.value.imag()) > root.radius;
@@ -232,8 +234,7 @@ SignNear sign_near(const Expansion& f, const Monomials& monomials) {
             .definite = rest.definite && rest.is(result.positive ? 1 : -1)};
 }
 
-/// The least eigenvalue is concave in s, and is climbed along one s
-/// after the other.
+/// The least eigenvalue is concave in s; it is increased along one component of s after the other.
 std::optional<std::vector<double>> definite_combination(const CertainMatrix& Q0,
                                                         const std::vector<CertainMatrix>& more) {
     const auto numbers = [](const CertainMatrix& m) {

@@ -227,8 +227,8 @@ void check_steady(const LinearizedScene& near) {
         for (const Mechanism::Constraint& c : near.mechanism.constraints)  // linearize closes contacts that press
             if (c.multiplier.is_equal(contact.gap.multiplier))
                 throw ModelError(
-                    fmt::format("contact {} is closed at this state: a disturbance may open it, and what the "
-                                "motion does then no first approximation tells. Give a state in which all "
+                    fmt::format("contact {} is closed at this state: a disturbance may open it, and no first "
+                                "approximation describes the motion after that. Give a state in which all "
                                 "contacts are open, or a constraint in place of the contact",
                                 c.name));
     for (const Mechanism::Input& input : near.mechanism.inputs)

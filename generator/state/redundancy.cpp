@@ -238,8 +238,8 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
             const double misfit = std::abs(value[velocity[r]]);
             if (std::isfinite(misfit) && misfit > 1e-6 * (1 + size_of_terms(program, velocity[r], value)))
                 throw ModelError(fmt::format(
-                    "constraint '{0}' has a row that follows from the others', and asks for other rates than "
-                    "they do: together they hold only where a relation between the coordinates does; "
+                    "constraint '{0}' has a row that follows from the others', but prescribes rates that "
+                    "contradict theirs: together they hold only where a relation between the coordinates does; "
                     "write that relation as a holonomic constraint in place of '{0}'",
                     mechanism.constraints[r].name));
         }

@@ -20,19 +20,19 @@ namespace alembert {
 std::string scene_number(double value);
 std::string scene_vector(const Real3& v);
 
-/// In quotation marks; characters that disturb a terminal or a reader become "?".
+/// The text in quotation marks; characters that disturb a terminal or a reader become "?".
 std::string scene_text(const std::string& text);
 
-/// Twelfths of π as such, in quotation marks; else the number.
+/// A multiple of π/12 as a formula in quotation marks, any other angle as a number.
 std::string scene_angle(double value);
 
-/// The letter of an axis of coordinates, in quotation marks, or a vector.
+/// The letter of a coordinate axis in quotation marks, any other axis as a vector.
 std::string scene_axis(const Real3& a);
 
-/// The name as a key: in quotation marks where TOML wants them.
+/// The name as a key: in quotation marks if TOML requires them.
 std::string scene_key(const std::string& name);
 
-/// Makes names that are legal in scenes, each of them once.
+/// Makes names that are legal in scenes, and never the same name twice.
 class SceneNames {
 public:
     std::string given(const std::string& wanted);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// For bodies that are fixed to each other, with m, c, and I about each one's own mass centre, along common axes:
+// The mass m, the mass centre c and the inertia I (about the mass centre, along common axes) of bodies that are
+// fixed to each other:
 //   m = Σ m_i,   m c = Σ m_i c_i,   I = Σ I_i + m_i (d·d E − d dᵀ),   d = c_i − c.
 #include "urdf/welded.hpp"
 
@@ -44,7 +45,7 @@ private:
         result_.bodies.push_back({.top = top, .links = {}});
         return static_cast<int>(result_.bodies.size()) - 1;
     }
-    /// Down the tree without recursion, in the order of the file.
+    /// Walks from the root outwards without recursion, in the order of the file.
     void place(int root) {
         std::vector<std::vector<const Robot::Joint*>> below(robot_.links.size());
         for (const Robot::Joint& joint : robot_.joints)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Links of a robot that fixed joints hold together, as one body each.
+/// Combines links of a robot that fixed joints hold together into one body each.
 ///
 ///     const WeldedLinks links = welded(robot, {.floating = false});
 ///     links.bodies[0].ground                       // what is fixed to the root stands still
@@ -21,13 +21,13 @@ struct WeldedBody {
     int top;                 ///< the link nearest to the root
     std::vector<int> links;  ///< all of them, in the order of the file
     double mass = 0;
-    Real3 centre = Real3::Zero();     ///< of mass, in the frame of `top`
+    Real3 centre = Real3::Zero();     ///< the mass centre, in the frame of `top`
     Real33 inertia = Real33::Zero();  ///< about the mass centre, along the frame of `top`
-    bool ground = false;              ///< it stands still
-    bool kept = true;                 ///< false where neither it nor anything that hangs from it has a mass
+    bool ground = false;              ///< the body is fixed to the ground
+    bool kept = true;                 ///< false if neither the body nor any body that hangs from it has mass
 };
 
-/// Where a link stands in its body.
+/// The place of a link in its body.
 struct Seat {
     int group = -1;  ///< in WeldedLinks::bodies
     Real3 shift = Real3::Zero();
@@ -36,9 +36,9 @@ struct Seat {
 };
 
 struct WeldedLinks {
-    std::vector<WeldedBody> bodies;       ///< from the root down; the first holds the root
-    std::vector<Seat> seats;              ///< by link
-    std::vector<std::string> merged;      ///< "tool is fixed to wrist", a sentence each
+    std::vector<WeldedBody> bodies;       ///< from the root outwards; the first contains the root
+    std::vector<Seat> seats;              ///< one for each link
+    std::vector<std::string> merged;      ///< one sentence each: "tool is fixed to wrist"
     std::vector<Robot::Dropped> dropped;  ///< masses fixed to the ground, joints that move no mass
 };
 

@@ -263,7 +263,7 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
         for (Index i = 0; i < k; ++i) again = again || (s.length[i] > 0 && speed(i, x) < -4 * grain * s.length[i]);
         result.collisions += k > 0;
         if (again && result.collisions == most_collisions)
-            return failed("the collisions of one instant have no end");
+            return failed("the collisions at one instant do not come to an end");
     }
     result.after = back(x);
 

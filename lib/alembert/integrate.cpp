@@ -59,11 +59,11 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
     number("sample", options.sample, options.sample >= 0, "a finite number, zero or more, is needed");
     check(!needs_series(options.method) || rhs.series.width == rhs.dimension,
           fmt::format("{} needs the Taylor series of the system (emit_taylor, make_series), which this right-hand "
-                      "side has not got",
+                      "side does not have",
                       name(options.method)));
     check(!needs_canonical(options.method) || (rhs.canonical && 2 * rhs.canonical->coordinates <= rhs.dimension),
           fmt::format("{} needs the momenta and constraints of the system (canonical.hpp), which this right-hand "
-                      "side has not got",
+                      "side does not have",
                       name(options.method)));
     check(options.budget > 0, fmt::format("budget = {}: at least one right-hand side is needed", options.budget));
     check(!has_fixed_step(options.method) || options.step > 0 || options.duration == 0,
@@ -159,7 +159,7 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
     check_options(rhs, initial, options);
     const double start = thread_seconds();
     if (options.by && !events.list.empty())
-        throw std::invalid_argument("an integrator from elsewhere does not look for events");
+        throw std::invalid_argument("an integrator of another library does not look for events");
     Trajectory result =
         options.by ? options.by(rhs, initial, options)
                    : by_method[static_cast<std::size_t>(options.method)].run(rhs, initial, options, events);

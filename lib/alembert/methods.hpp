@@ -6,7 +6,8 @@
 ///     const std::optional<Method> method = method_named("gauss");
 ///     has_fixed_step(*method), uses_jacobian(*method)      // true, true
 ///
-/// `integrate.hpp` says what each of them is. To add one: a value and a row here, and its steps in integrate.cpp.
+/// `integrate.hpp` describes each of them. A new method needs a value and a row here, and its steps in
+/// integrate.cpp.
 
 #include <array>
 #include <optional>
@@ -39,19 +40,19 @@ enum class Method {
     taylor
 };
 
-/// What is known of a method beside its formula.
+/// The properties of a method.
 struct MethodTraits {
     Method method;
     std::string_view name;
     bool fixed_step = false;
     bool jacobian = false;  ///< implicit: solves its equations with ∂f/∂y
-    /// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
+    /// The method is only for systems q' = v, v' = a(q, t); the caller must make sure of that (symplectic.hpp).
     bool separable = false;
     bool series = false;     ///< only for right-hand sides with Rhs::series
     bool canonical = false;  ///< only for right-hand sides with Rhs::canonical
 };
 
-/// In the order of Method.
+/// One row for each value of Method, in the same order.
 inline constexpr std::array method_table = {
     MethodTraits{.method = Method::euler, .name = "euler", .fixed_step = true},
     MethodTraits{.method = Method::rk2, .name = "rk2", .fixed_step = true},
@@ -82,7 +83,7 @@ bool uses_jacobian(Method method);
 bool needs_separable(Method method);
 bool needs_series(Method method);
 bool needs_canonical(Method method);
-/// In the order of Method.
+/// All values of Method, in their order.
 std::vector<Method> all_methods();
 /// "euler, rk2, ... or taylor", for messages.
 std::string method_names();
@@ -91,7 +92,7 @@ std::string method_names();
 constexpr std::string_view automatic_method = "auto";
 /// Names that are kept for SUNDIALS' integrators (Options::by); they choose their own steps.
 std::span<const std::string_view> sundials_methods();
-/// All that may be written where a method is chosen: "auto", the methods, those of SUNDIALS.
+/// All words that may be written where a method is chosen: "auto", the methods, and those of SUNDIALS.
 std::vector<std::string> method_words();
 
 }  // namespace alembert

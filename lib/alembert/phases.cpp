@@ -314,7 +314,7 @@ private:
         if (events_at_once_ < most_events_at_once * (1 + count_)) return false;
         fail(FailureKind::no_contact_mode,
              fmt::format("no contact mode is consistent at t = {}: contact '{}' and others open and close "
-                         "without the time moving on; loosen the tolerance, or look at the gaps there",
+                         "while the time does not advance; loosen the tolerance, or look at the gaps there",
                          t_, contacts_.names[k]));
         return true;
     }

@@ -43,7 +43,7 @@ public:
         RoughImpact hit;
         const bool compressed = run_to([&](double rate) { return -gap() / rate; }, hit);
         if (!compressed || !u_.allFinite()) {
-            hit.failure = "friction makes the contact press without end while it is struck";
+            hit.failure = "friction makes the contact force grow without bound during the impact";
             return hit;
         }
         const double all = (1 + restitution) * hit.impulse;

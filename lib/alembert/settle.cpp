@@ -134,7 +134,7 @@ private:
                                           [&](const auto& r) { return r.contact == rough.contact; });
         if (near_.size() > 1 || others > 1 || is_kicked)
             return fail(near_,
-                        "with friction, one contact alone with one friction is followed through an impact, and "
+                        "an impact with friction can be computed only for a single contact with one friction, and "
                         "without impulses of events");
         const int k = rough.contact;
         const double before = gap_rates(here_, u())[k];

@@ -241,7 +241,7 @@ private:
         if (found.size() > 1 && found[1].margin > clear_margin && found[0].jumps)
             return fail(
                 fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
-                            "say which; begin a little beside it",
+                            "say which; start close to that state instead",
                             t_, names));
         const std::vector<int> before = sides_;
         sides_ = found[0].sides;
