@@ -22,6 +22,7 @@ constexpr int undecided = 2;
 struct EquilibriumVerb : SceneOptions {
     std::vector<std::string> at;
     std::string follow, output, svg;
+    int starts = 0;
 };
 
 /// NAME=FROM:TO
@@ -69,7 +70,7 @@ int run(const EquilibriumVerb& verb) {
     if (!verb.follow.empty()) return follow(verb);
     if (!verb.output.empty() || !verb.svg.empty())
         throw ModelError("-o and --svg show branches; expected --follow NAME=FROM:TO with them");
-    EquilibriumOptions options{.by = verb.by, .at = overrides_of(verb.at)};
+    EquilibriumOptions options{.by = verb.by, .at = overrides_of(verb.at), .starts = verb.starts};
     Progress progress;
     options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     const Equilibria found = equilibria(scene_of(verb.scene), options);
@@ -99,6 +100,9 @@ void add_equilibrium(CLI::App& app, Chosen& chosen) {
             verb.add_option("--follow", options.follow,
                             "follows all over a parameter, with folds and bifurcations")
                 .type_name(values::interval);
+            verb.add_option("--starts", options.starts, "Newton's method starts that often")
+                .type_name(values::count)
+                .between(1, 1000000);
             verb.add_option("-o,--output", options.output, "CSV file of the branches").type_name(values::file);
             verb.add_option("--svg", options.svg, "picture of the branches").type_name(values::file);
         });

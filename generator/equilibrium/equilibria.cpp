@@ -174,7 +174,7 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
 void search_in(Equilibria& result, const Start& start, const EquilibriumOptions& options) {
     SteadyProblem problem(result.mechanism, result.equations, start);
     check_inputs(result.mechanism, problem.residuals(), start);
-    SearchOptions wishes;
+    SearchOptions wishes{.starts = options.starts};
     if (options.progress) wishes.progress = [&](double part) { options.progress("searching", part); };
     result.search = search_steady(problem, result.mechanism, start, wishes);
     result.cyclic.clear();

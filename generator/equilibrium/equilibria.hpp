@@ -20,6 +20,7 @@ namespace alembert {
 struct EquilibriumOptions {
     std::string by = {};  ///< a formalism; if empty, the program chooses
     Overrides at = {};
+    int starts = 0;  ///< of Newton's method; if 0, by the number of coordinates and the length of the equations
     std::function<void(std::string_view, double)> progress = {};
 };
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr long double pi = 3.14159265358979323846264338327950288L, turn = 2 * pi;
 constexpr long double same = 1e-9L, same_if_singular = 1e-5L;  // in units of the scales
-constexpr int most_starts = 1500;
+constexpr int most_starts = 1500, least_starts = 60;
+constexpr double most_work = 3e6;  // starts times nodes times unknowns: a second or two
 
 /// The k-th number, for the i-th coordinate, of a sequence that fills (0, 1) evenly. (Halton, Numer. Math. 2
 /// (1960) 84.)
@@ -147,14 +148,26 @@ std::vector<bool> find_angles(const SteadyProblem& problem) {
     return result;
 }
 
+namespace {
+
+/// Fewer for long equations, so that the search takes seconds for many coordinates too.
+int usual_starts(const SteadyProblem& problem, int dimension) {
+    const Residuals& r = problem.residuals();
+    const int wanted = std::min(most_starts, 40 + 80 * dimension);
+    const double each = static_cast<double>(r.program.size()) * (1 + r.n + r.s);
+    return std::clamp(static_cast<int>(std::min<double>(wanted, most_work / each)), std::min(least_starts, wanted),
+                      wanted);
+}
+
+}  // namespace
+
 SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Start& start,
                            const SearchOptions& options) {
     SteadySearch found;
     found.is_angle = find_angles(problem);
     problem.set_scales(scales_of(m, start, found.is_angle));
     const auto dimension = std::count(problem.essential().begin(), problem.essential().end(), true);
-    found.starts =
-        options.starts > 0 ? options.starts : std::min<int>(most_starts, 40 + 80 * static_cast<int>(dimension));
+    found.starts = options.starts > 0 ? options.starts : usual_starts(problem, static_cast<int>(dimension));
     const auto from = [&](int k) {
         Instant<long double> at = problem.start();
         std::size_t place = 0;

@@ -20,7 +20,7 @@
 namespace alembert {
 
 struct SearchOptions {
-    int starts = 0;  ///< if 0, by the number of coordinates
+    int starts = 0;  ///< if 0, by the number of coordinates and the length of the equations
     std::function<void(double)> progress = {};
 };
 

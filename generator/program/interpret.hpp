@@ -37,6 +37,11 @@ Real real_of(const Rational& r) {
 
 template <>
 inline long double real_of<long double>(const Rational& r) {
+    constexpr auto exact = 53;  // bits that a double holds
+    const cln::cl_I above = cln::numerator(r), below = cln::denominator(r);
+    if (cln::integer_length(above) < exact && cln::integer_length(below) < exact)
+        return static_cast<long double>(cln::double_approx(above)) /
+               static_cast<long double>(cln::double_approx(below));
     const cln::cl_F value = cln::cl_float(r, cln::float_format(40));
     const double high = cln::double_approx(value);
     return static_cast<long double>(high) +
