@@ -51,8 +51,10 @@ struct Checked {
 };
 
 /// Throws SceneError for a claim that the mechanism cannot read.
-/// `sheets`: those on which the mechanism was built, if it was.
-Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets = {});
+/// `sheets`: those on which the mechanism was built, if it was. `by`: the formalism whose intermediate symbols and
+/// speeds claims may hold, z1 and u1; empty: the one that `derive` would choose.
+Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets = {},
+              const std::string& by = {});
 
 /// The whole verb: the claims of the scene, held against equations derived by the formalism of that name, or the
 /// teacher's choice. Throws ModelError where there are no claims.

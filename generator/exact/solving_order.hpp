@@ -11,6 +11,7 @@
 /// its own, two conditions that alone hold two variables are solved together.
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "program/program.hpp"
@@ -34,7 +35,12 @@ struct SolvingOrder {
     std::vector<int> left;           ///< conditions that have no place in it
 };
 
-/// `conditions`: nodes of the program that are to be zero.
-SolvingOrder solving_order(const Program& program, std::vector<int> conditions);
+/// `conditions`: nodes of the program that are to be zero. Those that hold parameters alone are left, as a
+/// parameter is not chosen to be zero, but for `irreducible` ones: these have no parameter as a factor.
+SolvingOrder solving_order(const Program& program, std::vector<int> conditions,
+                           const std::set<int>& irreducible = {});
+
+/// Does the condition hold parameters and nothing else?
+bool holds_parameters_alone(const Program& program, int condition);
 
 }  // namespace alembert
