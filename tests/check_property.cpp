@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random right and wrong claims about every scene: no false proof, no false refutation, almost nothing left
-// undecided. ALEMBERT_CLAIMS sets how many of each there are a scene (3; tests/bench/check_property.sh asks for
-// 500), ALEMBERT_SCENE picks one scene.
+// undecided. ALEMBERT_CLAIMS sets how many of each there are a scene (3; tests/bench/claims.sh shares out 10⁴
+// claims), ALEMBERT_SCENE picks one scene.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
