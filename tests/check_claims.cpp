@@ -318,6 +318,42 @@ unknowns R
     CHECK(result.claims[4].verdict == Verdict::refuted);
 }
 
+// Where the crank stands at pi/2 the other two angles are known in numbers only, and the loop ties them. Without
+// that they were taken to be free, and both claims refuted.
+TEST_CASE("check: at an impact angles that are known in numbers only obey the constraints") {
+    std::string loop = read_scene(test::source_path("scenes/textbook/four_bar.toml")).text;
+    loop.replace(loop.find("initial = 0.5, rate = 2.0"), 25, "initial = \"pi/2\"");
+    for (std::size_t at = 0; (at = loop.find(", rate_guess = 0")) != std::string::npos;) loop.erase(at, 16);
+    loop.erase(loop.find("[[claim]]"));
+    const Scene scene = parse_scene(loop + "[[impulse]]\nat = \"Q\"\nvector = [3, 0]\n", "struck_loop.toml");
+    check_verdicts(checked(with_claims(scene, R"(impact
+a*cos(alpha) + b*cos(beta) = d + c*cos(gamma)
+b*(gamma' - beta')*sin(beta) = a*(alpha' - gamma')*sin(alpha)
+b*(gamma' - beta')*sin(beta) = a*(alpha' + gamma')*sin(alpha)
+)",
+                                       "claims.txt")),
+                   {Verdict::proved, Verdict::proved, Verdict::refuted});
+}
+
+// Both cranks of a parallelogram start at the same decimal, and are parallel.
+TEST_CASE("check: at an impact angles that start at the same decimal are the same") {
+    std::string loop = read_scene(test::source_path("scenes/textbook/four_bar.toml")).text;
+    loop.erase(loop.find("[[claim]]"));
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        std::size_t at = loop.find(from);
+        REQUIRE(at != std::string::npos);
+        for (; at != std::string::npos; at = loop.find(from, at + to.size())) loop.replace(at, from.size(), to);
+    };
+    replace("initial = 0.5, rate = 2.0", "initial = 1.1");
+    replace("guess = 0.6, rate_guess = 0", "initial = 0");
+    replace("guess = 1.4, rate_guess = 0", "initial = 1.1");
+    replace("value = 3.5", "value = 1.0");
+    replace("value = 3.0", "value = 4.0");
+    const Scene scene = parse_scene(loop + "[[impulse]]\nat = \"Q\"\nvector = [3, 0]\n", "parallelogram.toml");
+    check_verdicts(checked(with_claims(scene, "impact\ngamma = alpha\ngamma = beta\n", "claims.txt")),
+                   {Verdict::proved, Verdict::refuted});
+}
+
 TEST_CASE("check: the derivative of a multiplier, an acceleration or an unknown function is refused") {
     for (const char* claims :
          {"(lambda1)' = 0\n", "(m*xC'*phi' + lambda1)' = 0\n", "unknowns a\n(a*phi')' = 0\n"}) {
@@ -714,6 +750,41 @@ multiplier = "T"
                                     "atwood.toml");
     check_verdicts(checked(with_claims(scene, "rest\nm1*g + T = 0\nk*s = m1*g\nk*s = 2*m1*g\n", "claims.txt")),
                    {Verdict::proved, Verdict::proved, Verdict::refuted});
+}
+
+// g*(m2*sin(beta) - m1*sin(alpha)) = 0: rest needs that of the parameters, and none of them is zero.
+TEST_CASE("check: an equation of rest in parameters alone is solved for one of them, unless it has two factors") {
+    const auto blocks = [](const std::string& force) {
+        return parse_scene(R"toml(gravity = ["g*sin(alpha)", 0]
+[parameters]
+g = 9.81
+m = 1.0
+P = 2.0
+h = 0.5
+alpha = 0.3
+[coordinates]
+x = 0
+[[particle]]
+name = "A"
+mass = "m"
+position = ["x", 0]
+[[force]]
+at = "A"
+vector = [")toml" + force + R"toml(", 0]
+)toml",
+                           "block.toml");
+    };
+    const auto at_rest = [&](const std::string& force, const std::string& claims) {
+        return checked(with_claims(blocks(force), "rest\n" + claims, "claims.txt"));
+    };
+    check_verdicts(
+        at_rest("-P*cos(h)", "P*cos(h) = m*g*sin(alpha)\nm*g*sin(alpha)/P = cos(h)\nP = m*g*sin(alpha)\n"),
+        {Verdict::proved, Verdict::proved, Verdict::refuted});
+    // sin(alpha)*(m*g - P) = 0 does not need m*g = P, and m*g*sin(alpha) = 0 allows rest on the level.
+    CHECK(at_rest("-P*sin(alpha)", "m*g = P\n").claims[0].verdict != Verdict::proved);
+    const Checked level = at_rest("0", "sin(alpha) = 0\ng = 0\n");
+    CHECK(level.claims[0].verdict == Verdict::proved);
+    CHECK(level.claims[1].verdict != Verdict::proved);
 }
 
 }  // namespace check_claims

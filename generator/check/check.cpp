@@ -32,8 +32,9 @@ namespace {
 
 class Checker {
 public:
-    Checker(const Scene& scene, const Mechanism& m, const Equations& e, const std::shared_ptr<RootSheets>& sheets)
-        : scene_(scene), m_(m), e_(e), claims_(scene, m, e, sheets), sheets_(sheets) {}
+    Checker(const Scene& scene, const Mechanism& m, const Equations& e, const std::shared_ptr<RootSheets>& sheets,
+            const std::string& by)
+        : scene_(scene), m_(m), e_(e), claims_(scene, m, e, sheets, by), sheets_(sheets) {}
 
     Checked run() {
         read();
@@ -195,16 +196,31 @@ private:
         return result;
     }
 
+    /// With holonomic constraints as they are at the pose where the scene starts: what of it is known in numbers
+    /// only obeys them.
+    Mechanism struck() {
+        Mechanism result = m_;
+        const GiNaC::exmap& pose = claims_.after_impact()->pose;
+        for (auto* constraints : {&result.constraints, &result.redundant})
+            for (Mechanism::Constraint& c : *constraints) {
+                if (!c.position) continue;
+                const ex here = m_.z->expand(*c.position).subs(pose, GiNaC::subs_options::no_pattern).expand();
+                c.position = GiNaC::is_a<numeric>(here) ? std::nullopt : std::optional(m_.z->name(here));
+            }
+        return result;
+    }
+
     void settle(const std::vector<std::size_t>& asked, Motions::At at) {
         const bool is_bound = std::any_of(m_.constraints.begin(), m_.constraints.end(),
                                           [](const Mechanism::Constraint& c) { return c.position.has_value(); });
         const bool may_combine = at == Motions::At::rest || (when_ == "motion" && is_bound);
         const std::vector<std::size_t> here = may_combine ? without_combinations(asked, at) : asked;
         if (here.empty()) return;
-        // Half angles are used only if they occur, because every halving doubles the degrees.
+        // Angles in halves only where they occur: every halving doubles the degrees.
+        const Mechanism mechanism = when_ == "impact" ? struck() : m_;
         std::optional<ExactStates> states;
         for (const int halves : {0, 1, 2}) {
-            states.emplace(m_, law_, at, halves, halvings_in(here));
+            states.emplace(mechanism, law_, at, halves, halvings_in(here));
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
             bool all = true;
@@ -433,10 +449,11 @@ private:
 
 }  // namespace
 
-Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets) {
+Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets,
+              const std::string& by) {
     const Equations equations = routh(mechanism);
     const Mechanism m = in_terms_of(equations, mechanism);
-    return Checker(scene, m, equations, sheets).run();
+    return Checker(scene, m, equations, sheets, by).run();
 }
 
 CheckedScene check(Scene scene, const std::string& by) {
@@ -444,7 +461,7 @@ CheckedScene check(Scene scene, const std::string& by) {
     if (result.scene.claims.empty())
         throw ModelError(
             "there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
-    result.checked = check(result.scene, result.mechanism, result.sheets);
+    result.checked = check(result.scene, result.mechanism, result.sheets, by);
     return result;
 }
 

@@ -37,9 +37,11 @@ struct Checked {
     bool complete = false;  ///< whether the proved claims, with the constraints, determine every acceleration
 };
 
-/// Throws SceneError for a claim that cannot be translated to the symbols of the mechanism. `sheets` are those on
-/// which the mechanism was built, if any.
-Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets = {});
+/// Throws SceneError for a claim that the mechanism cannot read.
+/// `sheets`: those on which the mechanism was built, if it was. `by`: the formalism whose intermediate symbols and
+/// speeds claims may hold, z1 and u1; empty: the one that `derive` would choose.
+Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets = {},
+              const std::string& by = {});
 
 /// The result of the verb: the claims of the scene, compared with equations derived by the named formalism, or by
 /// the one that a teacher would choose. Throws ModelError if there are no claims.

@@ -33,8 +33,9 @@ struct Open {
 
 class Claims {
 public:
+    /// `by`: the formalism whose names, z1 and u1, claims may hold; empty: the one that `derive` would choose.
     Claims(const Scene& scene, const Mechanism& mechanism, const Equations& equations,
-           std::shared_ptr<RootSheets> sheets = {});
+           std::shared_ptr<RootSheets> sheets = {}, const std::string& by = {});
 
     /// Reads a claim of the scene. Throws SceneMistake.
     ClaimForm read(const Claim& claim);
@@ -55,7 +56,7 @@ public:
 
 private:
     GiNaC::ex at_impact(const GiNaC::ex& e) const;
-    void know_intermediates(const Scene& scene);
+    void know_what_derive_prints(const Scene& scene, const std::string& by);
     void open_name(const std::string& name, bool constant);
     GiNaC::ex without_third_derivatives(const GiNaC::ex& residual, Place at) const;
 

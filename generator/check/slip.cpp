@@ -242,14 +242,18 @@ private:
         return result;
     }
 
-    bool is_coordinate(const std::string& name) const {
-        return std::any_of(m_.q.begin(), m_.q.end(), [&](const GiNaC::symbol& q) { return q.get_name() == name; });
+    /// A coordinate, or an input: its derivatives occur too.
+    bool has_rate(const std::string& name) const {
+        return std::any_of(m_.q.begin(), m_.q.end(),
+                           [&](const GiNaC::symbol& q) { return q.get_name() == name; }) ||
+               std::any_of(m_.inputs.begin(), m_.inputs.end(),
+                           [&](const Mechanism::Input& input) { return input.derivative[0].get_name() == name; });
     }
 
     void dots() {
         for (const int more : {1, 2, -1, -2})
             for (const Leaf& leaf : leaves_) {
-                if (leaf.tree->kind != Kind::name || !is_coordinate(leaf.tree->text) || leaf.in_angle) continue;
+                if (leaf.tree->kind != Kind::name || !has_rate(leaf.tree->text) || leaf.in_angle) continue;
                 const int primes = leaf.tree->primes + more;
                 if (primes < 0 || primes > 2) continue;
                 if (try_change(leaf, leaf.tree->text + std::string(static_cast<std::size_t>(primes), '\''),
@@ -258,7 +262,7 @@ private:
             }
         // θ'² written θ'
         for (const Leaf& leaf : leaves_)
-            if (leaf.tree->kind == Kind::name && is_coordinate(leaf.tree->text) && leaf.tree->primes == 1 &&
+            if (leaf.tree->kind == Kind::name && has_rate(leaf.tree->text) && leaf.tree->primes == 1 &&
                 try_change(leaf, "(" + slice(leaf.at) + ")^2", "lost_dot"))
                 return;
     }

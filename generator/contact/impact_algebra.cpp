@@ -135,6 +135,7 @@ private:
             if (impact_.start.q[i] == given.q[i] && !turns_by_a_decimal(i)) pose_[m_.q[i]] = m_.q_start[i];
             if (impact_.start.qdot[i] == given.qdot[i]) pose_[before_[i]] = m_.qdot_start[i];
         }
+        share_decimals();
         pose_[m_.t] = t;
         for (const Mechanism::Input& input : m_.inputs) {
             ex value = input.value;
@@ -145,7 +146,17 @@ private:
         }
     }
 
-    /// Whether a coordinate occurs inside a function and its value is a number other than zero and multiples of π.
+    /// Of angles that start at the same decimal the first stands for all.
+    void share_decimals() {
+        for (std::size_t i = 0; i < n_; ++i)
+            for (std::size_t k = 0; k < i && !pose_.contains(m_.q[i]); ++k) {
+                if (pose_.contains(m_.q[k]) || m_.q_is_guess[i] || m_.q_is_guess[k]) continue;
+                if (m_.q_start[i].is_equal(m_.q_start[k])) pose_[m_.q[i]] = m_.q[k];
+                if (m_.q_start[i].is_equal(-m_.q_start[k])) pose_[m_.q[i]] = -m_.q[k];
+            }
+    }
+
+    /// A coordinate inside a function, at a number other than zero and multiples of π.
     bool turns_by_a_decimal(std::size_t i) const {
         if (!GiNaC::is_a<GiNaC::numeric>(m_.q_start[i]) || m_.q_start[i].is_zero()) return false;
         const auto inside = [&](const ex& e, const auto& self) -> bool {

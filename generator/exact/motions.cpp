@@ -9,6 +9,7 @@
 #include "alembert/error.hpp"
 #include "exact/least_shares.hpp"
 #include "exact/solve_condition.hpp"
+#include "formalism/rest.hpp"
 #include "lower/lower.hpp"
 #include "program/reduce_rows.hpp"
 
@@ -64,6 +65,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
                              nodes.begin() + static_cast<std::ptrdiff_t>(own));
     implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own), nodes.end());
 
+    std::set<int> irreducible;
     if (at == At::rest) {
         // f(q, 0) + Σ λ_k A_k = 0, and the equations of the rates with q' = q'' = 0.
         GiNaC::exmap still;
@@ -83,8 +85,17 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
             balance.push_back(at_rest(m.constraints[k].drift));
             balance.push_back(at_rest(e.gamma[k]));
         }
-        for (const int node : lower_expressions(program_, m, balance, given))
-            if (!program_.is_zero(node)) conditions.push_back(node);
+        const std::vector<int> balanced = lower_expressions(program_, m, balance, given);
+        for (std::size_t i = 0; i < balance.size(); ++i) {
+            if (program_.is_zero(balanced[i])) continue;
+            conditions.push_back(balanced[i]);
+            if (!holds_parameters_alone(program_, balanced[i])) continue;
+            const TrigonometricProduct product = product_of(balance[i].expand(), m);
+            if (product.bases.size() != 1) continue;
+            const ex factor = product.bases[0].subs(product.functions, GiNaC::subs_options::no_pattern);
+            conditions.back() = lower_expressions(program_, m, {factor}, given)[0];
+            irreducible.insert(conditions.back());
+        }
     }
     std::vector<int> all = nodes;
     all.insert(all.end(), conditions.begin(), conditions.end());
@@ -92,7 +103,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     if (positions == Positions::free)
         loose_ = std::move(conditions);
     else
-        order(std::move(conditions));
+        order(std::move(conditions), irreducible);
     std::set<SquarePoints::Key> solved;
     for (const SolvingStep& step : steps_) {
         solved.insert({step.variable.kind, step.variable.index});
@@ -102,8 +113,8 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     find_branches();
 }
 
-void Motions::order(std::vector<int> conditions) {
-    SolvingOrder found = solving_order(program_, std::move(conditions));
+void Motions::order(std::vector<int> conditions, const std::set<int>& irreducible) {
+    SolvingOrder found = solving_order(program_, std::move(conditions), irreducible);
     steps_ = std::move(found.steps);
     if (found.left.empty()) return;
     if (at_ == At::rest)

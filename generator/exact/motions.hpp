@@ -30,7 +30,11 @@
 /// irreducible, and a statement that holds at a random one of its roots also holds at the other.
 ///
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
-/// general equation of dynamics). The seeds take every root in turn, so that all branches are reached.
+/// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met. An
+/// equation of rest in parameters alone, g·(m₂ sin β − m₁ sin α) = 0, is solved for one of them if it has one
+/// factor besides parameters, which do not vanish.
+
+#include <set>
 
 #include "exact/exact_state.hpp"
 #include "exact/solving_order.hpp"
@@ -85,7 +89,7 @@ public:
     int multiplier(int k) const { return k < m_ ? k : k + gaps_; }
 
 private:
-    void order(std::vector<int> conditions);
+    void order(std::vector<int> conditions, const std::set<int>& irreducible);
     void find_branches();
     bool move(ExactState& state) const;
     bool share_out(ExactState& state) const;

@@ -78,7 +78,8 @@ using ChosenStep = std::pair<std::size_t, SolvingStep>;
 /// A condition with a variable that no other contains. In a sum of angles, a variable that follows from the turns
 /// of the others is preferred; a variable under a root is the last choice.
 std::optional<ChosenStep> with_own_variable(const Program& program, const std::vector<int>& conditions,
-                                            const std::vector<Occurrences>& held, const TakenVariables& taken) {
+                                            const std::vector<Occurrences>& held, const TakenVariables& taken,
+                                            const std::set<int>& irreducible) {
     constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
     constexpr std::array<std::pair<int, bool>, 4> orders{{{0, false}, {1, false}, {1, true}, {2, true}}};
     for (std::size_t choice = 0; choice < 2 * orders.size(); ++choice) {
@@ -95,7 +96,9 @@ std::optional<ChosenStep> with_own_variable(const Program& program, const std::v
                 const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {
                     return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
                 });
-                if (elsewhere || only_parameters || (how.rooted && !roots) || (how.plain && how.turned)) continue;
+                if (elsewhere || (only_parameters && !irreducible.contains(conditions[c])) ||
+                    (how.rooted && !roots) || (how.plain && how.turned))
+                    continue;
                 const Variable unknown{variable.first, variable.second};
                 if (!any_multiple && is_sum_of_variables(program, conditions[c]) &&
                     !angle_sum(program, conditions[c], unknown))
@@ -108,7 +111,14 @@ std::optional<ChosenStep> with_own_variable(const Program& program, const std::v
 
 }  // namespace
 
-SolvingOrder solving_order(const Program& program, std::vector<int> conditions) {
+bool holds_parameters_alone(const Program& program, int condition) {
+    const Occurrences held = occurrences(program, condition);
+    return !held.empty() && std::all_of(held.begin(), held.end(), [](const auto& variable) {
+        return variable.first.first == Variable::Kind::parameter;
+    });
+}
+
+SolvingOrder solving_order(const Program& program, std::vector<int> conditions, const std::set<int>& irreducible) {
     std::sort(conditions.begin(), conditions.end());
     conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
     std::vector<Occurrences> held;
@@ -116,7 +126,7 @@ SolvingOrder solving_order(const Program& program, std::vector<int> conditions) 
     TakenVariables taken;
     SolvingOrder result;
     while (!conditions.empty()) {
-        std::optional<ChosenStep> chosen = with_own_variable(program, conditions, held, taken);
+        std::optional<ChosenStep> chosen = with_own_variable(program, conditions, held, taken, irreducible);
         std::optional<std::size_t> partner;
         if (!chosen)
             if (auto pair = coupled(held, taken)) {

@@ -12,6 +12,7 @@
 /// such a variable, two conditions that are the only ones with two certain variables are solved together.
 
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "program/program.hpp"
@@ -35,7 +36,12 @@ struct SolvingOrder {
     std::vector<int> left;           ///< conditions that have no place in the order
 };
 
-/// `conditions` are nodes of the program that must be zero.
-SolvingOrder solving_order(const Program& program, std::vector<int> conditions);
+/// `conditions`: nodes of the program that are to be zero. Those that hold parameters alone are left, as a
+/// parameter is not chosen to be zero, but for `irreducible` ones: these have no parameter as a factor.
+SolvingOrder solving_order(const Program& program, std::vector<int> conditions,
+                           const std::set<int>& irreducible = {});
+
+/// Does the condition hold parameters and nothing else?
+bool holds_parameters_alone(const Program& program, int condition);
 
 }  // namespace alembert

@@ -26,9 +26,11 @@ bool begins_with(const std::string& text, const char* beginning) {
     return text.rfind(beginning, 0) == 0;
 }
 
-/// z1, z2 …, the intermediate symbols that `derive` prints when the equations are too long to be read.
-bool is_intermediate(const std::string& text) {
-    return text.size() > 1 && text[0] == 'z' && text.find_first_not_of("0123456789", 1) == std::string::npos;
+/// z1, z2 …, the intermediate symbols that `derive` prints when the equations are too long to be read, or u1, u2
+/// …, the speeds that a formalism chooses.
+bool is_given_by_derive(const std::string& text) {
+    return text.size() > 1 && (text[0] == 'z' || text[0] == 'u') &&
+           text.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
 }  // namespace
@@ -256,7 +258,7 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
 
 void Quantities::meet_unknown(Context& context, const Tree& tree) {
     if (context.legal.claim &&
-        (begins_with(tree.text, "p_") || begins_with(tree.text, "lambda") || is_intermediate(tree.text)))
+        (begins_with(tree.text, "p_") || begins_with(tree.text, "lambda") || is_given_by_derive(tree.text)))
         return;
     if (!unknown_.insert(tree.text).second) return;
     std::string message = fmt::format("unknown name {} in this expression", in_quotes(tree.text));

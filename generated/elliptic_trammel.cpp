@@ -1,0 +1,244 @@
+// Equations of motion of 'elliptic_trammel': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], y [m], then their rates
+//   par    m1 [kg], m2 [kg], l [m], g [m/s^2]
+//   cost   18 operations a right-hand side: 4 additions, 13 multiplications, 1 division, 0 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {  // seen in this file alone
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &l = par[2], &g = par[3];
+
+    // Constants
+    const Real k0 = m2 * g;
+    const Real k1 = l * l;
+    const Real k2 = Real(2) * Real(1) / m1;
+    const Real z0 = Real(1) / m2;
+    const Real k3 = Real(2) * z0;
+    const Real k4 = z0 * k0;
+    const Real k5 = Real(0.5) * m1;
+    const Real k6 = Real(0.5) * m2;
+
+    // Result
+    par[4] = k0;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+    par[8] = k4;
+    par[9] = k5;
+    par[10] = k6;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k0 = par[4], &k2 = par[6], &k3 = par[7], &k4 = par[8];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m1, M10 = 0, M11 = m2
+
+    // Forcing f
+    // f0 = 0, f1 = -k0
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z0 = k2 * x;
+    const Real z1 = k3 * y;
+    const Real z2 = k0 * z1 - Real(2) * (x_dot * x_dot + y_dot * y_dot);
+    const Real z3 = z2 / (x * z0 + y * z1);
+    const Real x_ddot = Real(0.5) * z0 * z3;
+    const Real y_ddot = Real(0.5) * z3 * z1 - k4;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = x_ddot;
+    rate[3] = y_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
+    const Real &m1 = par[0], &m2 = par[1], &k0 = par[4];
+
+    // Result
+    mass[0] = m1;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = m2;
+    forcing[0] = Real(0);
+    forcing[1] = -k0;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k0 = par[4], &k5 = par[9], &k6 = par[10];
+
+    // Energy
+    const Real T = k5 * x_dot * x_dot + k6 * y_dot * y_dot;
+    const Real V = k0 * y;
+    const Real E = T + V;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k1 = par[5];
+
+    // Result
+    position[0] = x * x - k1 + y * y;
+    velocity[0] = Real(2) * (x * x_dot + y * y_dot);
+    rows[0] = Real(2) * x;
+    rows[1] = Real(2) * y;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k0 = par[4], &k2 = par[6], &k3 = par[7];
+
+    // Multipliers
+    const Real z0 = k3 * y;
+    const Real z1 = Real(1) / (x * k2 * x + y * z0);
+    const Real z2 = z1 * (k0 * z0 - Real(2) * (x_dot * x_dot + y_dot * y_dot));
+    const Real lambda_rod = Real(0.5) * z2;
+
+    // Result
+    lambda[0] = lambda_rod;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k1 = par[5], &k2 = par[6], &k3 = par[7];
+
+    // Projection
+    const Real z0 = k1 - x * x - y * y;
+    const Real z1 = k2 * x;
+    const Real z2 = k3 * y;
+    const Real z3 = x * z1 + y * z2;
+    const Real z4 = Real(1) / z3;
+    const Real z5 = z4 * z0;
+    const Real z6 = x + Real(0.5) * z1 * z5;
+    const Real z7 = y + Real(0.5) * z5 * z2;
+    const Real z8 = z4 * (x_dot * z6 + y_dot * z7);
+
+    // Result
+    out[0] = z6;
+    out[1] = z7;
+    out[2] = x_dot - z1 * z8;
+    out[3] = y_dot - z8 * z2;
+    position[0] = -z0;
+    pivots[0] = Real(2) * z3;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real*, Real* out) {
+    const Real &x_dot = state[2], &y_dot = state[3];
+
+    // Constraints
+    const Real gamma0 = -Real(2) * (x_dot * x_dot + y_dot * y_dot);
+
+    // Result
+    out[0] = gamma0;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int speeds;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* speed_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", "y", nullptr};
+constexpr const char* const* speed_names = nullptr;
+constexpr const char* parameter_names[] = { "m1", "m2", "l", "g", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1, 0.5, 1, 9.81, 0};
+
+constexpr alembert_solver_table table{
+    4, 2, 2, 4, 7, 0, 0, 1, "elliptic_trammel", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
+

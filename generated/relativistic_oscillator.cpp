@@ -1,0 +1,164 @@
+// Equations of motion of 'relativistic_oscillator': lagrange, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], then their rates
+//   par    m [kg], k [N/m], c [m/s]
+//   cost   18 operations a right-hand side: 4 additions, 10 multiplications, 3 divisions, 1 function
+//
+// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+
+namespace {  // seen in this file alone
+
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &k = par[1], &c = par[2];
+
+    // Constants
+    const Real k0 = m * c * c;
+    const Real z0 = Real(1) / c;
+    const Real k1 = z0 * z0;
+    const Real k2 = Real(0.5) * k0;
+    const Real k3 = Real(0.5) * k;
+
+    // Result
+    par[3] = k0;
+    par[4] = k1;
+    par[5] = k2;
+    par[6] = k3;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &x = state[0], &x_dot = state[1];
+    const Real &k = par[1], &c = par[2], &k0 = par[3], &k1 = par[4];
+
+    // Mass matrix M(q), lower triangle
+    const Real z0 = Real(1) / (c - x_dot);
+    const Real z1 = Real(1) / (c + x_dot);
+    const Real z2 = x_dot * x_dot;
+    const Real z3 = sqrt(Real(1) - k1 * z2);
+    const Real z4 = z1 * z3 * (z0 * z1 * z2 + Real(1));
+    const Real M00 = k0 * z0 * z4;
+
+    // Forcing f
+    const Real f0 = -k * x;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real x_ddot = f0 / M00;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = x_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &x = state[0], &x_dot = state[1];
+    const Real &k = par[1], &c = par[2], &k0 = par[3], &k1 = par[4];
+
+    // Mass matrix M(q), lower triangle
+    const Real z0 = Real(1) / (c - x_dot);
+    const Real z1 = Real(1) / (c + x_dot);
+    const Real z2 = x_dot * x_dot;
+    const Real z3 = sqrt(Real(1) - k1 * z2);
+    const Real z4 = z1 * z3 * (z0 * z1 * z2 + Real(1));
+    const Real M00 = k0 * z0 * z4;
+
+    // Forcing f
+    const Real f0 = -k * x;
+
+    // Result
+    mass[0] = M00;
+    forcing[0] = f0;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &x = state[0], &x_dot = state[1];
+    const Real &c = par[2], &k0 = par[3], &k1 = par[4], &k2 = par[5], &k3 = par[6];
+
+    // Energy
+    const Real z0 = Real(1) / (c - x_dot);
+    const Real z1 = Real(1) / (c + x_dot);
+    const Real z2 = x_dot * x_dot;
+    const Real z3 = sqrt(Real(1) - k1 * z2);
+    const Real z4 = z0 * z1;
+    const Real z5 = k2 * (z4 * z2 * z2 + z2) * z3 * z1;
+    const Real T = z5 * z0;
+    const Real z6 = k3 * x * x;
+    const Real V = k0 + z6;
+    const Real E = k0 * z3 * (z4 * z2 + Real(1)) + z6;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int speeds;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* speed_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", nullptr};
+constexpr const char* const* speed_names = nullptr;
+constexpr const char* parameter_names[] = { "m", "k", "c", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1, 2, 3, 0};
+
+constexpr alembert_solver_table table{
+    4, 1, 1, 3, 4, 0, 0, 0, "relativistic_oscillator", "lagrange, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

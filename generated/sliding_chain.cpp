@@ -1,0 +1,138 @@
+// Equations of motion of 'sliding_chain': lagrange, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], then their rates
+//   par    rho [kg/m], l [m], x0 [m], g [m/s^2]
+//   cost   1 operation a right-hand side: 0 additions, 1 multiplication, 0 divisions, 0 functions
+//
+// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+
+namespace {  // seen in this file alone
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &rho = par[0], &l = par[1], &g = par[3];
+
+    // Constants
+    const Real M00 = rho * l;
+    const Real k0 = rho * g;
+    const Real k1 = k0 / M00;
+    const Real k2 = Real(0.5) * M00;
+    const Real k3 = Real(0.5) * k0;
+
+    // Result
+    par[4] = M00;
+    par[5] = k0;
+    par[6] = k1;
+    par[7] = k2;
+    par[8] = k3;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &x = state[0], &x_dot = state[1];
+    const Real &k1 = par[6];
+
+    // Solve M q'' = f with M = L D L^T
+    const Real x_ddot = k1 * x;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = x_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &x = state[0];
+    const Real &M00 = par[4], &k0 = par[5];
+
+    // Forcing f
+    const Real f0 = k0 * x;
+
+    // Result
+    mass[0] = M00;
+    forcing[0] = f0;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &x = state[0], &x_dot = state[1];
+    const Real &k2 = par[7], &k3 = par[8];
+
+    // Energy
+    const Real T = k2 * x_dot * x_dot;
+    const Real z0 = k3 * x * x;
+    const Real V = -z0;
+    const Real E = T - z0;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int speeds;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* speed_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", nullptr};
+constexpr const char* const* speed_names = nullptr;
+constexpr const char* parameter_names[] = { "rho", "l", "x0", "g", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 0.8, 1.2, 0.1, 9.81, 0};
+
+constexpr alembert_solver_table table{
+    4, 1, 1, 4, 5, 0, 0, 0, "sliding_chain", "lagrange, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

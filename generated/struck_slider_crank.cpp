@@ -1,0 +1,572 @@
+// Equations of motion of 'struck_slider_crank': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  alpha [rad], beta [rad], x [m], then their rates
+//   par    J [kg*m^2], m [kg], M [kg], a [m], b [m], P [N s]
+//   cost   79 operations a right-hand side: 23 additions, 47 multiplications, 3 divisions, 6 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {  // seen in this file alone
+
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &J = par[0], &m = par[1], &M = par[2], &a = par[3], &b = par[4];
+
+    // Constants
+    const Real M00 = J + m * a * a;
+    const Real k0 = Real(0.5) * m * a * b;
+    const Real z0 = m * b * b;
+    const Real M11 = (Real(1) / Real(3)) * z0;
+    const Real k1 = Real(3) * Real(1) / z0;
+    const Real k2 = Real(1) / M;
+    const Real k3 = Real(0.5) * M00;
+    const Real k4 = (Real(1) / Real(6)) * z0;
+    const Real k5 = Real(0.5) * M;
+
+    // Result
+    par[6] = M00;
+    par[7] = k0;
+    par[8] = M11;
+    par[9] = k1;
+    par[10] = k2;
+    par[11] = k3;
+    par[12] = k4;
+    par[13] = k5;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &a = par[3], &b = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
+        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
+
+    // Shared terms
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+
+    // Mass matrix M(q), lower triangle
+    // M20 = 0, M21 = 0, M22 = M
+    const Real M10 = -k0 * cos_phi0;
+
+    // Forcing f
+    // f2 = 0
+    const Real z2 = k0 * sin_phi0;
+    const Real f0 = -z2 * z0;
+    const Real f1 = -z2 * z1;
+
+    // Constraints A q'' = gamma
+    const Real z3 = a * sin_alpha;
+    const Real z4 = b * sin_beta;
+    const Real A1_0 = a * cos_alpha;
+    const Real z5 = b * cos_beta;
+    const Real gamma0 = A1_0 * z1 + z5 * z0;
+    const Real gamma1 = z3 * z1 - z4 * z0;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z6 = -k1 * M10;
+    const Real z7 = Real(1) / (M00 + M10 * z6);
+    const Real z8 = -f0 - f1 * z6;
+    const Real z9 = k1 * z4;
+    const Real z10 = z3 - z9 * M10;
+    const Real z11 = z7 * z10;
+    const Real z12 = z11 * z10 + (k2 + z9 * z4);
+    const Real z13 = k1 * z5;
+    const Real z14 = -M10 * z13 - A1_0;
+    const Real z15 = z7 * z14;
+    const Real z16 = z15 * z10 + z13 * z4;
+    const Real z17 = Real(1) / (z15 * z14 + z13 * z5);
+    const Real z18 = z16 * z17;
+    const Real z19 = Real(1) / (z12 - z16 * z18);
+    const Real z20 = z11 * z8 + (-z9 * f1 - gamma0);
+    const Real z21 = z15 * z8 + (-z13 * f1 - gamma1);
+    const Real z22 = z19 * (z20 - z21 * z18);
+    const Real z23 = z17 * z21 - z18 * z22;
+    const Real z24 = z7 * z8 - z11 * z22 - z15 * z23;
+    const Real alpha_ddot = -z24;
+    const Real z25 = z22 * z9;
+    const Real beta_ddot = z25 + z23 * z13 - z24 * z6 + k1 * f1;
+    const Real x_ddot = k2 * z22;
+
+    // Result
+    rate[0] = alpha_dot;
+    rate[1] = beta_dot;
+    rate[2] = x_dot;
+    rate[3] = alpha_ddot;
+    rate[4] = beta_ddot;
+    rate[5] = x_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &M = par[2], &M00 = par[6], &k0 = par[7], &M11 = par[8];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = -k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real f0 = -z0 * beta_dot * beta_dot;
+    const Real f1 = -z0 * alpha_dot * alpha_dot;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[3] = M10;
+    mass[4] = M11;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = M;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &k0 = par[7], &k3 = par[11], &k4 = par[12], &k5 = par[13];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const Real cos_phi0 = cos(phi0);
+
+    // Energy
+    const Real z0 = k3 * alpha_dot * alpha_dot;
+    const Real z1 = alpha_dot * beta_dot * k0 * cos_phi0;
+    const Real T = z0 + k4 * beta_dot * beta_dot - z1 + k5 * x_dot * x_dot;
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = Real(0);
+    jacobi[0] = T;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &alpha = state[0], &beta = state[1], &x = state[2], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &a = par[3], &b = par[4];
+
+    // Trigonometry
+    const auto trig0 = sincos(alpha, beta);
+    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
+        cos_beta = trig0.cosine[1];
+
+    // Constraints
+    const Real z0 = a * sin_alpha;
+    const Real z1 = b * sin_beta;
+    const Real z2 = a * cos_alpha;
+    const Real z3 = b * cos_beta;
+
+    // Result
+    position[0] = z2 - x + z3;
+    position[1] = z0 - z1;
+    velocity[0] = -x_dot - alpha_dot * z0 - beta_dot * z1;
+    velocity[1] = alpha_dot * z2 - beta_dot * z3;
+    rows[0] = -z0;
+    rows[1] = -z1;
+    rows[2] = Real(-1);
+    rows[3] = z2;
+    rows[4] = -z3;
+    rows[5] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &a = par[3], &b = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
+        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
+
+    // Multipliers
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = k0 * sin_phi0;
+    const Real z2 = beta_dot * beta_dot;
+    const Real z3 = alpha_dot * alpha_dot;
+    const Real z4 = z1 * z3;
+    const Real z5 = a * sin_alpha;
+    const Real z6 = b * sin_beta;
+    const Real z7 = a * cos_alpha;
+    const Real z8 = b * cos_beta;
+    const Real z9 = k1 * z0;
+    const Real z10 = Real(1) / (M00 - z0 * z9);
+    const Real z11 = z1 * z2 + z4 * z9;
+    const Real z12 = k1 * z6;
+    const Real z13 = z12 * z0 + z5;
+    const Real z14 = z10 * z13;
+    const Real z15 = z14 * z13 + (k2 + z12 * z6);
+    const Real z16 = k1 * z8;
+    const Real z17 = z0 * z16 - z7;
+    const Real z18 = z10 * z17;
+    const Real z19 = z18 * z13 + z16 * z6;
+    const Real z20 = Real(1) / (z18 * z17 + z16 * z8);
+    const Real z21 = z19 * z20;
+    const Real z22 = z12 * z4 - (z7 * z3 + z8 * z2);
+    const Real z23 = z16 * z4 - (z5 * z3 - z6 * z2);
+    const Real z24 = z18 * z11 + z23;
+    const Real z25 = (z14 * z11 + z22) - z24 * z21;
+    const Real z26 = z25 / (z15 - z19 * z21);
+    const Real lambda_along = -z26;
+    const Real lambda_across = z21 * z26 - z20 * z24;
+
+    // Result
+    lambda[0] = lambda_along;
+    lambda[1] = lambda_across;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &alpha = state[0], &beta = state[1], &x = state[2], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &a = par[3], &b = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], cos_alpha = trig0.cosine[1],
+        sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = a * sin_alpha;
+    const Real z2 = b * sin_beta;
+    const Real z3 = a * cos_alpha;
+    const Real z4 = b * cos_beta;
+    const Real z5 = x - z3 - z4;
+    const Real z6 = z1 - z2;
+    const Real z7 = k1 * z0;
+    const Real z8 = Real(1) / (M00 - z0 * z7);
+    const Real z9 = k1 * z2;
+    const Real z10 = z9 * z0 + z1;
+    const Real z11 = z8 * z10;
+    const Real z12 = z11 * z10 + (k2 + z9 * z2);
+    const Real z13 = k1 * z4;
+    const Real z14 = z0 * z13 - z3;
+    const Real z15 = z8 * z14;
+    const Real z16 = z15 * z10 + z13 * z2;
+    const Real z17 = z15 * z14 + z13 * z4;
+    const Real z18 = Real(1) / z17;
+    const Real z19 = z16 * z18;
+    const Real z20 = z12 - z16 * z19;
+    const Real z21 = Real(1) / z20;
+    const Real z22 = (z19 * z6 + z5) * z21;
+    const Real z23 = z18 * z6 + z19 * z22;
+    const Real z24 = z11 * z22 - z15 * z23;
+    const Real phi1 = alpha - z24;
+    const Real z25 = z22 * z9 - z23 * z13 + z24 * z7;
+    const Real phi2 = beta - z25;
+    const auto trig1 = sincos(phi1, phi2);
+    const Real sin_phi1 = trig1.sine[0], cos_phi1 = trig1.cosine[0], sin_phi2 = trig1.sine[1],
+        cos_phi2 = trig1.cosine[1];
+
+    // Projection
+    const Real z26 = alpha_dot * a * sin_phi1;
+    const Real z27 = x_dot + z26 + beta_dot * b * sin_phi2;
+    const Real z28 = alpha_dot * a * cos_phi1 - beta_dot * b * cos_phi2;
+    const Real z29 = z21 * (z27 + z19 * z28);
+    const Real z30 = z18 * z28 + z19 * z29;
+    const Real z31 = z11 * z29 - z15 * z30;
+    const Real z32 = z29 * z9 - z30 * z13 + z31 * z7;
+
+    // Result
+    out[0] = phi1;
+    out[1] = phi2;
+    out[2] = x - k2 * z22;
+    out[3] = alpha_dot - z31;
+    out[4] = beta_dot - z32;
+    out[5] = x_dot - k2 * z29;
+    position[0] = -z5;
+    position[1] = z6;
+    pivots[0] = z20;
+    pivots[1] = z17;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real* par, Real* out) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &a = par[3], &b = par[4];
+
+    // Trigonometry
+    const auto trig0 = sincos(alpha, beta);
+    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
+        cos_beta = trig0.cosine[1];
+
+    // Constraints
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+    const Real gamma0 = a * cos_alpha * z1 + b * cos_beta * z0;
+    const Real gamma1 = a * sin_alpha * z1 - b * sin_beta * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
+// Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
+//
+//   x = k pi/2 + r, |r| <= pi/4: pi/2 in three parts of 53 bits where multiplication and addition fuse, so that x - k pi/2 is exact
+//   up to the roundings of the last two steps, of which the last counts only where r is tiny; else in four, the first three of
+//   27 bits, so that their products with k are exact and so is all of r but one rounding of hi and the last part, lo (Cody & Waite
+//   1980, ch. 8);
+//   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
+//
+// Angles beyond 1e8, infinities and NaN go to libm.
+
+using real2 = double __attribute__((vector_size(16)));
+using real4 = double __attribute__((vector_size(32)));
+using real8 = double __attribute__((vector_size(64)));
+using bits2 = long long __attribute__((vector_size(16)));
+using bits4 = long long __attribute__((vector_size(32)));
+using bits8 = long long __attribute__((vector_size(64)));
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real, unsigned count> struct sines { Real sine[count], cosine[count]; };
+
+#if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
+constexpr bool is_reducible = false;  // the reduction does not survive sums in another order
+#else
+constexpr bool is_reducible = true;
+#endif
+constexpr double farthest = 1e8;
+[[gnu::always_inline]] inline bool is_near(double x) { return is_reducible && __builtin_fabs(x) <= farthest; }
+/// Are all angles near whose squares make this sum? (If not, some may be.)
+[[gnu::always_inline]] inline bool is_near_all(double squares) { return is_reducible && squares <= farthest * farthest; }
+[[gnu::always_inline]] inline double sum_of(const real2& x) { return x[0] + x[1]; }
+[[gnu::always_inline]] inline double sum_of(const real4& x) { return sum_of(__builtin_shufflevector(x, x, 0, 1) + __builtin_shufflevector(x, x, 2, 3)); }
+[[gnu::always_inline]] inline double sum_of(const real8& x) { return sum_of(__builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7)); }
+
+/// a b + c with one rounding, where the processor has that.
+#if defined(__FMA__)
+[[gnu::always_inline]] inline double fused(double a, double b, double c) { return __builtin_fma(a, b, c); }
+[[gnu::always_inline]] inline real2 fused(const real2& a, double b, const real2& c) { return __builtin_ia32_vfmaddpd(a, real2{b, b}, c); }
+[[gnu::always_inline]] inline real4 fused(const real4& a, double b, const real4& c) { return __builtin_ia32_vfmaddpd256(a, real4{b, b, b, b}, c); }
+#if defined(__AVX512F__)
+[[gnu::always_inline]] inline real8 fused(const real8& a, double b, const real8& c) {
+    return __builtin_ia32_vfmaddpd512_mask(a, real8{b, b, b, b, b, b, b, b}, c, static_cast<unsigned char>(-1), 4);
+}
+#endif
+#endif
+template <typename Real> constexpr bool fuses = requires(const Real& x) { fused(x, 1.0, x); };
+
+template <typename Bits, typename Real>
+[[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
+    constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
+    const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
+    const Bits k = __builtin_bit_cast(Bits, shifted);
+    Real hi, lo;
+    if constexpr (fuses<Real>) {
+        hi = fused(turns, -0x1.1a62633145c06p-54, fused(turns, -0x1.921fb54442d18p0, x));
+        hi = fused(turns, -0x1.c1cd129024e09p-107, hi);
+    } else {
+        hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+        lo = turns * 0x1.8a2e03707344ap-81;
+    }
+    const Real z = hi * hi, zz = z * z;
+    const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
+                   zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
+    const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
+                   zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
+    Real s;
+    if constexpr (fuses<Real>)
+        s = hi * (1 - z * P);
+    else
+        s = hi - (hi * z * P + lo);
+    const Real c = (1 - 0.5 * z) + zz * Q;
+    constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
+    const Bits s_sign = (k << 62) & top, odd = k & 1;
+    if constexpr (sizeof(Real) == 64) {  // a subtraction under a mask is one instruction there
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? Real{} - s : c) ^ s_sign);
+    } else if constexpr (sizeof(Real) > sizeof(double)) {
+        const Bits c_sign = ((k + 1) << 62) & top;
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? s : c) ^ c_sign);
+    } else {
+        const Bits c_sign = ((k + 1) << 62) & top;
+        const Bits s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c), differ = (s_bits ^ c_bits) & -odd;
+        sine = __builtin_bit_cast(Real, s_bits ^ differ ^ s_sign);
+        cosine = __builtin_bit_cast(Real, c_bits ^ differ ^ c_sign);
+    }
+}
+
+[[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
+    sine = __builtin_sin(x);
+    cosine = __builtin_cos(x);
+}
+
+[[gnu::always_inline]] inline pair<double> sincos(double x) {
+    pair<double> result;
+    if (__builtin_expect(is_near(x), 1))
+        sines_near<long long>(x, result.s, result.c);
+    else
+        sines_far(x, result.s, result.c);
+    return result;
+}
+
+template <typename Wide, typename Bits, typename... Angle>
+[[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
+    sines<double, sizeof...(Angle)> result;
+    Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
+    const Wide angles{x...};
+    sines_near<Bits>(angles, s, c);
+    for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
+    if (__builtin_expect(is_near_all(sum_of(angles * angles)), 1)) return result;
+    int i = 0;
+    ((is_near(x) ? void() : sines_far(x, result.sine[i], result.cosine[i]), ++i), ...);
+    return result;
+}
+
+inline double sin(double x) { return sincos(x).s; }
+inline double cos(double x) { return sincos(x).c; }
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// Five to eight in two vectors of four at most: with AVX-512, a wide one among scalar code takes one of the two units from all of it.
+template <typename... Angle>
+[[gnu::always_inline]] inline sines<double, 4 + sizeof...(Angle)> sincos_in_two(double a, double b, double c, double d, Angle... x) {
+    constexpr unsigned more = sizeof...(Angle);
+    sines<double, 4 + more> result;
+    const sines<double, 4> first = sincos_in<real4, bits4>(a, b, c, d);
+    for (unsigned i = 0; i < 4; ++i) result.sine[i] = first.sine[i], result.cosine[i] = first.cosine[i];
+    const auto add = [&](const sines<double, more>& rest) {
+        for (unsigned i = 0; i < more; ++i) result.sine[4 + i] = rest.sine[i], result.cosine[4 + i] = rest.cosine[i];
+    };
+    if constexpr (more > 2)
+        add(sincos_in<real4, bits4>(x...));
+    else
+        add(sincos_in<real2, bits2>(x...));
+    return result;
+}
+
+/// Of two to eight angles.
+template <typename Real, typename... Angle>
+[[gnu::always_inline]] inline sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x) {
+    constexpr unsigned count = 1 + sizeof...(Angle);
+    if constexpr (!__is_same(Real, double))
+        return { {sin(first), sin(x)...}, {cos(first), cos(x)...} };
+    else if constexpr (count == 2)
+        return sincos_in<real2, bits2>(first, x...);
+    else if constexpr (count <= 4)
+        return sincos_in<real4, bits4>(first, x...);
+    else
+        return sincos_in_two(first, x...);
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int speeds;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* speed_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "alpha", "beta", "x", nullptr};
+constexpr const char* const* speed_names = nullptr;
+constexpr const char* parameter_names[] = { "J", "m", "M", "a", "b", "P", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 0.2, 1, 2, 0.3, 0.8, 1.5, 0};
+
+constexpr alembert_solver_table table{
+    4, 3, 3, 6, 8, 0, 0, 2, "struck_slider_crank", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
+
