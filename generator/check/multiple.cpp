@@ -32,6 +32,7 @@ bool is_multiple(const ex& residual, const Mechanism& m, const Equations& e) {
         rest.push_back(-a[j] * unknowns[j]);
     }
     const ex r0 = m.z->name(GiNaC::add(std::move(rest)));
+    if (std::all_of(a.begin(), a.end(), [](const ex& x) { return x.is_zero(); })) return zero(r0, m);
 
     for (std::size_t i = 0; i < n + k; ++i) {
         std::vector<ex> R(unknowns.size(), 0);

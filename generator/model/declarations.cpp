@@ -80,18 +80,20 @@ void define(Building& here) {
     for (const Speed& s : here.scene.speeds)
         here.translator.know_later(s.name.text, [&here, &s] {
             SourceScope source(*here.m.z, "speed " + s.name.text);
-            return here.m.z->name(here.translator.scalar(s.form));
+            return Value(here.m.z->name(here.translator.scalar(s.form)));
         });
     for (const Definition& d : here.scene.definitions)
         here.translator.know_later(d.name.text, [&here, &d] {
             SourceScope source(*here.m.z, "definition " + d.name.text);
-            return here.m.z->name(here.translator.scalar(d.value));
+            return here.translator.value(d.value);
         });
     for (const Definition& d : here.scene.definitions)
         here.attempt([&] {
             const Tree self{.kind = Tree::Kind::name, .text = d.name.text};
             const Expression whole{d.name.text, {d.name.place}, std::make_shared<Tree>(self)};
-            here.m.definitions.push_back({d.name.text, here.translator.scalar(whole)});
+            const Value value = here.translator.value(whole);
+            if (const auto* scalar = std::get_if<GiNaC::ex>(&value))
+                here.m.definitions.push_back({d.name.text, *scalar});
         });
 }
 

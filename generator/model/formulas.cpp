@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/formulas.hpp"
 
+#include <set>
+
 namespace alembert {
 
 Formulas::Formulas(const Scene& scene, const Mechanism& m, std::shared_ptr<RootSheets> sheets)
@@ -14,7 +16,14 @@ Formulas::Formulas(const Scene& scene, const Mechanism& m, std::shared_ptr<RootS
     know("t", m.t);
     for (const Mechanism::Parameter& p : m.parameters) know(p.symbol.get_name(), p.symbol);
     for (const Mechanism::Input& input : m.inputs) know(input.derivative[0].get_name(), input.derivative[0]);
-    for (const Mechanism::Definition& d : m.definitions) know(d.name, d.value);
+    std::set<std::string> numbers;
+    for (const Mechanism::Definition& d : m.definitions) {
+        numbers.insert(d.name);
+        know(d.name, d.value);
+    }
+    for (const Definition& d : scene.definitions)
+        if (!numbers.contains(d.name.text))  // a vector
+            translator_.know_later(d.name.text, [this, &d] { return translator_.value(d.value); });
     for (const Mechanism::Speed& s : m.speeds) know(s.u.get_name(), s.form);
     for (const GiNaC::symbol& acceleration : m.qddot) has_no_derivative(acceleration);
     for (const Mechanism::Input& input : m.inputs) has_no_derivative(input.derivative[2]);

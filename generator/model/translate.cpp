@@ -40,6 +40,15 @@ ex Translator::scalar(const Expression& expression) {
     return value;
 }
 
+Value Translator::value(const Expression& expression) {
+    const Expression* const former = current_;
+    current_ = &expression;
+    Value value = evaluate(*expression.tree);
+    current_ = former;
+    if (ex* scalar = std::get_if<ex>(&value)) *scalar = mechanism_.z->name(*scalar);
+    return value;
+}
+
 ex Translator::scalar_of(const Tree& tree) {
     const Value value = evaluate(tree);
     if (const ex* scalar = std::get_if<ex>(&value)) return *scalar;
@@ -65,19 +74,23 @@ ex Translator::differentiated(ex value, int times, const Tree& tree) {
     return value;
 }
 
-ex Translator::named(const Tree& tree) {
+Value Translator::named(const Tree& tree) {
     const auto place = current_->place(tree.offset);
     if (tree.text == "pi") return GiNaC::Pi;
     for (std::size_t i = 0; i < mechanism_.q.size(); ++i)
         if (mechanism_.q[i].get_name() == tree.text) {
-            if (tree.primes > 2) break;
-            return tree.primes == 0   ? mechanism_.q[i]
-                   : tree.primes == 1 ? mechanism_.qdot[i]
-                                      : mechanism_.qddot[i];
+            if (tree.primes > 2) {  // known to those who can eliminate it
+                const auto third = values_.find(tree.text + "'''");
+                if (tree.primes > 3 || third == values_.end()) break;
+                return third->second;
+            }
+            return ex(tree.primes == 0   ? mechanism_.q[i]
+                      : tree.primes == 1 ? mechanism_.qdot[i]
+                                         : mechanism_.qddot[i]);
         }
     if (auto found = later_.find(tree.text); found != later_.end()) {
         const auto make = std::move(found->second);
-        later_[tree.text] = [&tree, place]() -> ex {
+        later_[tree.text] = [&tree, place]() -> Value {
             throw SceneMistake{{place, fmt::format("'{}' is defined by itself, through the geometry", tree.text)}};
         };
         const Expression* const here = current_;
@@ -85,22 +98,31 @@ ex Translator::named(const Tree& tree) {
         current_ = here;
         later_.erase(tree.text);
     }
-    if (const auto found = values_.find(tree.text); found != values_.end())
-        return differentiated(found->second, tree.primes, tree);
+    if (const auto found = values_.find(tree.text); found != values_.end()) {
+        const ex* const scalar = std::get_if<ex>(&found->second);
+        return scalar ? differentiated(*scalar, tree.primes, tree) : found->second;
+    }
     throw SceneMistake{{place, fmt::format("unknown name '{}' in this expression", tree.text)}};
 }
 
-std::optional<ex> Translator::own_component(const Tree& u, const Tree& v) {
+Vector3 Translator::rate_of(const Vector3& v) const {
+    const std::vector<ex> rate = mechanism_.time_derivative({v[0], v[1], v[2]});
+    return {rate[0], rate[1], rate[2]};
+}
+
+std::optional<ex> Translator::own_component(const Tree& u, const Tree& v) const {
     const auto is_call = [](const Tree& tree) { return tree.kind == Tree::Kind::call; };
     if (!is_call(u) || !is_call(v)) return std::nullopt;
-    if (v.text == "omega") return u.text == "omega" ? std::nullopt : own_component(v, u);
+    const auto turns = [](const Tree& tree) { return tree.text == "omega" || tree.text == "alpha"; };
+    if (turns(v)) return turns(u) ? std::nullopt : own_component(v, u);
     const std::string axes[] = {"ex", "ey", "ez"};
     const auto axis = std::find(std::begin(axes), std::end(axes), v.text);
-    if (u.text != "omega" || axis == std::end(axes)) return std::nullopt;
+    if (!turns(u) || axis == std::end(axes)) return std::nullopt;
     const Orientation &turning = queries_.orientation(u.args.at(0)->text),
                       &frame = queries_.orientation(v.args.at(0)->text);
     if (&turning != &frame) return std::nullopt;
-    return frame.angular_velocity()[axis - std::begin(axes)];
+    const Vector3& omega = frame.angular_velocity();
+    return (u.text == "omega" ? omega : rate_of(omega))[static_cast<std::size_t>(axis - std::begin(axes))];
 }
 
 ex Translator::length(const Vector3& v) {
@@ -130,9 +152,12 @@ Value Translator::call(const Tree& tree) {
         throw SceneMistake{{current_->place(tree.offset), fmt::format("unknown rate '{}'", name)}};
     }
     if (tree.text == "vel") return queries_.velocity(name_of(0));
-    if (tree.text == "omega") {
+    if (tree.text == "acc") return rate_of(queries_.velocity(name_of(0)));
+    if (tree.text == "omega" || tree.text == "alpha") {
+        // dω/dt is the same in N and in the frame itself, since ω × ω = 0.
         const Orientation& frame = queries_.orientation(name_of(0));
-        return frame.to_inertial(frame.angular_velocity(), z);
+        const Vector3& omega = frame.angular_velocity();
+        return frame.to_inertial(tree.text == "omega" ? omega : rate_of(omega), z);
     }
     if (tree.text == "ex") return queries_.orientation(name_of(0)).axis(0);
     if (tree.text == "ey") return queries_.orientation(name_of(0)).axis(1);

@@ -29,9 +29,9 @@ public:
         : mechanism_(mechanism), queries_(std::move(queries)) {}
 
     /// A name that stands for a value: a coordinate's symbol, a definition's value …
-    void know(const std::string& name, const GiNaC::ex& value) { values_[name] = value; }
+    void know(const std::string& name, const Value& value) { values_[name] = value; }
     /// A name whose value is made when first asked for (definitions, in any order).
-    void know_later(const std::string& name, std::function<GiNaC::ex()> value) { later_[name] = std::move(value); }
+    void know_later(const std::string& name, std::function<Value()> value) { later_[name] = std::move(value); }
 
     /// A symbol whose time derivative nobody knows: an acceleration, a multiplier. To differentiate it is a
     /// mistake.
@@ -44,22 +44,25 @@ public:
 
     /// Throws SceneMistake for what the reader could not see.
     GiNaC::ex scalar(const Expression& expression);
+    /// The same, of an expression that may be a vector. A number gets an intermediate symbol.
+    Value value(const Expression& expression);
 
 private:
     Value evaluate(const Tree& tree);
     GiNaC::ex scalar_of(const Tree& tree);
     Vector3 vector_of(const Tree& tree);
-    GiNaC::ex named(const Tree& tree);
+    Value named(const Tree& tree);
     Value call(const Tree& tree);
     GiNaC::ex power(const GiNaC::ex& base, const GiNaC::ex& exponent);
-    /// dot(omega(B), ex(B)), which is known without going by N.
-    std::optional<GiNaC::ex> own_component(const Tree& u, const Tree& v);
+    Vector3 rate_of(const Vector3& v) const;
+    /// dot(omega(B), ex(B)) and the like of alpha, which are known without going by N.
+    std::optional<GiNaC::ex> own_component(const Tree& u, const Tree& v) const;
     GiNaC::ex differentiated(GiNaC::ex value, int times, const Tree& tree);
 
     const Mechanism& mechanism_;
     GeometryQueries queries_;
-    std::map<std::string, GiNaC::ex> values_;
-    std::map<std::string, std::function<GiNaC::ex()>> later_;
+    std::map<std::string, Value> values_;
+    std::map<std::string, std::function<Value()>> later_;
     std::vector<GiNaC::symbol> without_derivative_;
     std::shared_ptr<RootSheets> sheets_;
     const Expression* current_ = nullptr;

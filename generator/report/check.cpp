@@ -36,6 +36,7 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     json["verdict"] = name_of(checked.verdict);
     json["method"] = checked.normal_form ? "proved" : "sampled";
     if (checked.verdict == Verdict::proved && !checked.normal_form) json["failure_bound_log2"] = checked.failure;
+    json["kinematic"] = checked.kinematic;
     json["counterexample"] = Json::object();
     for (const auto& [name, value] : checked.counterexample) json["counterexample"][name] = value;
     json["residual"] = checked.residual.empty() ? Json(nullptr) : Json(checked.residual_value);

@@ -139,7 +139,9 @@ bool is_angular(const std::string& letter) {
 }
 
 std::string latex_letter(const std::string& letter) {
-    return is_angular(letter) ? "\\omega_" + letter.substr(2) : letter == "L'" ? "\\dot{L}" : letter;
+    if (is_angular(letter)) return "\\omega_" + letter.substr(2);
+    if (letter == "L'") return "\\dot{L}";
+    return letter.ends_with('*') ? letter.substr(0, letter.size() - 1) + "^{*}" : letter;
 }
 
 std::string mathml_letter(const std::string& letter) {

@@ -10,7 +10,7 @@
 namespace alembert {
 namespace {
 
-/// `name = value` or `name = { value, unit, about }`, as parameters and inputs have it.
+/// Reads `name = value` or `name = { value, unit, about }`, the forms of parameters and inputs.
 template <typename Item>
 Item read_item(const Table& table, const Entry& entry, const std::string& what, std::string_view keys_as) {
     Item item{.name = {entry.key, entry.place}, .value = {}, .unit = {}, .about = {}};
@@ -92,11 +92,39 @@ void read_speeds(const Table& table, Scene& scene) {
     }
 }
 
+namespace {
+
+/// (x)*ex(N) + (y)*ey(N) + (z)*ez(N)
+Expression along_N(const Vector& vector, const Reading& reading) {
+    if (!vector.component[0] || !vector.component[1] || !vector.component[2]) return {};
+    std::string text;
+    std::vector<Place> places;
+    const auto write = [&](const std::string& words) {
+        text += words;
+        places.insert(places.end(), words.size(), vector.place);
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Expression& component = vector.component[k];
+        write(k == 0 ? "(" : " + (");
+        text += component.text;
+        for (std::size_t i = 0; i < component.text.size(); ++i)
+            places.push_back(component.place(static_cast<int>(i)));
+        write(fmt::format(")*e{}(N)", "xyz"[k]));
+    }
+    places.push_back(vector.place);
+    return parse_expression(std::move(text), std::move(places), reading.diagnostics);
+}
+
+}  // namespace
+
 void read_definitions(const Table& table, Scene& scene) {
-    for (const Entry& entry : table.entries())
+    for (const Entry& entry : table.entries()) {
+        const std::string what = labelled("definition", entry.key);
         scene.definitions.push_back(
             {{entry.key, entry.place},
-             read_expression(table.reading(), *entry.node, labelled("definition", entry.key))});
+             entry.node->is_array() ? along_N(read_vector(table.reading(), *entry.node, what), table.reading())
+                                    : read_expression(table.reading(), *entry.node, what)});
+    }
 }
 
 void read_energy(const Table& table, Scene& scene) {

@@ -228,10 +228,8 @@ void check_steady(const LinearizedScene& near) {
             if (c.multiplier.is_equal(contact.gap.multiplier))
                 throw ModelError(
                     fmt::format("contact {} is closed at this state: a disturbance may open it, and what the "
-                                "motion does then no "
-                                "first approximation tells. Give a state in which all contacts are open, or a "
-                                "constraint in place "
-                                "of the contact",
+                                "motion does then no first approximation tells. Give a state in which all "
+                                "contacts are open, or a constraint in place of the contact",
                                 c.name));
     for (const Mechanism::Input& input : near.mechanism.inputs)
         for (const std::string& name : near.matrices.inputs)
@@ -239,9 +237,8 @@ void check_steady(const LinearizedScene& near) {
                 near.mechanism.z->depends(input.value, {near.mechanism.t}))
                 throw ModelError(
                     fmt::format("the input {} changes with time, so that there is no equilibrium; give the period "
-                                "of the system, "
-                                "--period or `period` of [simulation], for its Floquet multipliers, or make the "
-                                "input constant",
+                                "of the system, --period or `period` of [simulation], for its Floquet "
+                                "multipliers, or make the input constant",
                                 input.derivative[0].get_name()));
 }
 
