@@ -185,6 +185,10 @@ fields equilibrium scenes/textbook/rotating_hoop.toml --follow Omega=0:10
 fields linearize scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
 fields stability scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
 fields stability scenes/textbook/rotating_hoop.toml --at theta=0 --lyapunov "theta'^2 + theta^2"
+fields stability scenes/stability/mathieu.toml
+fields stability scenes/stability/ziegler.toml --over c=0.1:1:5 --over P=0:3:5
+fields stability scenes/stability/ziegler.toml --locus P=0:3:9
+fields stability scenes/stability/ziegler.toml --exponents all --duration 10
 fields inverse scenes/textbook/sled.toml
 fields impact scenes/textbook/struck_rods.toml
 fields emit scenes/textbook/sled.toml -o solver --jacobian

@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "alembert/error.hpp"
 #include "scenes.hpp"
@@ -57,6 +59,15 @@ void check(const std::vector<Case>& cases) {
         CHECK(std::string(name_of(s.verdict)) == name_of(c.verdict));
         CHECK(std::string(name_of(s.theorem)) == name_of(c.theorem));
     }
+}
+
+/// Of scenes/stability.
+std::string text_of(const std::string& name) {
+    std::ifstream file(test::source_path("scenes/stability/" + name + ".toml"));
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+void replace(std::string& text, const std::string& what, const std::string& by) {
+    text.replace(text.find(what), what.size(), by);
 }
 
 /// Coordinates at rest at 0 by their energy and forces.
@@ -260,50 +271,10 @@ TEST_CASE("stability: pendulums at all their equilibria") {
 }
 
 TEST_CASE("stability: steady motions by Jacobi's integral, momenta and angular momenta") {
-    const std::string hoop = R"toml(
-gravity = [0, 0, "-g"]
-[parameters]
-m = 0.2
-R = 0.5
-g = 9.81
-c = 1
-w = "c*sqrt(g/R)"
-[coordinates]
-theta = 0
-[[frame]]
-name = "hoop"
-rotate = [["z", "w*t"], ["y", "-theta"]]
-[[particle]]
-name = "bead"
-mass = "m"
-position = [0, 0, "-R"]
-axes = "hoop"
-)toml";
+    const std::string hoop = text_of("hoop");
     std::string tilted = hoop;
-    tilted.replace(tilted.find("theta = 0"), 9, "theta = \"acos(1/c^2)\"");
-    const std::string top = R"toml(
-gravity = [0, 0, "-g"]
-[parameters]
-m = 2
-l = 0.5
-g = 1
-A = 1
-C = 0.5
-[coordinates]
-a = 0
-b = 0
-psi = { initial = 0, rate = 9 }
-[[frame]]
-name = "F"
-rotate = [["x", "a"], ["y", "b"], ["z", "psi"]]
-[[body]]
-name = "top"
-mass = "m"
-frame = "F"
-position = [0, 0, "l"]
-axes = "F"
-inertia = ["A - m*l^2", "A - m*l^2", "C"]
-)toml";
+    replace(tilted, "initial = 0", "initial = \"acos(1/c^2)\"");
+    const std::string top = text_of("sleeping_top");
     const std::string conical = R"toml(
 gravity = [0, 0, "-g"]
 [parameters]
@@ -329,17 +300,9 @@ position = ["l*sin(theta)*cos(phi)", "l*sin(theta)*sin(phi)", "-l*cos(theta)"]
                "[[body]]\nname = \"B\"\nmass = 1\nframe = \"F\"\ninertia = [\"I1\", \"I2\", \"I3\"]\nposition = "
                "[0, 0]\n";
     };
-    const std::string moon = R"toml(
-[parameters]
-mu = 0.01
-[coordinates]
-x = "1/2 - mu"
-y = "sqrt(3)/2"
-[energy]
-lagrangian = "(x'^2 + y'^2)/2 + x*y' - y*x' + (x^2 + y^2)/2 + (1 - mu)/sqrt((x + mu)^2 + y^2) + mu/sqrt((x + mu - 1)^2 + y^2)"
-)toml";
+    const std::string moon = text_of("triangular_point");
     std::string routh = moon;
-    routh.replace(routh.find("mu = 0.01"), 9, "mu = \"(1 - sqrt(23/27))/2\"");
+    replace(routh, "value = 0.01", "value = \"(1 - sqrt(23/27))/2\"");
     check({
         {"bead at the bottom of a slow hoop", hoop, {"c=0.9"}, V::stable, T::jacobi},
         {"bead at the bottom at the pitchfork", hoop, {"c=1"}, V::stable, T::potential_form, true},

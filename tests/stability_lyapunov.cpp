@@ -96,6 +96,9 @@ TEST_CASE("lyapunov: an indefinite V proves instability by the theorems of Lyapu
         {one("-x^2/2"), "x'^2 + 3*x*x' + x^2", V::unstable, T::lyapunov_instability},
         {one("x^2/2", force("x'^3")), "x'^2 + x^2 - x*x'^3", V::undecided, T::none},
         {two("(y^2 - x^2)/2"), "x*x'", V::undecided, T::none},
+        // dV/dt = g V with g > 0 but at the state; and with a g that is zero on a line.
+        {two("0*x", force("(x^2 + y^2 + x'^2 + y'^2)*x'")), "x'^2", V::unstable, T::chetaev_instability},
+        {two("0*x", force("(y - x)^2*x'")), "x'^2", V::undecided, T::none},
         {two("-(x^2 + y^2)/2"), "x*x' + y*y'", V::unstable, T::lyapunov_instability},
     });
 }

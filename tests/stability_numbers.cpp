@@ -7,6 +7,7 @@
 #include <complex>
 #include <random>
 
+#include "linear/modes.hpp"
 #include "stability/conditions.hpp"
 #include "stability/spectrum.hpp"
 
@@ -127,6 +128,34 @@ TEST_CASE(
             found.erase(one);
         }
     }
+}
+
+TEST_CASE("linearize: modes are eigenvectors, as many as there are, and those of a chain are sines") {
+    // Three masses between four springs: q_k = sin(j k π/4), ω = 2 sin(j π/8).
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, 6);
+    std::vector<std::complex<double>> values;
+    for (int k = 0; k < 3; ++k) {
+        A(k, 3 + k) = 1;
+        for (int l = 0; l < 3; ++l) A(3 + k, l) = k == l ? -2 : std::abs(k - l) == 1 ? 1 : 0;
+    }
+    for (int j = 1; j <= 3; ++j)
+        for (const int sign : {-1, 1}) values.emplace_back(0, sign * 2 * std::sin(j * M_PI / 8));
+    const std::vector<LinearMode> modes = modes_of(A, values);
+    REQUIRE(modes.size() == 3);
+    for (int j = 1; j <= 3; ++j) {
+        const LinearMode& mode = modes[static_cast<std::size_t>(j) - 1];
+        CHECK((A.cast<std::complex<double>>() * mode.vector - mode.eigenvalue * mode.vector).norm() < 1e-13);
+        CHECK(std::abs(mode.vector.cwiseAbs().maxCoeff() - 1) < 1e-15);
+        for (int k = 0; k < 3; ++k)
+            CHECK(std::abs(mode.vector[k] * std::sin(j * M_PI / 4) -
+                           mode.vector[0] * std::sin(j * (k + 1) * M_PI / 4)) < 1e-13);
+    }
+    // A double eigenvalue with two vectors, and one with a Jordan block.
+    Eigen::MatrixXd two = Eigen::MatrixXd::Identity(2, 2), block = two;
+    block(0, 1) = 1;
+    CHECK(modes_of(two, {1, 1}).size() == 2);
+    CHECK(modes_of(block, {1, 1}).size() == 1);
+    CHECK(std::abs(modes_of(two, {1, 1})[0].vector.dot(modes_of(two, {1, 1})[1].vector)) < 1e-15);
 }
 
 }  // namespace stability_numbers

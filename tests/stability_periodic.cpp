@@ -2,6 +2,7 @@
 // Periodic systems against Hill's determinant and published thresholds; the boundaries of the bicycle and of
 // Ziegler's pendulum; and what is refused.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cmath>
@@ -46,17 +47,7 @@ double trace_by_hill(double a, double q) {
 }  // namespace
 
 TEST_CASE("stability: Floquet multipliers of Mathieu's equation agree with Hill's determinant to 1e-10") {
-    const Scene scene = parse_scene(R"toml([parameters]
-a = 1
-q = 0.5
-[coordinates]
-x = 0
-[energy]
-lagrangian = "x'^2/2 - (a - 2*q*cos(2*t))*x^2/2"
-[simulation]
-period = "pi"
-)toml",
-                                    "mathieu.toml");
+    const Scene scene = read_scene(test::source_path("scenes/stability/mathieu.toml"));
     for (const auto& [a, q] :
          {std::pair("1.3", "0.5"), std::pair("3", "0.5"), std::pair("2.1", "1.7"), std::pair("6.5", "3")}) {
         CAPTURE(a);
@@ -74,26 +65,17 @@ period = "pi"
 TEST_CASE(
     "stability: Kapitza's pendulum has its threshold where Mathieu's equation has it, and near that of "
     "averaging") {
-    const Scene scene = parse_scene(R"toml([parameters]
-A = 0.1
-above = 1
-Omega = "above*14.17289002081848*sqrt(9.81)"
-[inputs]
-yp = "A*cos(Omega*t)"
-[coordinates]
-theta = "pi"
-[energy]
-lagrangian = "theta'^2/2 - yp'*theta'*sin(theta) + 9.81*cos(theta)"
-[simulation]
-period = "2*pi/Omega"
-)toml",
-                                    "kapitza.toml");
-    CHECK(judged(scene, {"above=1.0000001"}).verdict ==
+    const Scene scene = read_scene(test::source_path("scenes/stability/kapitza.toml"));
+    // Mathieu's equation has it at Omega = 14.17289002081848 sqrt(g/l) for this amplitude, averaging at
+    // sqrt(2)/0.1.
+    const double threshold = 14.17289002081848 / (std::sqrt(2.0) / 0.1);
+    CHECK(std::abs(threshold - 1) < 0.003);
+    const auto at = [&](double part) { return "above=" + fmt::format("{:.17g}", part * threshold); };
+    CHECK(judged(scene, {at(1.0000001)}).verdict ==
           V::undecided);  // on the circle: critical, as the scene is nonlinear
-    const Stability below = judged(scene, {"above=0.9999999"});
+    const Stability below = judged(scene, {at(0.9999999)});
     CHECK(below.verdict == V::unstable);
     CHECK(below.theorem == StabilityTheorem::floquet);
-    CHECK(std::abs(std::sqrt(2.0) / 0.1 - 14.17289002081848) < 0.04);  // averaging: A² Ω² = 2 g l
 }
 
 TEST_CASE("stability: multipliers of a system with constraints or speeds are those in minimal coordinates") {
@@ -210,42 +192,7 @@ TEST_CASE("stability: the bicycle's weave and capsize speeds are the published o
 
 TEST_CASE(
     "stability: Ziegler's pendulum flutters at (7/2 - sqrt 2) k/l, and with a little damping at 41/28 of it") {
-    const Scene scene = parse_scene(R"toml([parameters]
-P = 1
-c = 0
-[coordinates]
-a = 0
-b = 0
-[[frame]]
-name = "upper"
-rotate = [["z", "b"]]
-[[particle]]
-name = "A"
-mass = 2
-position = ["cos(a)", "sin(a)"]
-[[particle]]
-name = "B"
-mass = 1
-from = "A"
-position = ["cos(b)", "sin(b)"]
-[[force]]
-at = "B"
-vector = ["-P", 0]
-axes = "upper"
-[[spring]]
-along = "a"
-stiffness = 1
-[[spring]]
-along = "b - a"
-stiffness = 1
-[[damper]]
-along = "a"
-damping = "c"
-[[damper]]
-along = "b - a"
-damping = "c"
-)toml",
-                                    "ziegler.toml");
+    const Scene scene = read_scene(test::source_path("scenes/stability/ziegler.toml"));
     CHECK(judged(scene, {"P=2.08578"}).verdict == V::undecided);  // on the axis; the equations are nonlinear
     CHECK(judged(scene, {"P=2.08579"}).verdict == V::unstable);
     CHECK(judged(scene, {"P=1.4642", "c=0.0001"}).verdict == V::asymptotically_stable);

@@ -9,6 +9,7 @@ namespace {
 
 struct LinearizeVerb : SceneOptions {
     std::vector<std::string> at;
+    bool modes = false;
 };
 
 int run(const LinearizeVerb& verb) {
@@ -20,7 +21,7 @@ int run(const LinearizeVerb& verb) {
     if (verb.json)
         show(as_json(near));
     else
-        show(as_text(near));
+        show(as_text(near, verb.modes));
     return 0;
 }
 
@@ -35,6 +36,7 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
         run, [](Verb& verb, LinearizeVerb& options) {
             add_at_option(verb, options.at);
             add_by_option(verb, options.by);
+            verb.add_flag("--modes", options.modes, "eigenvectors too");
         });
 }
 

@@ -1,31 +1,118 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/stability.hpp"
 
+#include <fmt/format.h>
+
+#include "alembert/error.hpp"
+#include "commands/output.hpp"
+#include "commands/progress.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
+#include "commands/vary.hpp"
 #include "commands/verb.hpp"
+#include "report/stability_charts.hpp"
 
 namespace alembert {
 
 namespace {
 
+constexpr std::size_t chart_columns = 121, chart_rows = 91, locus_values = 200;
+
 struct StabilityVerb : SceneOptions {
-    std::vector<std::string> at;
-    double period = 0;
-    std::string lyapunov;
+    std::vector<std::string> at, over;
+    double period = 0, duration = 0;
+    bool modes = false;
+    std::string lyapunov, locus, exponents, output, svg;
 };
 
-int run(const StabilityVerb& verb) {
+StabilityOptions options_of(const StabilityVerb& verb) {
     StabilityOptions options{
         .by = verb.by, .at = overrides_of(verb.at), .period = verb.period, .lyapunov = verb.lyapunov};
     for (const std::string& item : verb.at)
         options.exact_at.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
-    const Stability result = stability(scene_of(verb.scene), options);
+    return options;
+}
+
+void need_alone(const StabilityVerb& verb) {
+    const int asked = !verb.over.empty() + !verb.locus.empty() + !verb.exponents.empty() + !verb.lyapunov.empty();
+    if (asked > 1)
+        throw ModelError(
+            "--over, --locus, --exponents and --lyapunov are different questions; expected one of them");
+    if (!verb.over.empty() && verb.over.size() != 2)
+        throw ModelError(
+            "a chart is drawn over two parameters; expected --over twice, as in --over a=0:5 --over "
+            "q=0:4. (--locus follows the roots over one)");
+    const bool is_picture = !verb.over.empty() || !verb.locus.empty();
+    if (!verb.svg.empty() && !is_picture)
+        throw ModelError("--svg shows a chart or a root locus; expected --over or --locus with it");
+    if (!verb.output.empty() && !is_picture && verb.exponents.empty())
+        throw ModelError("-o is for a chart, a root locus or exponents; expected --over, --locus or --exponents");
+    if (verb.duration > 0 && verb.exponents.empty()) throw ModelError("--duration belongs to --exponents");
+}
+
+/// Files and page of what has no verdict.
+template <typename Found>
+void hand_over(const StabilityVerb& verb, const Found& found) {
+    if (!verb.output.empty()) write_file(verb.output, as_csv(found), {verb.scene});
+    if constexpr (!std::is_same_v<Found, LyapunovExponents>)
+        if (!verb.svg.empty()) write_file(verb.svg, as_svg(found), {verb.scene, verb.output});
+    if (verb.json)
+        show(as_json(found));
+    else
+        show(as_text(found));
+}
+
+int draw_over(const StabilityVerb& verb) {
+    ChartOptions options{.stability = options_of(verb)};
+    Progress progress;
+    options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
+    if (!verb.locus.empty()) {
+        const RootLocus locus =
+            root_locus(scene_of(verb.scene), range_of("--locus", verb.locus, locus_values), options);
+        progress.wipe();
+        hand_over(verb, locus);
+        return 0;
+    }
+    const StabilityChart chart =
+        stability_chart(scene_of(verb.scene), range_of("--over", verb.over[0], chart_columns),
+                        range_of("--over", verb.over[1], chart_rows), options);
+    progress.wipe();
+    hand_over(verb, chart);
+    return 0;
+}
+
+int find_exponents(const StabilityVerb& verb) {
+    ExponentOptions options{.by = verb.by, .at = overrides_of(verb.at)};
+    if (verb.exponents != "all") {
+        const double count = number_of(verb.exponents);
+        if (!(count >= 1 && count <= 1000) || count != static_cast<int>(count))
+            throw ModelError(fmt::format("--exponents {}: expected how many, from 1, or `all`", verb.exponents));
+        options.count = static_cast<int>(count);
+    } else {
+        options.count = 0;
+    }
+    if (verb.duration > 0) options.duration = verb.duration;
+    Progress progress;
+    options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
+    const LyapunovExponents found = lyapunov_exponents(scene_of(verb.scene), options);
+    progress.wipe();
+    warn(found.warnings);
+    hand_over(verb, found);
+    return 0;
+}
+
+int run(const StabilityVerb& verb) {
+    check_output(verb.output, {verb.scene});
+    check_output(verb.svg, {verb.scene});
+    need_alone(verb);
+    if (!verb.exponents.empty()) return find_exponents(verb);
+    if (!verb.over.empty() || !verb.locus.empty()) return draw_over(verb);
+    const Stability result = stability(scene_of(verb.scene), options_of(verb));
     warn(result.warnings);
     if (verb.json)
         show(as_json(result));
     else
-        show(as_text(result));
+        show(as_text(result, verb.modes));
     switch (result.verdict) {
         case StabilityVerdict::asymptotically_stable:
         case StabilityVerdict::stable:
@@ -54,6 +141,19 @@ void add_stability(CLI::App& app, Chosen& chosen) {
                 .positive();
             verb.add_option("--lyapunov", options.lyapunov, "a function V of the state: judges what it proves")
                 .type_name(values::formula);
+            verb.add_flag("--modes", options.modes, "eigenvectors too");
+            verb.add_option("--over", options.over, "twice: a chart of stability over two parameters")
+                .type_name(values::interval);
+            verb.add_option("--locus", options.locus, "follows the roots over a parameter")
+                .type_name(values::interval);
+            verb.add_option("--exponents", options.exponents, "so many Lyapunov exponents of the motion, or `all`")
+                .type_name(values::count);
+            verb.add_option("--duration", options.duration, "of the motion for exponents; 1000 if missing")
+                .type_name(values::seconds)
+                .positive();
+            verb.add_option("-o,--output", options.output, "CSV file of a chart, locus or exponents")
+                .type_name(values::file);
+            verb.add_option("--svg", options.svg, "picture of a chart or locus").type_name(values::file);
         });
 }
 

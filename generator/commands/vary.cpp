@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "alembert/error.hpp"
@@ -22,20 +23,25 @@ bool read(std::string_view text, long& value) {
     return failure == std::errc() && end == text.data() + text.size();
 }
 
-Axis axis_of(const std::string& item) {
+/// `missing`: the count where none is given; nothing: it must be.
+Axis axis_of(const std::string& option, const std::string& item, std::optional<std::size_t> missing) {
     const auto wrong = [&](const std::string& what) {
         return ModelError(
-            fmt::format("--vary {}: {}; expected NAME=FROM:TO:COUNT, as in --vary theta1=0:3:1000", item, what));
+            missing ? fmt::format("{0} {1}: {2}; expected NAME=FROM:TO, as in {0} k=0:20", option, item, what)
+                    : fmt::format("{0} {1}: {2}; expected NAME=FROM:TO:COUNT, as in {0} "
+                                  "theta1=0:3:1000",
+                                  option, item, what));
     };
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos || equals == 0) throw wrong("there is no NAME=");
     const std::string_view range = std::string_view(item).substr(equals + 1);
     const std::size_t first = range.find(':'),
                       second = first == range.npos ? range.npos : range.find(':', first + 1);
-    if (second == range.npos) throw wrong(fmt::format("'{}' is no range", range));
+    const bool is_counted = second != range.npos;
+    if (first == range.npos || (!is_counted && !missing)) throw wrong(fmt::format("'{}' is no range", range));
     Axis axis{.name = item.substr(0, equals)};
     const std::string_view from = range.substr(0, first), to = range.substr(first + 1, second - first - 1),
-                           count = range.substr(second + 1);
+                           count = is_counted ? range.substr(second + 1) : std::string_view();
     for (const auto& [text, value] : {std::pair{from, &axis.from}, std::pair{to, &axis.to}}) {
         try {
             *value = number_of(std::string(text));
@@ -43,6 +49,10 @@ Axis axis_of(const std::string& item) {
             throw wrong(fmt::format("'{}' is no finite number", text));
         }
         if (!std::isfinite(*value)) throw wrong(fmt::format("'{}' is no finite number", text));
+    }
+    if (!is_counted) {
+        axis.count = *missing;
+        return axis;
     }
     long number = 0;
     if (!read(count, number)) throw wrong(fmt::format("the count '{}' is no whole number", count));
@@ -53,6 +63,12 @@ Axis axis_of(const std::string& item) {
 
 }  // namespace
 
+Axis range_of(const std::string& option, const std::string& item, std::size_t count) {
+    const Axis axis = axis_of(option, item, count);
+    if (axis.count > 2000) throw ModelError(fmt::format("{} {}: expected at most 2000 values", option, item));
+    return axis;
+}
+
 Grid grid_of(const std::vector<std::string>& vary) {
     if (vary.empty())
         throw ModelError(
@@ -60,7 +76,7 @@ Grid grid_of(const std::vector<std::string>& vary) {
     Grid grid;
     std::size_t points = 1;
     for (const std::string& item : vary) {
-        const Axis axis = axis_of(item);
+        const Axis axis = axis_of("--vary", item, {});
         for (const Axis& other : grid.axes)
             if (other.name == axis.name)
                 throw ModelError(fmt::format("--vary {}: '{}' is varied twice", item, axis.name));

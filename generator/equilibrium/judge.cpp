@@ -145,6 +145,14 @@ bool is_conservative(const Mechanism& m, const Residuals& residuals) {
            residuals.rates_are_speeds;
 }
 
+MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Instant<long double>& at) {
+    if (is_at_kink(problem.residuals(), at)) return {};
+    const SteadySystem here = problem.linearized_at(at, at.u);
+    const Tangent<long double> t = tangent(problem.residuals(), here.split, at);
+    if (!t.speed_rates_by.allFinite()) return {};
+    return reduced(problem, here.split, t).A;
+}
+
 StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at) {
     const Residuals& residuals = problem.residuals();
     if (is_at_kink(residuals, at)) return {.because = "the equations have a kink here"};

@@ -31,6 +31,10 @@ struct StabilityHint {
 /// Whether only a potential and ideal holonomic constraints act, so that the energy decides.
 bool is_conservative(const Mechanism& mechanism, const Residuals& residuals);
 
+/// x' = A x for small deviations of the essential coordinates and all speeds; no rows if inertia is singular or
+/// the equations have a kink.
+MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Instant<long double>& at);
+
 /// Undecided, with the reason, if inertia is singular.
 StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at);
 

@@ -11,6 +11,7 @@
 /// Works for every Real with the usual functions found by argument-dependent look-up (double, long double).
 
 #include <cln/float.h>
+#include <cln/integer.h>
 #include <cln/real.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ Real real_of(const Rational& r) {
 
 template <>
 inline long double real_of<long double>(const Rational& r) {
-    constexpr auto exact = 53;  // bits that a double holds
+    constexpr unsigned exact = 53;  // bits that a double holds
     const cln::cl_I above = cln::numerator(r), below = cln::denominator(r);
     if (cln::integer_length(above) < exact && cln::integer_length(below) < exact)
         return static_cast<long double>(cln::double_approx(above)) /

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/modes.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -154,11 +155,12 @@ Json as_json(const LinearizedScene& d) {
     result["eigenvalues"] = Json::array();
     for (const std::complex<double>& value : near.eigenvalues)
         result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});
+    result["modes"] = as_json(modes_of(near.A, near.eigenvalues), near.states);
     for (const auto& [name, rows] : d.symbols) result["symbolic"][name] = rows;
     return result;
 }
 
-std::string as_text(const LinearizedScene& d) {
+std::string as_text(const LinearizedScene& d, bool with_modes) {
     const Linearization& near = d.matrices;
     const Start& start = d.start;
     std::string page;
@@ -183,6 +185,7 @@ std::string as_text(const LinearizedScene& d) {
     add_matrices(page, near);
     add(page, d.symbols);
     add_eigenvalues(page, near);
+    if (with_modes) page += "\n" + as_text(modes_of(near.A, near.eigenvalues), near.states);
     return page;
 }
 

@@ -7,6 +7,6 @@
 namespace alembert {
 
 Json as_json(const LinearizedScene& near);
-std::string as_text(const LinearizedScene& near);
+std::string as_text(const LinearizedScene& near, bool with_modes = false);
 
 }  // namespace alembert

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "report/linearization.hpp"
+#include "report/modes.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -22,6 +23,12 @@ const char* side_name(RootOf::Side side) {
             return "unclear";
     }
     return "";
+}
+
+std::vector<LinearMode> modes_near(const Stability& s) {
+    std::vector<std::complex<double>> values;
+    for (const RootOf& root : s.eigenvalues) values.push_back(root.value);
+    return modes_of(s.A, values);
 }
 
 }  // namespace
@@ -47,6 +54,7 @@ Json as_json(const Stability& s) {
         result["start"] = Json::object();
         for (const auto& [name, value] : s.periodic_start) result["start"][name] = value;
     }
+    if (s.near) result["modes"] = as_json(modes_near(s), s.states);
     result["certain"] = s.certain;
     if (s.lyapunov)
         result["lyapunov"] = {
@@ -70,7 +78,7 @@ Json as_json(const Stability& s) {
     return result;
 }
 
-std::string as_text(const Stability& s) {
+std::string as_text(const Stability& s, bool with_modes) {
     std::string page;
     if (!s.title.empty()) put(page, "{}\n\n", s.title);
     put(page, "{}: {}.\n", name_of(s.verdict), s.reason);
@@ -102,6 +110,7 @@ std::string as_text(const Stability& s) {
                 side_name(root.side));
         }
     }
+    if (with_modes && s.near) page += "\n" + as_text(modes_near(s), s.states);
     if (!s.conditions.empty()) {
         put(page, "\nConditions, for {}:\n", s.conditions_for);
         for (const std::string& condition : s.conditions) put(page, "  {}\n", condition);

@@ -9,6 +9,6 @@
 namespace alembert {
 
 Json as_json(const Stability& stability);
-std::string as_text(const Stability& stability);
+std::string as_text(const Stability& stability, bool with_modes = false);
 
 }  // namespace alembert

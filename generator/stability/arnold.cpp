@@ -21,14 +21,14 @@ namespace {
 
 using Complex = std::complex<double>;
 using Powers = std::array<int, 4>;  // of z₁, z₂, z̄₁, z̄₂; or of q₁, q₂, p₁, p₂
-using Series = std::map<Powers, Complex>;
+using PowerSums = std::map<Powers, Complex>;
 
 int degree(const Powers& p) {
     return p[0] + p[1] + p[2] + p[3];
 }
 
-Series product(const Series& a, const Series& b, int highest) {
-    Series result;
+PowerSums product(const PowerSums& a, const PowerSums& b, int highest) {
+    PowerSums result;
     for (const auto& [p, c] : a)
         for (const auto& [r, d] : b) {
             const Powers sum{p[0] + r[0], p[1] + r[1], p[2] + r[2], p[3] + r[3]};
@@ -37,16 +37,16 @@ Series product(const Series& a, const Series& b, int highest) {
     return result;
 }
 
-Series part(const Series& s, int of_degree) {
-    Series result;
+PowerSums part(const PowerSums& s, int of_degree) {
+    PowerSums result;
     for (const auto& [p, c] : s)
         if (degree(p) == of_degree) result[p] = c;
     return result;
 }
 
 /// {a, b} with {z, z̄} = −i.
-Series bracket(const Series& a, const Series& b) {
-    Series result;
+PowerSums bracket(const PowerSums& a, const PowerSums& b) {
+    PowerSums result;
     for (const auto& [p, c] : a)
         for (const auto& [r, d] : b)
             for (int k = 0; k < 2; ++k) {
@@ -62,7 +62,7 @@ Series bracket(const Series& a, const Series& b) {
 
 /// H to fourth order in (q₁, q₂, p₁, p₂), deviations of essential coordinates and their momenta; momenta of cyclic
 /// coordinates are constant.
-std::optional<Series> hamiltonian(const Local& local, const ex& H) {
+std::optional<PowerSums> hamiltonian(const Local& local, const ex& H) {
     const Mechanism& m = local.mechanism;
     const std::size_t n = m.q.size();
     std::vector<int> free;
@@ -105,7 +105,7 @@ std::optional<Series> hamiltonian(const Local& local, const ex& H) {
         }
     for (std::size_t i = 0; i < n; ++i) state.qdot[i] = M[i][n] / M[i][i];
     const Expansion energy = interpret(program, state)[nodes.back()];
-    Series result;
+    PowerSums result;
     for (int k = 0; k < monomials.size(); ++k) {
         const Monomials::Exponents& e = monomials.exponents(k);
         if (monomials.degree_of(k) >= 2) result[{e[0], e[1], e[2], e[3]}] = energy.coefficient(k).number();
@@ -114,7 +114,7 @@ std::optional<Series> hamiltonian(const Local& local, const ex& H) {
 }
 
 /// Canonical variables in which the quadratic part is Σ Ω_k (x_k² + y_k²)/2; columns x₁, x₂, y₁, y₂.
-std::optional<std::pair<Eigen::Matrix4d, std::array<double, 2>>> normal_variables(const Series& H) {
+std::optional<std::pair<Eigen::Matrix4d, std::array<double, 2>>> normal_variables(const PowerSums& H) {
     Eigen::Matrix4d S = Eigen::Matrix4d::Zero(), J = Eigen::Matrix4d::Zero();
     for (const auto& [p, c] : part(H, 2)) {
         std::vector<int> which;
@@ -148,8 +148,8 @@ std::optional<std::pair<Eigen::Matrix4d, std::array<double, 2>>> normal_variable
 }
 
 /// The same function of z and z̄.
-Series in_complex(const Series& H, const Eigen::Matrix4d& basis) {
-    std::array<Series, 4> old;
+PowerSums in_complex(const PowerSums& H, const Eigen::Matrix4d& basis) {
+    std::array<PowerSums, 4> old;
     const double half = std::sqrt(0.5);
     for (int row = 0; row < 4; ++row)
         for (int k = 0; k < 2; ++k) {  // x = (z + z̄)/√2, y = (z − z̄)/(i√2)
@@ -159,9 +159,9 @@ Series in_complex(const Series& H, const Eigen::Matrix4d& basis) {
             old[row][z] += x + y;
             old[row][z_bar] += x - y;
         }
-    Series result;
+    PowerSums result;
     for (const auto& [p, c] : H) {
-        Series term{{Powers{}, c}};
+        PowerSums term{{Powers{}, c}};
         for (int row = 0; row < 4; ++row)
             for (int e = 0; e < p[row]; ++e) term = product(term, old[row], 4);
         for (const auto& [powers, value] : term) result[powers] += value;
@@ -188,10 +188,10 @@ Decision by_arnold(const Local& local, const PowerSign& power, const std::vector
     const double high = std::max(std::abs(W[0]), std::abs(W[1])), low = std::min(std::abs(W[0]), std::abs(W[1]));
     for (const int ratio : {1, 2, 3})
         if (std::abs(high - ratio * low) < 1e-7 * high) return {};
-    const Series all = in_complex(*H, basis), cubic = part(all, 3);
-    Series generator;
+    const PowerSums all = in_complex(*H, basis), cubic = part(all, 3);
+    PowerSums generator;
     for (const auto& [p, c] : cubic) generator[p] = -c / Complex(0, W[0] * (p[0] - p[2]) + W[1] * (p[1] - p[3]));
-    const Series second = bracket(cubic, generator);
+    const PowerSums second = bracket(cubic, generator);
     double size = 0;
     const auto coefficient = [&](const Powers& p) {
         Complex value = 0;

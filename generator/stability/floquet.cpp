@@ -109,13 +109,13 @@ void take_exact(PeriodicMotion<Quad>& motion, const Derived& d, const Start& sta
 }
 
 /// By the size, the largest first.
-std::vector<RootOf> multipliers_of(const PeriodicSystem& system, const PeriodicMotion<Quad>& motion) {
-    const PeriodEnd<Quad> good = system.monodromy(motion, fine), rough = system.monodromy(motion, coarse);
+std::vector<RootOf> multipliers_of(const PeriodicSystem& periodic, const PeriodicMotion<Quad>& motion) {
+    const PeriodEnd<Quad> good = periodic.monodromy(motion, fine), rough = periodic.monodromy(motion, coarse);
     if (!good.finished || !rough.finished)
         throw IntegrationError("the variational equations cannot be integrated over one period",
                                static_cast<double>(motion.t), {});
-    const int size = static_cast<int>(system.independent(motion).size());
-    const double rounding = system.constrained() ? basis_rounding : 0;
+    const int size = static_cast<int>(periodic.independent(motion).size());
+    const double rounding = periodic.constrained() ? basis_rounding : 0;
     CertainMatrix Phi(size, size);
     for (int c = 0; c < size; ++c)
         for (int i = 0; i < size; ++i) {
@@ -144,34 +144,34 @@ bool has_hamiltonian(const Mechanism& m) {
 
 FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides& exact_at, double period) {
     const Mechanism& m = d.mechanism;
-    const PeriodicSystem system(d);
-    PeriodicMotion<Quad> motion = system.motion<Quad>(start, period);
+    const PeriodicSystem periodic(d);
+    PeriodicMotion<Quad> motion = periodic.motion<Quad>(start, period);
     take_exact(motion, d, start, exact_at, period);
-    const Variation<Quad> f(system.program(), motion.parameters);
-    if (!system.autonomous()) check_period(f, motion.x, motion.t, motion.period);
-    if (!system.shoot(motion))
+    const Variation<Quad> f(periodic.program(), motion.parameters);
+    if (!periodic.autonomous()) check_period(f, motion.x, motion.t, motion.period);
+    if (!periodic.shoot(motion))
         throw ModelError(
             fmt::format("no motion of period {:.10g} is found from this state: after Newton's method the state "
                         "misses itself by {:.3g}; give a state and a period nearer to one",
                         static_cast<double>(motion.period), motion.misfit));
     FloquetResult result;
-    const std::vector<RootOf> roots = multipliers_of(system, motion);
+    const std::vector<RootOf> roots = multipliers_of(periodic, motion);
     for (const RootOf& root : roots) {
         result.multipliers.push_back(root.value);
         result.radii.push_back(root.radius);
     }
     result.period = static_cast<double>(motion.period);
-    const std::vector<std::string> names = system.names();
-    for (const int k : system.independent(motion)) result.states.push_back(names[static_cast<std::size_t>(k)]);
+    const std::vector<std::string> names = periodic.names();
+    for (const int k : periodic.independent(motion)) result.states.push_back(names[static_cast<std::size_t>(k)]);
     for (std::size_t k = 0; k < names.size(); ++k)
         result.start.emplace_back(names[k], static_cast<double>(motion.x[k]));
-    bool still = system.autonomous();
+    bool still = periodic.autonomous();
     for (const Quad& rate : f.rate_at(motion.t, motion.x)) still = still && abs(rate) < static_cast<Quad>(1e-12);
     if (still)
         throw ModelError(
             "the equations do not hold t and this state is an equilibrium; leave the period out, or give a "
             "state on a periodic motion");
-    result.decision = judged(result, roots, system.autonomous(), is_linear(m, d.equations), has_hamiltonian(m));
+    result.decision = judged(result, roots, periodic.autonomous(), is_linear(m, d.equations), has_hamiltonian(m));
     return result;
 }
 

@@ -102,9 +102,12 @@ bool is_positive_multiple(const ex& V, const ex& rate, const Neighbourhood& near
     const auto value = near.value(quotient);
     if (!value || !value->sign()) return false;
     if (*value->sign() != 0) return *value->sign() > 0;
-    const auto half = semidefinite(quotient, near);
-    return half && half->sign > 0 && half->sets.size() == 1 &&
-           static_cast<int>(half->sets[0].functions.size()) == near.size();
+    if (!near.local.residuals.rates_are_speeds) return false;
+    try {
+        return sign_near(near.series(quotient), near.monomials).is(1);
+    } catch (const NotAnalytic&) {
+        return false;
+    }
 }
 
 struct Signs {

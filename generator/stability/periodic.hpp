@@ -3,10 +3,10 @@
 
 /// A periodic motion and its monodromy matrix, in any precision.
 ///
-///     PeriodicSystem system(derived);
-///     PeriodicMotion<double> motion = system.motion<double>(start, period);
-///     system.shoot(motion);                              // until one period leads back to the start
-///     system.monodromy(motion, 1e-10).Phi;               // over independent coordinates and speeds
+///     PeriodicSystem periodic(derived);
+///     PeriodicMotion<double> motion = periodic.motion<double>(start, period);
+///     periodic.shoot(motion);                              // until one period leads back to the start
+///     periodic.monodromy(motion, 1e-10).Phi;               // over independent coordinates and speeds
 ///
 /// With constraints the variational equations begin with a basis of the tangent space, one column for each
 /// independent coordinate and speed, and the rows of these make the monodromy matrix: the equations keep

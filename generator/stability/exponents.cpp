@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/exponents.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "alembert/compile.hpp"
+#include "alembert/error.hpp"
+#include "alembert/integrate.hpp"
+#include "alembert/module.hpp"
+#include "emit/emit.hpp"
+#include "linear/tangent.hpp"
+#include "lower/lower.hpp"
+#include "program/differentiate.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+using Index = Eigen::Index;
+
+namespace {
+
+constexpr double forgotten = 0.1;  // of the motion, before estimates begin
+constexpr int most_intervals = 20000, least_intervals = 400, most_rows = 20;
+
+Rhs emitted(const Derived& d, const Start& start) {
+    auto program = differentiated(lowered(d).program);
+    if (!program) throw ModelError("the equations of this scene are too large to be differentiated, or singular");
+    const Source source = emit(program->program);
+    const Compiled compiled = compile(source.text, program->program.name + "_jacobian", {});
+    return make_rhs(load(compiled.object), start.parameters);
+}
+
+/// The tangent space at a state: columns that span it, and the rows that tell which combination a vector of it is.
+class TangentSpace {
+public:
+    TangentSpace(const Derived& d, const Start& start)
+        : residuals_(in_terms_of(d.equations, d.mechanism), d.equations), guessed_q_(d.mechanism.q_is_guess) {
+        constrained_ = residuals_.holonomic > 0 || residuals_.kept > 0;
+        parameters_ = start.parameters;
+    }
+
+    /// The state put onto the constraints; the columns.
+    Eigen::MatrixXd settle_at(double t, double* y) {
+        const int n = residuals_.n, s = residuals_.s;
+        if (!constrained_) {
+            rows_.clear();
+            for (int k = 0; k < n + s; ++k) rows_.push_back(k);
+            return Eigen::MatrixXd::Identity(n + s, n + s);
+        }
+        State<double> state;
+        state.parameters = parameters_;
+        state.t = t;
+        state.q.assign(y, y + n);
+        state.qdot.assign(y + n, y + n + s);
+        Instant<long double> at = instant_of<long double>(residuals_, state);
+        const Split split =
+            split_of(residuals_, at, guessed_q_, std::vector<bool>(static_cast<std::size_t>(s), false));
+        if (!settle(residuals_, split, at))
+            throw IntegrationError("the constraints cannot be kept along the motion", t, state.q);
+        for (int k = 0; k < n; ++k) y[k] = static_cast<double>(at.q[static_cast<std::size_t>(k)]);
+        for (int k = 0; k < s; ++k) y[n + k] = static_cast<double>(at.u[static_cast<std::size_t>(k)]);
+        rows_ = split.q;
+        for (const int u : split.u) rows_.push_back(n + u);
+        const Tangent<long double> here = tangent(residuals_, split, at);
+        return here.along.topLeftCorner(n + s, static_cast<Index>(rows_.size())).cast<double>();
+    }
+
+    const std::vector<int>& rows() const { return rows_; }
+    bool constrained() const { return constrained_; }
+
+private:
+    Residuals residuals_;
+    std::vector<bool> guessed_q_;
+    std::vector<double> parameters_;
+    std::vector<int> rows_;
+    bool constrained_;
+};
+
+void check_smooth(const Mechanism& m) {
+    if (!m.unilateral.empty() || !m.frictions.empty() || m.has_kicks())
+        throw ModelError(
+            "Lyapunov exponents are computed for smooth motions; this scene has contacts, dry friction or events "
+            "with impulses, at which the variational equations jump");
+}
+
+/// x, the tangent vectors, and ∫ trace.
+Rhs with_variations(const Rhs& rhs, Index N, Index columns) {
+    return make_rhs(
+        static_cast<int>(N + N * columns + 1),
+        [rhs, N, columns, J = std::make_shared<Eigen::MatrixXd>(N, N)](double t, const double* y, double* rate) {
+            rhs(t, y, rate);
+            rhs.jacobian(rhs.context.get(), t, y, J->data());
+            Eigen::Map<Eigen::MatrixXd>(rate + N, N, columns) =
+                *J * Eigen::Map<const Eigen::MatrixXd>(y + N, N, columns);
+            rate[N + N * columns] = J->trace();
+        },
+        1);
+}
+
+class Benettin {
+public:
+    Benettin(LyapunovExponents& result, const Derived& d, const Start& start, const ExponentOptions& options)
+        : result_(result), options_(options), rhs_(emitted(d, start)), space_(d, start), start_(start.t) {
+        const State<double> state = state_of(start, d.mechanism, d.equations);
+        y_ = state.q;
+        y_.insert(y_.end(), state.qdot.begin(), state.qdot.end());
+        N_ = static_cast<Index>(y_.size());
+        const Eigen::MatrixXd along = space_.settle_at(start_, y_.data());
+        result_.size = static_cast<int>(along.cols());
+        if (options.count > result_.size)
+            throw ModelError(
+                fmt::format("--exponents {}: the tangent space has {} dimensions; expected at most "
+                            "that many",
+                            options.count, result_.size));
+        columns_ = options.count > 0 ? options.count : result_.size;
+        std::mt19937_64 random(8);
+        std::normal_distribution<double> normal;
+        Eigen::MatrixXd first(along.cols(), columns_);
+        for (Index c = 0; c < columns_; ++c)
+            for (Index i = 0; i < along.cols(); ++i) first(i, c) = normal(random);
+        Q_ = along * first;
+        orthonormal();
+        Eigen::MatrixXd J(N_, N_);
+        rhs_.jacobian(rhs_.context.get(), start_, y_.data(), J.data());
+        const double fast = std::max(1e-6, J.norm());
+        const double wanted =
+            std::clamp(std::ceil(options.duration * fast / 2), double(least_intervals), double(most_intervals));
+        intervals_ = static_cast<int>(wanted);
+        result_.interval = options.duration / intervals_;
+        result_.duration = options.duration;
+    }
+
+    void go() {
+        const Rhs both = with_variations(rhs_, N_, columns_);
+        Eigen::VectorXd sums = Eigen::VectorXd::Zero(columns_);
+        double trace = 0, counted = 0;
+        std::vector<LyapunovExponents::Row> all;
+        const int begin = static_cast<int>(forgotten * intervals_);
+        for (int k = 0; k < intervals_; ++k) {
+            if (options_.progress) options_.progress("the motion", static_cast<double>(k) / intervals_);
+            const double t = start_ + result_.interval * k;
+            std::vector<double> whole = y_;
+            whole.insert(whole.end(), Q_.data(), Q_.data() + Q_.size());
+            whole.push_back(0);
+            const Trajectory motion = integrate(both, whole,
+                                                {.start = t,
+                                                 .duration = result_.interval,
+                                                 .tolerance = options_.tolerance,
+                                                 .sample = result_.interval});
+            if (motion.failure)
+                throw IntegrationError(motion.failure->message, motion.failure->time, motion.failure->state);
+            const auto end = motion.final_state();
+            std::copy(end.begin(), end.begin() + N_, y_.begin());
+            Q_ = Eigen::Map<const Eigen::MatrixXd>(end.data() + N_, N_, columns_);
+            const Eigen::MatrixXd along = space_.settle_at(t + result_.interval, y_.data());
+            if (space_.constrained()) {
+                Eigen::MatrixXd own(along.cols(), columns_);
+                for (Index i = 0; i < own.rows(); ++i)
+                    own.row(i) = Q_.row(space_.rows()[static_cast<std::size_t>(i)]);
+                Q_ = along * own;
+            }
+            const Eigen::VectorXd lengths = orthonormal();
+            if (k < begin) continue;
+            sums += lengths.array().log().matrix();
+            trace += end.back();
+            counted += result_.interval;
+            const Eigen::VectorXd now = sums / counted;
+            all.push_back({t + result_.interval - start_, {now.data(), now.data() + now.size()}});
+        }
+        finish(all, trace / counted);
+    }
+
+private:
+    /// Q of QR; the diagonal of R, positive.
+    Eigen::VectorXd orthonormal() {
+        Eigen::VectorXd lengths(columns_);
+        for (Index c = 0; c < columns_; ++c) {
+            for (int twice = 0; twice < 2; ++twice)
+                for (Index b = 0; b < c; ++b) Q_.col(c) -= Q_.col(b).dot(Q_.col(c)) * Q_.col(b);
+            lengths[c] = Q_.col(c).norm();
+            Q_.col(c) /= lengths[c];
+        }
+        return lengths;
+    }
+
+    void finish(const std::vector<LyapunovExponents::Row>& all, double divergence) {
+        result_.exponents = all.back().estimates;
+        for (std::size_t c = 0; c < result_.exponents.size(); ++c) {
+            double low = HUGE_VAL, high = -HUGE_VAL;
+            for (std::size_t k = all.size() / 2; k < all.size(); ++k) {
+                low = std::min(low, all[k].estimates[c]);
+                high = std::max(high, all[k].estimates[c]);
+            }
+            result_.spread.push_back(high - low);
+        }
+        for (int row = 1; row <= most_rows; ++row)
+            result_.rows.push_back(all[all.size() * static_cast<std::size_t>(row) / most_rows - 1]);
+        if (!space_.constrained()) result_.divergence = divergence;
+        if (static_cast<int>(result_.exponents.size()) < result_.size) return;
+        result_.sum = 0;
+        for (const double one : result_.exponents) *result_.sum += one;
+    }
+
+    LyapunovExponents& result_;
+    const ExponentOptions& options_;
+    Rhs rhs_;
+    TangentSpace space_;
+    double start_;
+    std::vector<double> y_;
+    Eigen::MatrixXd Q_;
+    Index N_ = 0, columns_ = 0;
+    int intervals_ = 0;
+};
+
+}  // namespace
+
+LyapunovExponents lyapunov_exponents(Scene scene, const ExponentOptions& options) {
+    LyapunovExponents result{.title = scene.title};
+    const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at});
+    result.warnings = d.warnings;
+    check_smooth(d.mechanism);
+    Start start = start_of(d.mechanism, options.at);
+    assemble(start, d.mechanism, lower_constraints(d.mechanism), options.at);
+    Benettin(result, d, start, options).go();
+    return result;
+}
+
+}  // namespace alembert

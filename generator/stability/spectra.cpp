@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/spectra.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/error.hpp"
+#include "equilibrium/judge.hpp"
+#include "lower/lower.hpp"
+#include "model/friction.hpp"
+#include "stability/periodic.hpp"
+
+namespace alembert {
+
+namespace {
+
+Spectra::Roots sorted(Spectra::Roots roots) {
+    std::sort(roots.begin(), roots.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());
+    });
+    return roots;
+}
+
+template <typename Matrix>
+std::optional<Spectra::Roots> eigenvalues(const Matrix& A) {
+    if (A.rows() == 0 || !A.allFinite()) return {};
+    const Eigen::EigenSolver<Matrix> solver(A, false);
+    if (solver.info() != Eigen::Success) return {};
+    Spectra::Roots result;
+    for (Eigen::Index k = 0; k < A.rows(); ++k)
+        result.emplace_back(static_cast<double>(solver.eigenvalues()[k].real()),
+                            static_cast<double>(solver.eigenvalues()[k].imag()));
+    return sorted(std::move(result));
+}
+
+void check_names(const std::vector<std::string>& names, const StabilityOptions& options, const Scene& scene) {
+    for (const std::string& name : names) {
+        for (const auto& [other, value] : options.at)
+            if (other == name) throw ModelError(fmt::format("{} cannot be held by --at and varied", name));
+        const bool is_coordinate =
+            std::any_of(scene.coordinates.begin(), scene.coordinates.end(),
+                        [&](const auto& coordinate) { return coordinate.name.text == name; });
+        if (is_coordinate || name == "t")
+            throw ModelError(
+                fmt::format("{} cannot be varied: expected a parameter, or the rate of a cyclic "
+                            "coordinate",
+                            name));
+    }
+}
+
+}  // namespace
+
+const char* name_of(SpectrumKind kind) {
+    switch (kind) {
+        case SpectrumKind::none:
+            return "none";
+        case SpectrumKind::inside:
+            return "asymptotically stable";
+        case SpectrumKind::edge:
+            return "critical";
+        case SpectrumKind::divergence:
+            return "divergence";
+        case SpectrumKind::flip:
+            return "flip";
+        case SpectrumKind::flutter:
+            return "flutter";
+    }
+    return "";
+}
+
+double beyond(const std::complex<double>& root, SpectrumOf of) {
+    return of == SpectrumOf::multipliers ? std::abs(root) - 1 : root.real();
+}
+
+double beyond(const Spectra::Roots& roots, SpectrumOf of) {
+    double most = -HUGE_VAL;
+    for (const auto& root : roots) most = std::max(most, beyond(root, of));
+    return most;
+}
+
+double edge_margin(const Spectra::Roots& roots, SpectrumOf of) {
+    double size = 0, sum = 0, product = 1;
+    for (const auto& root : roots) {
+        size = std::max(size, std::abs(root));
+        sum += root.real();
+        product *= std::abs(root);
+    }
+    if (of == SpectrumOf::multipliers) return std::abs(product - 1) < 1e-7 ? 1e-4 : 1e-8;
+    return size * (std::abs(sum) < 1e-9 * size ? 1e-6 : 1e-9);
+}
+
+SpectrumKind kind_of(const Spectra::Roots& roots, SpectrumOf of) {
+    const double margin = edge_margin(roots, of);
+    const auto worst = std::max_element(
+        roots.begin(), roots.end(), [&](const auto& a, const auto& b) { return beyond(a, of) < beyond(b, of); });
+    if (worst == roots.end()) return SpectrumKind::none;
+    if (beyond(*worst, of) < -margin) return SpectrumKind::inside;
+    if (beyond(*worst, of) <= margin) return SpectrumKind::edge;
+    if (std::abs(worst->imag()) > margin) return SpectrumKind::flutter;
+    return of == SpectrumOf::multipliers && worst->real() < 0 ? SpectrumKind::flip : SpectrumKind::divergence;
+}
+
+Spectra::Spectra(Scene scene, const StabilityOptions& options, const std::vector<std::string>& names,
+                 const std::vector<double>& middle)
+    : title_(scene.title) {
+    check_names(names, options, scene);
+    for (const auto& [name, value] : options.at) {
+        names_.push_back(name);
+        held_.push_back(value);
+    }
+    names_.insert(names_.end(), names.begin(), names.end());
+    if (scene.polynomial) {
+        take_polynomial(scene, options);
+        return;
+    }
+    const bool periodic = options.period > 0 || scene.simulation.period;
+    const auto d = std::make_shared<const Derived>(derived(std::move(scene), {.by = options.by}));
+    need_given_normal_forces(d->mechanism, "stability");
+    if (periodic)
+        take_motion(d, options);
+    else
+        take_equilibrium(d, all(middle));
+}
+
+std::vector<double> Spectra::all(const std::vector<double>& values) const {
+    std::vector<double> result = held_;
+    result.insert(result.end(), values.begin(), values.end());
+    return result;
+}
+
+void Spectra::take_polynomial(const Scene& scene, const StabilityOptions&) {
+    of_ = SpectrumOf::roots;
+    const auto polynomial = std::make_shared<const PolynomialScene>(polynomial_of(scene));
+    const Mechanism& m = polynomial->mechanism;
+    const auto starts = std::make_shared<const Starts>(m, names_);
+    auto program = std::make_shared<Program>(begun(m));
+    const std::vector<int> nodes = lower_expressions(*program, m, polynomial->coefficients);
+    at_ = [this_all = held_, polynomial, starts, program,
+           nodes](const std::vector<double>& values) -> std::optional<Roots> {
+        std::vector<double> given = this_all;
+        given.insert(given.end(), values.begin(), values.end());
+        State<double> state;
+        state.parameters = starts->at(given).parameters;
+        const std::vector<double> value = interpret(*program, state);
+        const auto degree = static_cast<Eigen::Index>(nodes.size()) - 1;
+        const auto c = [&](Eigen::Index k) {
+            return value[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
+        };
+        if (c(0) == 0) return {};
+        MatrixOf<long double> companion = MatrixOf<long double>::Zero(degree, degree);
+        for (Eigen::Index k = 0; k < degree; ++k) {
+            companion(0, k) = -static_cast<long double>(c(k + 1)) / c(0);
+            if (k > 0) companion(k, k - 1) = 1;
+        }
+        return eigenvalues(companion);
+    };
+}
+
+void Spectra::take_equilibrium(const std::shared_ptr<const Derived>& d, const std::vector<double>& middle) {
+    if (!d->mechanism.unilateral.empty())
+        throw ModelError(
+            "a chart is drawn for scenes without contacts; put a constraint in place of a contact that "
+            "stays closed");
+    const auto starts = std::make_shared<const Starts>(d->mechanism, names_);
+    const auto problem = std::make_shared<const SteadyProblem>(d->mechanism, d->equations, starts->at(middle));
+    at_ = [held = held_, d, starts, problem](const std::vector<double>& values) -> std::optional<Roots> {
+        std::vector<double> given = held;
+        given.insert(given.end(), values.begin(), values.end());
+        const Possible<Start> start = starts->possible(given);
+        if (!start.exists()) return {};
+        const auto root = problem->solve(
+            instant_of<long double>(problem->residuals(), state_of(start.value(), d->mechanism, d->equations)));
+        if (!root) return {};
+        return eigenvalues(essential_motion(*problem, root->at));
+    };
+}
+
+void Spectra::take_motion(const std::shared_ptr<const Derived>& d, const StabilityOptions& options) {
+    of_ = SpectrumOf::multipliers;
+    const auto starts = std::make_shared<const Starts>(d->mechanism, names_);
+    const auto system = std::make_shared<const PeriodicSystem>(*d);
+    at_ = [held = held_, d, starts, system,
+           period = options.period](const std::vector<double>& values) -> std::optional<Roots> {
+        std::vector<double> given = held;
+        given.insert(given.end(), values.begin(), values.end());
+        const Possible<Start> start = starts->possible(given);
+        if (!start.exists()) return {};
+        PeriodicMotion<double> motion = system->motion<double>(start.value(), period);
+        if (!(motion.period > 0) || !system->shoot(motion)) return {};
+        const PeriodEnd<double> end = system->monodromy(motion, 1e-11);
+        if (!end.finished) return {};
+        const auto size = static_cast<Eigen::Index>(std::lround(std::sqrt(static_cast<double>(end.Phi.size()))));
+        return eigenvalues(Eigen::MatrixXd(Eigen::Map<const Eigen::MatrixXd>(end.Phi.data(), size, size)));
+    };
+}
+
+}  // namespace alembert
