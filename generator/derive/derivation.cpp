@@ -22,6 +22,8 @@ namespace {
 constexpr double largest_tree = 30000;   // the most nodes of all equations with intermediate symbols substituted
 constexpr std::size_t most_terms = 150;  // of one equation in normal form; longer ones are not readable
 
+constexpr double worth_a_name = 0.85;  // of the length without names
+
 bool mentions(const Phrase& phrase, const std::string& name) {
     return (phrase.kind == Phrase::Kind::symbol && phrase.info.name == name) ||
            std::any_of(phrase.args.begin(), phrase.args.end(),
@@ -99,7 +101,7 @@ private:
             result_.abbreviations.emplace_back(symbol_of(kept.name), readable(*f));
             after += text(result_.abbreviations.back().second).size();
         }
-        if (good && after < before) return;
+        if (good && static_cast<double>(after) < worth_a_name * static_cast<double>(before)) return;
         keeps_names_ = false;
         result_.abbreviations.clear();
         std::tie(result_.equations, result_.kinematics) = plain;

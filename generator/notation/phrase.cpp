@@ -169,7 +169,7 @@ bool is_finite_decimal(const Rational& value) {
 bool is_decimal(const Rational& value) {
     if (is_integer(value) || !is_finite_decimal(value)) return false;
     const cln::cl_I denominator = cln::denominator(value);
-    const bool customary = denominator <= 8 || denominator == 16;
+    const bool customary = denominator <= 8 || denominator == 16 || denominator == 32 || denominator == 64;
     return !customary || cln::abs(cln::numerator(value)) > 32;
 }
 

@@ -331,12 +331,15 @@ ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs, const
     const Polynomial positive = divide_by_positive(first_side, second_side, factorizer);
     Lines left = writer.lines(first_side), right = writer.lines(second_side);
     Rational scale = decimals ? Rational(1) : common_number(left, right);
-    const Lines& first = left.empty() ? right : left;
-    const bool has_own = own && std::any_of(left.begin(), left.end(), [&](const Polynomial& line) {
-                             const Monomial acceleration = part(line.terms()[0].monomial, is_acceleration);
-                             return !acceleration.empty() && acceleration[0].atom->info.rank == own->rank;
-                         });
-    if (!has_own && !first.empty() && writer.composer()(first[0]).kind == Phrase::Kind::negative) scale = -scale;
+    const Lines& shown = left.empty() ? right : left;
+    const auto is_own = [&](const Polynomial& line) {
+        const Monomial acceleration = part(line.terms()[0].monomial, is_acceleration);
+        return own && !acceleration.empty() && acceleration[0].atom->info.rank == own->rank;
+    };
+    const auto leading = std::find_if(shown.begin(), shown.end(), is_own);
+    if (!shown.empty() &&
+        writer.composer()(leading != shown.end() ? *leading : shown[0]).kind == Phrase::Kind::negative)
+        scale = -scale;
     for (Lines* side : {&left, &right})
         for (Polynomial& line : *side) line = (1 / scale) * line;
     ReadableEquation result{writer.write(left), writer.write(right), {}};

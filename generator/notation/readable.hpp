@@ -10,8 +10,8 @@
 ///
 /// Terms are sorted: accelerations in the order of the coordinates, squares and products of rates, single rates,
 /// positions (gravity before springs). An equation is divided by the common factor of all its coefficients, but
-/// never by anything that depends on the state, on time or on inputs. A row in which its own acceleration stands
-/// keeps its sign, so that this acceleration has a positive inertia; elsewhere the first term is positive.
+/// never by anything that depends on the state, on time or on inputs. The term of the row's own acceleration is
+/// positive; where there is none, the first term.
 /// Fractions are cleared; decimals stay decimals.
 
 #include <optional>
