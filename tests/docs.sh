@@ -184,6 +184,7 @@ fields equilibrium scenes/textbook/rotating_hoop.toml
 fields equilibrium scenes/textbook/rotating_hoop.toml --follow Omega=0:10
 fields linearize scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
 fields stability scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
+fields stability scenes/textbook/rotating_hoop.toml --at theta=0 --lyapunov "theta'^2 + theta^2"
 fields inverse scenes/textbook/sled.toml
 fields impact scenes/textbook/struck_rods.toml
 fields emit scenes/textbook/sled.toml -o solver --jacobian

@@ -53,7 +53,8 @@ TEST_CASE(
           "x' = r*phi'*cos(theta)\ny' = r*phi'*sin(theta)\n");
     std::string columns;
     const OwnSteps steps = steps_of_maggi(m, e);
-    for (const Statement& s : steps.sections.at(0).statements) columns += s.of + ": " + text(s.value) + "\n";
+    for (const Statement& s : steps.sections.at(0).statements)
+        columns += text(*s.by) + ": " + text(s.value) + "\n";
     CHECK(columns == "theta': (0,0,1,0)\nphi': (r*cos(theta),r*sin(theta),0,1)\n");
     CHECK(agree({routh(m), e}, m).verdict == Agreement::Verdict::proved);
 }

@@ -148,7 +148,8 @@ TEST_CASE("expression: what is nearly right gets a hint") {
     CHECK(mistake("0,5") ==
           "2: a comma stands only between the arguments of a function; the decimal sign is a point");
     CHECK(mistake("2'") == "2: a number has no derivative");
-    CHECK(mistake("x'''") == "2: at most two primes: mechanics knows rates and accelerations only");
+    CHECK(mistake("x''''") ==
+          "2: at most three primes: third derivatives are the highest, and stand in claims alone");
     CHECK(mistake("'x") == "1: a prime stands right after a name or a parenthesis: x' or (…)'");
     CHECK(mistake("1.2.3") == "1: '1.2.3' is not a number");
     CHECK(mistake("1_000") == "1: digits are written together, without _, in an expression");

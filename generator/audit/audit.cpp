@@ -221,8 +221,7 @@ private:
             if (!contradictory_)
                 result_.constraints[k].notes.push_back(
                     "its rates are a combination of those of the others, the rest is not: together they force a "
-                    "relation "
-                    "between coordinates and time that no constraint states");
+                    "relation between coordinates and time that no constraint states");
         for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
             AuditedConstraint& c = result_.constraints[k];
             c.integrable = c.holonomic                 ? std::optional(true)

@@ -1,32 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion. An identity of degree d that is false
-// holds at a random point of GF(p) with a chance of at most d/p (Schwartz, J. ACM 27 (1980) 701).
+// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion (check/vanishing.hpp).
 #include "check/check.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
-#include <numeric>
 
-#include "check/absent.hpp"
 #include "check/any_motion.hpp"
 #include "check/claims.hpp"
+#include "check/completeness.hpp"
 #include "check/counterexample.hpp"
-#include "check/dimensions.hpp"
+#include "check/diagnosis.hpp"
+#include "check/first_order.hpp"
 #include "check/multiple.hpp"
-#include "check/nearest.hpp"
 #include "check/open_rows.hpp"
 #include "check/root_form.hpp"
-#include "check/slip.hpp"
+#include "check/solution.hpp"
 #include "check/static_combination.hpp"
-#include "exact/exact_states.hpp"
-#include "formalism/rest.hpp"
+#include "check/vanishing.hpp"
 #include "formalism/routh.hpp"
-#include "model/energy.hpp"
-#include "model/translate.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 #include "symbolic/fourier.hpp"
@@ -37,10 +29,6 @@ using GiNaC::ex;
 using GiNaC::numeric;
 
 namespace {
-
-constexpr double wanted_failure = -60;
-constexpr int states_of_rest = 48;
-constexpr std::size_t most_states = 1200;
 
 class Checker {
 public:
@@ -70,6 +58,7 @@ public:
                 }
         }
         tell_kinematics();
+        settle_apart();
         for (CheckedClaim& c : result_.claims)
             for (const ex& positive : positive_) c.where.insert(c.where.begin(), inequality(positive));
         result_.complete = complete();
@@ -86,6 +75,16 @@ private:
             }
         if (!mistakes.empty()) fail(scene_, mistakes);
         if (sheets_) positive_ = sheets_->positive();
+    }
+
+    /// Claims that need no states: motions in closed form, first approximations.
+    void settle_apart() {
+        std::vector<std::size_t> solution;
+        for (std::size_t k = 0; k < forms_.size(); ++k) {
+            if (scene_.claims[k].at == "solution") solution.push_back(k);
+            if (scene_.claims[k].at == "near") check_first_order(scene_.claims[k], claims_, result_.claims[k]);
+        }
+        if (!solution.empty()) check_solution(scene_, claims_, solution, result_.claims);
     }
 
     /// Which of m_.undetermined() the claim speaks of. With a contact's multiplier it holds whatever that is,
@@ -133,8 +132,7 @@ private:
             if (p.is_zero(root)) continue;
             if (!states) states.emplace(m_, law_, at, 0, halvings_in(here), Motions::Positions::free);
             double failure = 0;
-            bool exact = true;
-            if (vanishes_at(*states, p, root, failure, exact) != std::optional(true)) continue;
+            if (vanishes_at(*states, p, root, failure) != std::optional(true)) continue;
             found.emplace_back(k, failure);
             roots.push_back(root);
         }
@@ -183,8 +181,7 @@ private:
         Program p;
         const int root = claims_.lower(p, {forms_[k].residual})[0];
         double failure = 0;
-        bool exact = true;
-        c.kinematic = p.is_zero(root) || vanishes_at(states, p, root, failure, exact) == std::optional(true);
+        c.kinematic = p.is_zero(root) || vanishes_at(states, p, root, failure) == std::optional(true);
         if (c.kinematic && c.reason.empty())
             c.reason = "a relation of kinematics: it holds for every motion that the constraints allow";
     }
@@ -243,41 +240,6 @@ private:
         settle_open(open, *states);
     }
 
-    /// Is `residual` zero at all states? Nothing where that cannot be told. `failure`: log₂ of the chance of an
-    /// error.
-    std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure,
-                                    bool& exact) const {
-        const std::array<int, 1> roots{root};
-        failure = 0;
-        double missed = 0;  // log₂ of the chance that no state was on some branch
-        int usable = 0;
-        const bool rest = states.motions.where() == Motions::At::rest;
-        for (std::size_t s = 0;; ++s) {
-            const ExactState* const state = states.get(s);
-            if (state == nullptr || s > most_states)
-                return usable > 0 && ((failure <= wanted_failure && missed <= wanted_failure) || rest)
-                           ? std::optional(true)
-                           : std::nullopt;
-            const auto at = evaluate_mod(p, state->point, roots);
-            if (!at) continue;
-            ++usable;
-            exact = exact && at->exact && state->exact;
-            if (!at->value[root].is_zero()) return false;
-            const double degree = std::max(1.0, at->degree[root]) * std::max(1.0, state->degree);
-            const double chance = std::log2(degree) + at->conditions + state->conditions - 61;
-            if (chance > -1) return std::nullopt;
-            failure += chance;
-            missed += miss(*state);
-            if (failure <= wanted_failure && missed <= wanted_failure && (!rest || usable >= states_of_rest))
-                return true;
-        }
-    }
-
-    /// log₂ of the chance that a branch of the constraints is not the one of this state.
-    static double miss(const ExactState& state) {
-        return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure;
-    }
-
     void settle_alone(std::size_t k, ExactStates& states) {
         CheckedClaim& c = result_.claims[k];
         Program p;
@@ -288,8 +250,7 @@ private:
             if (when_ != "impact") c.reason = "it holds identically and says nothing of the motion";
             return;
         }
-        bool exact = true;
-        const std::optional<bool> zero = vanishes_at(states, p, root, c.failure, exact);
+        const std::optional<bool> zero = vanishes_at(states, p, root, c.failure);
         if (!zero) {
             c.reason =
                 "it could not be evaluated: it divides by something that is zero on every motion, or its degree "
@@ -304,7 +265,10 @@ private:
                 return;
             }
             c.verdict = Verdict::proved;
-            c.reason = told_of_shares(p, root, states);
+            if (depends_on_shares(states, p, root))
+                c.reason =
+                    "it holds for the least reactions of constraints that depend on each other; other reactions "
+                    "with the same effect would not obey it";
             c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, law_)) ||
                             (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
             return;
@@ -322,21 +286,7 @@ private:
             return;
         }
         show(c, *shown);
-        refine(k, states);
-    }
-
-    /// A claim on constraints that depend on each other may hold for their least reactions alone.
-    std::string told_of_shares(const Program& p, int root, ExactStates& states) const {
-        for (std::size_t s = 0; s < 24 && states.get(s) != nullptr; ++s) {
-            const std::optional<ModularPoint>& other = states.get(s)->other_shares;
-            if (!other) return "";
-            const auto at = evaluate_mod(p, *other, std::array<int, 1>{root});
-            if (!at || at->value[root].is_zero()) continue;
-            return "it holds for the least reactions of constraints that depend on each other; other reactions "
-                   "with "
-                   "the same effect would not obey it";
-        }
-        return "";
+        explain(k, states);
     }
 
     std::string inequality(const ex& positive) const {
@@ -353,9 +303,7 @@ private:
         Program p;
         const int norm = claims_.lower(p, {form->norm})[0];
         double failure = 0;
-        bool exact = true;
-        if (!p.is_zero(norm) && vanishes_at(states, p, norm, failure, exact) != std::optional(true))
-            return std::nullopt;
+        if (!p.is_zero(norm) && vanishes_at(states, p, norm, failure) != std::optional(true)) return std::nullopt;
         if (!is_positive_at_start(form->root, claims_, e_)) return std::nullopt;
         return std::vector<std::string>{inequality(form->root)};
     }
@@ -376,205 +324,24 @@ private:
         c.residual_value = shown.residual_value;
     }
 
-    // What is wrong
-
-    void refine(std::size_t k, ExactStates& states) {
+    void explain(std::size_t k, ExactStates& states) {
+        const Diagnosis found = diagnose({.scene = scene_,
+                                          .claims = claims_,
+                                          .law = law_,
+                                          .forms = forms_,
+                                          .wrong = wrong_,
+                                          .claim = k,
+                                          .in_motion = when_ == "motion",
+                                          .at_impact = when_ == "impact"},
+                                         states);
         CheckedClaim& c = result_.claims[k];
-        if (states.motions.where() == Motions::At::rest) {
-            c.reason = name_branch(k, states);
-        } else if (holds_at_scene_values(k, states)) {
-            c.reason = "it holds at the scene's values of the parameters only";
-        }
-        if (forms_[k].open.empty() && when_ == "motion")
-            if (const auto nearest = nearest_equation(forms_[k].residual, m_, law_)) {
-                c.nearest = nearest->equation;
-                c.difference = nearest->difference;
-            }
-        const auto right = [&](const Claim& repaired) {
-            try {
-                Formed former{k, forms_[k], *this};
-                forms_[k] = claims_.read(repaired);
-                return holds_quickly(k, states);
-            } catch (const SceneMistake&) {
-                return false;
-            }
-        };
-        const auto vanishes = [&](const Expression& value) {
-            Program p;
-            const std::optional<int> root = node_of(p, value);
-            return root && (p.is_zero(*root) || is_zero_at_two(p, *root, states));
-        };
-        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, law_,
-                               {.is_right = right,
-                                .vanishes = vanishes,
-                                .absent = [&](const Claim& claim, std::vector<std::string> terms) {
-                                    return absent(claim, std::move(terms), states);
-                                }});
-        if (!c.likely)
-            if (const auto term = term_of_wrong_unit(scene_.claims[k], m_))
-                c.likely = Slip{.kind = "wrong_unit", .term = *term, .repair = {}};
-    }
-
-    /// Nothing where it cannot be read, or holds open names.
-    std::optional<int> node_of(Program& p, const Expression& value) {
-        try {
-            const ex e = claims_.read(value);
-            if (m_.z->depends(e, claims_.open_symbols())) return std::nullopt;
-            return claims_.lower(p, {e})[0];
-        } catch (const std::exception&) {
-            return std::nullopt;
-        } catch (const SceneMistake&) {
-            return std::nullopt;
-        }
-    }
-
-    std::vector<std::pair<std::string, std::string>> absent(const Claim& claim, std::vector<std::string> terms,
-                                                            ExactStates& states) {
-        const ClaimForm form = claims_.read(claim);
-        if (!form.open.empty()) return {};
-        Program p;
-        const int residual = claims_.lower(p, {form.residual})[0];
-        std::vector<std::string> texts;
-        std::vector<int> nodes;
-        std::vector<Diagnostic> mistakes;
-        if (terms.empty()) terms = terms_of_mechanics(claim, m_, law_);
-        for (std::string& text : terms) {
-            const Expression value = parse_expression(text, {}, mistakes);
-            const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt;
-            if (!node || p.is_zero(*node)) continue;
-            nodes.push_back(*node);
-            texts.push_back(std::move(text));
-        }
-        std::vector<Steady> steady;
-        for (const std::string& text : steady_sums(claim, m_)) {
-            const Expression value = parse_expression(text, {}, mistakes);
-            if (const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt)
-                steady.push_back({text, *node});
-        }
-        std::vector<ModularPoint> points;
-        const std::size_t most = states.motions.where() == Motions::At::rest ? states_of_rest : 12;
-        for (std::size_t s = 0; s < most && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
-        std::vector<std::pair<std::string, std::string>> result;
-        for (const Absent& term : absent_terms(p, residual, nodes, steady, points))
-            result.emplace_back(term.coefficient, texts[term.term]);
-        return result;
-    }
-
-    /// Puts a form back.
-    struct Formed {
-        std::size_t k;
-        ClaimForm form;
-        Checker& checker;
-        ~Formed() { checker.forms_[k] = form; }
-    };
-
-    bool holds_quickly(std::size_t k, ExactStates& states) {
-        if (!forms_[k].open.empty()) {
-            // With the claims of its group that are right; if they leave it open, with all.
-            std::vector<std::size_t> group = group_of(k), right = group;
-            std::erase_if(right, [&](std::size_t other) { return other != k && wrong_.contains(other); });
-            return agrees(k, right, states) || (right.size() < group.size() && agrees(k, group, states));
-        }
-        Program p;
-        const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
-        if (p.is_zero(root[0])) return when_ == "impact";  // elsewhere an identity is no repair
-        return is_zero_at_two(p, root[0], states);
-    }
-
-    /// At rest, and where constraints have branches, two states may lie on one of them.
-    static bool is_zero_at_two(const Program& p, int root, ExactStates& states) {
-        std::size_t wanted = states.motions.where() == Motions::At::rest ? 8 : 2;
-        for (std::size_t s = 0, usable = 0; usable < wanted; ++s) {
-            const ExactState* const state = states.get(s);
-            if (state == nullptr || s > 30) return false;
-            if (state->branches > 1) wanted = 8;
-            const auto at = evaluate_mod(p, state->point, std::array<int, 1>{root});
-            if (!at) continue;
-            if (!at->value[root].is_zero()) return false;
-            ++usable;
-        }
-        return true;
-    }
-
-    bool agrees(std::size_t k, const std::vector<std::size_t>& group, ExactStates& states) {
-        const OpenRows rows = open_rows(claims_, forms_, group);
-        for (std::size_t s = 0; s < 2; ++s) {
-            const auto at = matrix_at(rows, states, s);
-            if (!at || !consistent(at->rows) || pins(rows, *at, {}, k)) return false;
-        }
-        return true;
-    }
-
-    bool holds_at_scene_values(std::size_t k, ExactStates& states) {
-        if (!forms_[k].open.empty() || !states.motions.steps().empty()) return false;
-        ModularPoint point;
-        int independent = 0;
-        std::map<std::pair<Variable::Kind, int>, Prime> values;
-        for (const Mechanism::Parameter& p : m_.parameters) {
-            if (!p.independent) continue;
-            const auto value = Prime::from(cln::the<cln::cl_RA>(GiNaC::ex_to<numeric>(p.value).to_cl_N()));
-            if (!value) return false;
-            values[{Variable::Kind::parameter, independent++}] = *value;
-        }
-        if (independent == 0) return false;
-        Program p;
-        const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
-        int usable = 0;
-        for (std::uint64_t seed = 1; seed < 40 && usable < 2; ++seed) {
-            const auto state = states.motions.at(seed, values);
-            if (!state) continue;
-            const auto at = evaluate_mod(p, state->point, root);
-            if (!at) continue;
-            if (!at->value[root[0]].is_zero()) return false;
-            ++usable;
-        }
-        return usable == 2;
-    }
-
-    /// Which factor of an equation of rest vanishes where the claim does not.
-    std::string name_branch(std::size_t k, ExactStates& states) const {
-        Program p;
-        const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
-        for (std::size_t s = 0; states.get(s) != nullptr && s < 64; ++s) {
-            const auto at = evaluate_mod(p, states.get(s)->point, root);
-            if (!at || at->value[root[0]].is_zero()) continue;
-            for (const RestFactor& factor : rest_factors(m_, e_)) {
-                Program q;
-                const std::array<int, 1> node{claims_.lower(q, {factor.value})[0]};
-                const auto value = evaluate_mod(q, states.get(s)->point, node);
-                if (value && value->value[node[0]].is_zero())
-                    return fmt::format("rest is possible with {} = 0 too, and there it fails", factor.text);
-            }
-        }
-        return "it fails at some of the states of rest";
+        if (!found.reason.empty()) c.reason = found.reason;
+        c.nearest = found.nearest;
+        c.difference = found.difference;
+        c.likely = found.likely;
     }
 
     // Claims with open names
-
-    static std::optional<OpenMatrix> matrix_at(const OpenRows& rows, ExactStates& states, std::size_t s) {
-        const ExactState* const state = states.get(s);
-        return state == nullptr ? std::nullopt : open_matrix(rows, *state);
-    }
-
-    /// All claims that share open names with claim k, through others too.
-    std::vector<std::size_t> group_of(std::size_t k) const {
-        std::set<int> names(forms_[k].open.begin(), forms_[k].open.end());
-        std::vector<std::size_t> group;
-        for (std::size_t before = 0; before != names.size() || group.empty();) {
-            before = names.size();
-            group.clear();
-            for (std::size_t other = 0; other < forms_.size(); ++other) {
-                if (scene_.claims[other].at != scene_.claims[k].at || !forms_[other].linear) continue;
-                if (std::none_of(forms_[other].open.begin(), forms_[other].open.end(),
-                                 [&](int o) { return names.contains(o); }))
-                    continue;
-                group.push_back(other);
-                names.insert(forms_[other].open.begin(), forms_[other].open.end());
-            }
-            if (group.empty()) break;
-        }
-        return group;
-    }
 
     void settle_open(const std::vector<std::size_t>& open, ExactStates& states) {
         std::set<std::size_t> done;
@@ -591,7 +358,7 @@ private:
                 continue;
             }
             if (done.contains(k)) continue;
-            std::vector<std::size_t> group = group_of(k);
+            std::vector<std::size_t> group = group_of(scene_, forms_, k);
             std::erase_if(group, [&](std::size_t other) { return mixes(other); });
             done.insert(group.begin(), group.end());
             settle_group(group, states);
@@ -606,32 +373,16 @@ private:
 
     void settle_group(const std::vector<std::size_t>& group, ExactStates& states) {
         const OpenRows rows = open_rows(claims_, forms_, group);
-        double failure = 0, missed = 0;
-        bool exact = true;
-        std::optional<OpenMatrix> bad;
-        std::vector<OpenMatrix> seen;
-        for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure) && !bad;
-             ++s) {
-            auto at = matrix_at(rows, states, s);
-            if (!at) {
-                if (states.get(s) == nullptr) break;
-                continue;
-            }
-            exact = exact && at->exact;
-            if (!consistent(at->rows)) bad = *at;
-            failure += at->chance;
-            missed += miss(*states.get(s));
-            seen.push_back(std::move(*at));
-        }
-        if (seen.empty() || (!bad && (failure > wanted_failure || missed > wanted_failure))) {
+        const std::optional<OpenJudgement> judged = judge(rows, group, states);
+        if (!judged) {
             for (const std::size_t k : group) result_.claims[k].reason = "it could not be evaluated at any state";
             return;
         }
-        wrong_ = bad ? culprits(rows, *bad, group) : std::set<std::size_t>();
+        wrong_ = judged->wrong;
         const std::set<std::size_t> wrong = wrong_;
         for (const std::size_t k : group) {
             CheckedClaim& c = result_.claims[k];
-            c.failure = failure;
+            c.failure = judged->failure;
             if (wrong.contains(k)) {
                 c.reason = wrong.size() > 1 && wrong.size() == group.size()
                                ? "no choice of what is left open satisfies these claims together"
@@ -642,8 +393,8 @@ private:
                 show(c, *shown);
                 if (shown->of_derivative)
                     c.reason = "it is not constant: the residual is that of its time derivative";
-                refine(k, states);
-            } else if (pins(rows, seen[0], wrong, k)) {
+                explain(k, states);
+            } else if (pins(rows, judged->first, wrong, k)) {
                 const bool constant = claims_.open()[forms_[k].open[0]].constant;
                 c.verdict = constant ? Verdict::undecided : Verdict::vacuous;
                 c.reason = constant ? "a further time derivative would be needed to tell whether what it leaves "
@@ -655,46 +406,15 @@ private:
         }
     }
 
-    /// With the constraints and what the claims leave open eliminated, is every acceleration determined?
-    bool complete() {
-        std::vector<GiNaC::symbol> unknowns = m_.qddot;
-        unknowns.insert(unknowns.end(), e_.lambda.begin(), e_.lambda.end());
-        for (const Mechanism::Constraint& c : m_.redundant) unknowns.push_back(c.multiplier);
-        for (const Open& o : claims_.open()) unknowns.push_back(o.symbol);
-        std::vector<ex> list;
-        std::size_t count = 0;
+    /// Do the claims of the motion that are right fix every acceleration?
+    bool complete() const {
+        std::vector<const ClaimForm*> right;
         for (std::size_t k = 0; k < forms_.size(); ++k) {
             const Verdict verdict = result_.claims[k].verdict;
-            if (scene_.claims[k].at != "motion" || (verdict != Verdict::proved && verdict != Verdict::vacuous))
-                continue;
-            const ex last = forms_[k].derivatives.empty() ? forms_[k].residual : forms_[k].derivatives.back();
-            const std::vector<ex> slopes = m_.z->pull_back({{last, 1}}, unknowns);
-            list.insert(list.end(), slopes.begin(), slopes.end());
-            ++count;
+            if (scene_.claims[k].at == "motion" && (verdict == Verdict::proved || verdict == Verdict::vacuous))
+                right.push_back(&forms_[k]);
         }
-        if (count == 0) return false;
-        for (const auto& row : e_.A) {
-            list.insert(list.end(), row.begin(), row.end());
-            list.insert(list.end(), unknowns.size() - row.size(), ex(0));
-        }
-        Program p;
-        const std::vector<int> nodes = claims_.lower(p, list);
-        for (const int halves : {0, 1, 2}) {
-            ExactStates states(m_, e_, Motions::At::motion, halves, halvings(p, nodes));
-            for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
-                const auto at = evaluate_mod(p, states.get(s)->point, nodes);
-                if (!at) continue;
-                std::vector<std::vector<Prime>> all, others;
-                for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
-                    all.emplace_back();
-                    for (std::size_t j = 0; j < unknowns.size(); ++j)
-                        all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
-                    others.emplace_back(all.back().begin() + m_.size(), all.back().end());
-                }
-                return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
-            }
-        }
-        return false;
+        return fix_accelerations(claims_, right);
     }
 
     const Scene& scene_;

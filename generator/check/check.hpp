@@ -18,34 +18,19 @@
 ///  - constants of the motion: F(state, c) = 0 and, c being constant, its time derivatives, as a linear system for
 ///    c.
 ///  - kinematic: claims that need no equation of motion are told so; a scene without masses has no others.
+///  - at a solution: put into the equations, a motion in closed form must satisfy them (solution.hpp).
+///  - near a point: to first order (first_order.hpp).
 ///  - at rest: at states with q' = q'' = 0 that the equations allow.
 ///
 /// A false claim gets a state at which it fails, in exact numbers (exact/real_state.hpp).
 
-#include "check/slip.hpp"
+#include "check/verdict.hpp"
 #include "exact/real_state.hpp"
 #include "scene/scene.hpp"
 
 #include "derive/derived.hpp"
 
 namespace alembert {
-
-enum class Verdict { proved, refuted, undecided, vacuous };
-
-struct CheckedClaim {
-    Verdict verdict = Verdict::undecided;
-    bool normal_form = false;  ///< proved by normal form
-    bool kinematic = false;    ///< proved for every motion that the constraints allow, whatever the forces
-    double failure = 0;        ///< log₂ of the chance that sampling is wrong
-    std::string reason;        ///< in words, where there is something to say
-    std::vector<std::pair<std::string, std::string>> counterexample;  ///< name → value, as typed
-    std::string residual;                                             ///< lhs − rhs there
-    double residual_value = 0;
-    std::string difference;  ///< claim − nearest right equation, term by term
-    std::string nearest;     ///< that right equation
-    std::optional<Slip> likely;
-    std::vector<std::string> where;  ///< the sheet or branch of roots on which the verdict holds: "r > 0"
-};
 
 struct Checked {
     std::vector<CheckedClaim> claims;  ///< as in Scene::claims

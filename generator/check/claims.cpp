@@ -32,6 +32,12 @@ Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& 
         for (const Name& name : claim.constants) open_name(name.text, true);
     }
     know_intermediates(scene);
+    for (int i = 0; i < m_.size(); ++i) {
+        const std::string& q = m_.q[i].get_name();
+        third_.push_back(m_.symbols->declare(q, SymbolInfo::Kind::coordinate, i, 3));
+        formulas_.know(q + "'''", third_.back());
+        formulas_.has_no_derivative(third_.back());
+    }
     // x'(-) stands in the place of x'': at an impact there are no accelerations.
     for (int i = 0; i < m_.size(); ++i) formulas_.know(m_.q[i].get_name() + "'(-)", m_.qddot[i]);
 }
@@ -100,9 +106,59 @@ ex Claims::at_impact(const ex& e) const {
     return m_.z->name(m_.z->expand(e).subs(values, plain).subs(after_->pose, plain));
 }
 
+// The equations of motion, differentiated, determine q''' and λ':
+//     K (q''', λ') = b,   K = [M −Aᵀ; A 0],   b = (f' − M' q'' + A'ᵀ λ, γ' − A' q'').
+// With r = c·q''' + ρ the claim is r = det [K b; −c ρ] / det K.
+ex Claims::without_third_derivatives(const ex& residual, Place at) const {
+    constexpr unsigned most_unknowns = 6;
+    if (!m_.z->depends(residual, third_)) return residual;
+    const std::vector<ex> c = m_.z->pull_back({{residual, 1}}, third_);
+    GiNaC::exvector rest{residual};
+    for (std::size_t i = 0; i < c.size(); ++i) rest.push_back(-c[i] * third_[i]);
+    const auto n = static_cast<unsigned>(m_.size()), size = n + static_cast<unsigned>(e_.A.size());
+    if (std::any_of(c.begin(), c.end(), [&](const ex& slope) { return m_.z->depends(slope, third_); }))
+        throw SceneMistake{{at, "a claim may hold third derivatives only to the first degree"}};
+    if (size > most_unknowns)
+        throw SceneMistake{
+            {at, fmt::format("claims about third derivatives are decided for at most {} coordinates and "
+                             "multipliers; this scene has {}",
+                             most_unknowns, size)}};
+    const auto rate = [&](const ex& value) { return m_.time_derivative({value})[0]; };
+    GiNaC::matrix K(size, size), bordered(size + 1, size + 1);
+    std::vector<ex> b(size, 0);
+    for (unsigned i = 0; i < n; ++i) {
+        GiNaC::exvector sum{rate(e_.forcing(static_cast<int>(i)))};
+        for (unsigned j = 0; j < n; ++j) {
+            K(i, j) = e_.M(i, j);
+            sum.push_back(-rate(e_.M(i, j)) * m_.qddot[j]);
+        }
+        for (unsigned k = n; k < size; ++k) {
+            const ex& a = e_.A[k - n][i];
+            K(i, k) = -a;
+            K(k, i) = a;
+            sum.push_back(rate(a) * e_.lambda[k - n]);
+        }
+        b[i] = GiNaC::add(std::move(sum));
+    }
+    for (unsigned k = n; k < size; ++k) {
+        GiNaC::exvector sum{rate(e_.gamma[k - n])};
+        for (unsigned i = 0; i < n; ++i) sum.push_back(-rate(e_.A[k - n][i]) * m_.qddot[i]);
+        b[k] = GiNaC::add(std::move(sum));
+    }
+    for (unsigned i = 0; i < size; ++i) {
+        for (unsigned j = 0; j < size; ++j) bordered(i, j) = K(i, j) = m_.z->name(K(i, j));
+        bordered(i, size) = m_.z->name(b[i]);
+        bordered(size, i) = i < n ? m_.z->name(-c[i]) : ex(0);
+    }
+    bordered(size, size) = m_.z->name(GiNaC::add(std::move(rest)));
+    return m_.z->name(bordered.determinant(GiNaC::determinant_algo::laplace) /
+                      K.determinant(GiNaC::determinant_algo::laplace));
+}
+
 ClaimForm Claims::read(const Claim& claim) {
     ClaimForm form;
-    form.residual = m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs));
+    form.residual = without_third_derivatives(
+        m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs)), claim.place);
     if (claim.at == "impact" && after_impact()) form.residual = at_impact(form.residual);
     bool constants = false;
     const std::vector<GiNaC::symbol> symbols = open_symbols();

@@ -57,11 +57,13 @@ private:
     GiNaC::ex at_impact(const GiNaC::ex& e) const;
     void know_intermediates(const Scene& scene);
     void open_name(const std::string& name, bool constant);
+    GiNaC::ex without_third_derivatives(const GiNaC::ex& residual, Place at) const;
 
     const Mechanism& m_;
     const Equations& e_;
     Formulas formulas_;
     std::vector<Open> open_;
+    std::vector<GiNaC::symbol> third_;  ///< q'''
     bool has_struck_ = false;
     std::optional<Impact::Exact> after_;
     std::string impact_obstacle_;

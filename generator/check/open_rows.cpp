@@ -3,11 +3,32 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include "check/vanishing.hpp"
 #include "program/reduce_rows.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
+
+std::vector<std::size_t> group_of(const Scene& scene, const std::vector<ClaimForm>& forms, std::size_t k) {
+    std::set<int> names(forms[k].open.begin(), forms[k].open.end());
+    std::vector<std::size_t> group;
+    for (std::size_t before = 0; before != names.size() || group.empty();) {
+        before = names.size();
+        group.clear();
+        for (std::size_t other = 0; other < forms.size(); ++other) {
+            if (scene.claims[other].at != scene.claims[k].at || !forms[other].linear) continue;
+            if (std::none_of(forms[other].open.begin(), forms[other].open.end(),
+                             [&](int o) { return names.contains(o); }))
+                continue;
+            group.push_back(other);
+            names.insert(forms[other].open.begin(), forms[other].open.end());
+        }
+        if (group.empty()) break;
+    }
+    return group;
+}
 
 std::vector<int> OpenRows::roots() const {
     std::vector<int> result;
@@ -54,7 +75,6 @@ std::optional<OpenMatrix> open_matrix(const OpenRows& rows, const ExactState& st
     for (const int id : roots) degree = std::max(degree, at->degree[id]);
     degree = (static_cast<double>(rows.list.size()) * degree + 1) * std::max(1.0, state.degree);
     result.chance = std::log2(degree) + at->conditions + state.conditions - 61;
-    result.exact = at->exact && state.exact;
     for (const OpenRows::Row& row : rows.list) {
         result.rows.emplace_back();
         for (const int id : row.slope) result.rows.back().push_back(at->value[id]);
@@ -67,6 +87,11 @@ bool consistent(const std::vector<std::vector<Prime>>& rows) {
     if (rows.empty()) return true;
     const std::size_t columns = rows[0].size() - 1;
     return rank_of(rows, columns) == rank_of(rows, columns + 1);
+}
+
+std::optional<OpenMatrix> open_matrix(const OpenRows& rows, ExactStates& states, std::size_t number) {
+    const ExactState* const state = states.get(number);
+    return state == nullptr ? std::nullopt : open_matrix(rows, *state);
 }
 
 int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns) {
@@ -103,6 +128,26 @@ std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const
                 found = {group[i], group[j]};
             }
     return found.empty() ? std::set<std::size_t>(group.begin(), group.end()) : found;
+}
+
+std::optional<OpenJudgement> judge(const OpenRows& rows, const std::vector<std::size_t>& group,
+                                   ExactStates& states) {
+    double failure = 0, missed = 0;
+    std::optional<OpenMatrix> first;
+    for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure); ++s) {
+        auto at = open_matrix(rows, states, s);
+        if (!at) {
+            if (states.get(s) == nullptr) break;
+            continue;
+        }
+        failure += at->chance;
+        missed += chance_of_another_branch(*states.get(s));
+        if (!first) first = *at;
+        if (!consistent(at->rows))
+            return OpenJudgement{.wrong = culprits(rows, *at, group), .failure = failure, .first = *first};
+    }
+    if (!first || failure > wanted_failure || missed > wanted_failure) return std::nullopt;
+    return OpenJudgement{.wrong = {}, .failure = failure, .first = *first};
 }
 
 }  // namespace alembert

@@ -13,8 +13,12 @@
 #include <set>
 
 #include "check/claims.hpp"
+#include "exact/exact_states.hpp"
 
 namespace alembert {
+
+/// All claims that share open names with claim k, through others too.
+std::vector<std::size_t> group_of(const Scene& scene, const std::vector<ClaimForm>& forms, std::size_t k);
 
 struct OpenRows {
     struct Row {
@@ -36,10 +40,11 @@ OpenRows open_rows(const Claims& claims, const std::vector<ClaimForm>& forms,
 struct OpenMatrix {
     std::vector<std::vector<Prime>> rows;  ///< slopes, then −rest
     double chance = 0;                     ///< log₂ of the chance that what it says is wrong
-    bool exact = true;
 };
 /// Nothing where the rows cannot be evaluated.
 std::optional<OpenMatrix> open_matrix(const OpenRows& rows, const ExactState& state);
+/// At the state of that number; nothing where there is none.
+std::optional<OpenMatrix> open_matrix(const OpenRows& rows, ExactStates& states, std::size_t number);
 
 int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns);
 
@@ -52,5 +57,15 @@ bool pins(const OpenRows& rows, const OpenMatrix& at, const std::set<std::size_t
 
 /// The fewest claims without which the others can be satisfied; where there is a choice, all of them.
 std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const std::vector<std::size_t>& group);
+
+/// Which claims of the group are wrong: at some state, no choice of what they leave open satisfies them together.
+struct OpenJudgement {
+    std::set<std::size_t> wrong;
+    double failure = 0;  ///< log₂ of the chance that those not in `wrong` are wrong
+    OpenMatrix first;    ///< at one of the states
+};
+/// Nothing where it could not be evaluated at enough states.
+std::optional<OpenJudgement> judge(const OpenRows& rows, const std::vector<std::size_t>& group,
+                                   ExactStates& states);
 
 }  // namespace alembert

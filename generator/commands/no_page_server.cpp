@@ -10,8 +10,7 @@ struct PageServer::State {};
 PageServer::PageServer(int) {
     throw CompileError(
         "watch is missing: this program was built without cpp-httplib; install libcpp-httplib-dev, configure and "
-        "build "
-        "again, or use 'alembert report'");
+        "build again, or use 'alembert report'");
 }
 PageServer::~PageServer() = default;
 std::string PageServer::address() const {

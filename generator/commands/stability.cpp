@@ -12,10 +12,12 @@ namespace {
 struct StabilityVerb : SceneOptions {
     std::vector<std::string> at;
     double period = 0;
+    std::string lyapunov;
 };
 
 int run(const StabilityVerb& verb) {
-    StabilityOptions options{.by = verb.by, .at = overrides_of(verb.at), .period = verb.period};
+    StabilityOptions options{
+        .by = verb.by, .at = overrides_of(verb.at), .period = verb.period, .lyapunov = verb.lyapunov};
     for (const std::string& item : verb.at)
         options.exact_at.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
     const Stability result = stability(scene_of(verb.scene), options);
@@ -50,6 +52,8 @@ void add_stability(CLI::App& app, Chosen& chosen) {
             verb.add_option("--period", options.period, "of a periodic system or motion: Floquet multipliers")
                 .type_name(values::seconds)
                 .positive();
+            verb.add_option("--lyapunov", options.lyapunov, "a function V of the state: judges what it proves")
+                .type_name(values::formula);
         });
 }
 

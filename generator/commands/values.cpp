@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alembert/integrate.hpp"
+#include "alembert/methods.hpp"
 #include "formalism/formalisms.hpp"
 
 namespace alembert {
@@ -13,14 +13,6 @@ namespace {
 std::vector<std::string> formalism_words() {
     std::vector<std::string> words;
     for (const Formalism& f : formalisms()) words.push_back(f.name);
-    return words;
-}
-
-/// The integrators of the program, the choice of one, and those of SUNDIALS.
-std::vector<std::string> method_words() {
-    std::vector<std::string> words{"auto"};
-    for (const Method method : all_methods()) words.emplace_back(name(method));
-    words.insert(words.end(), {"cvode", "ida"});
     return words;
 }
 

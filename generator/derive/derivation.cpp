@@ -2,13 +2,16 @@
 #include "derive/derivation.hpp"
 
 #include <algorithm>
+#include <tuple>
 
+#include "derive/abbreviations.hpp"
 #include "derive/euler_form.hpp"
 #include "derive/intermediate_form.hpp"
 #include "derive/shares.hpp"
 #include "derive/unit_quaternions.hpp"
 #include "formalism/lagrange.hpp"
 #include "lower/lower.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 
@@ -19,9 +22,15 @@ namespace {
 constexpr double largest_tree = 30000;   // nodes of all equations, written out
 constexpr std::size_t most_terms = 150;  // of one equation in normal form; beyond, nobody reads it
 
+bool mentions(const Phrase& phrase, const std::string& name) {
+    return (phrase.kind == Phrase::Kind::symbol && phrase.info.name == name) ||
+           std::any_of(phrase.args.begin(), phrase.args.end(),
+                       [&](const Phrase& part) { return mentions(part, name); });
+}
+
 class Making {
 public:
-    Making(const Mechanism& m, const Equations& e) : m_(m), unit_(m), given_(e), e_(unit_(e)) {}
+    Making(const Mechanism& m, const Equations& e) : m_(m), unit_(m), given_(e), e_(unit_(e)), names_(m) {}
 
     Derivation make() {
         result_.formalism = e_.formalism;
@@ -38,7 +47,9 @@ public:
             if (const auto f = normal(pole))
                 result_.poles.push_back(
                     readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
-        if (!readable_equations() || !energies()) return with_definitions();
+        if (!readable_equations()) return with_definitions();
+        if (names_.any()) keep_names_where_shorter();
+        if (!energies()) return with_definitions();
         angular_velocities();
         forces();
         derivatives();
@@ -53,9 +64,45 @@ private:
     std::optional<Fourier> normal(const ex& given) const {
         const ex e = unit_(given);
         if (m_.z->tree_size(e) > largest_tree) return std::nullopt;
-        std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, 20 * most_terms);
+        const ex written = m_.z->expand(e);
+        std::optional<Fourier> f = fourier(keeps_names_ ? names_(written) : written, *m_.symbols, 20 * most_terms);
         if (f && f->size() > most_terms) return std::nullopt;
         return f;
+    }
+
+    /// Letters of the equations as they are printed.
+    std::size_t length() const {
+        std::size_t result = 0;
+        for (const ReadableEquation& e : result_.equations) result += (text(e.lhs) + text(e.rhs)).size();
+        for (const auto& [rate, value] : result_.kinematics) result += text(value).size();
+        return result;
+    }
+
+    /// The scene's definitions stay names where the equations, these definitions added, are shorter with them.
+    void keep_names_where_shorter() {
+        const auto plain = std::pair(result_.equations, result_.kinematics);
+        const std::size_t before = length();
+        keeps_names_ = true;
+        result_.equations.clear();
+        result_.kinematics.clear();
+        bool good = readable_equations();
+        const auto occurs = [&](const std::string& name) {
+            return std::any_of(result_.equations.begin(), result_.equations.end(),
+                               [&](const auto& e) { return mentions(e.lhs, name) || mentions(e.rhs, name); }) ||
+                   std::any_of(result_.kinematics.begin(), result_.kinematics.end(),
+                               [&](const auto& rate) { return mentions(rate.second, name); });
+        };
+        std::size_t after = length();
+        for (const Abbreviations::Kept& kept : names_.list()) {
+            const auto f = fourier(kept.value, *m_.symbols, most_terms);
+            if (!good || !f || !occurs(kept.name.get_name())) continue;
+            result_.abbreviations.emplace_back(symbol_of(kept.name), readable(*f));
+            after += text(result_.abbreviations.back().second).size();
+        }
+        if (good && after < before) return;
+        keeps_names_ = false;
+        result_.abbreviations.clear();
+        std::tie(result_.equations, result_.kinematics) = plain;
     }
 
     bool readable_equations() {
@@ -74,7 +121,7 @@ private:
                 for (const Mechanism::Constraint& c : m_.redundant) forces.push_back(c.row[i] * c.multiplier);
             const auto left = normal(GiNaC::add(std::move(terms))), right = normal(GiNaC::add(std::move(forces)));
             if (!left || !right) return false;
-            result_.equations.push_back(readable_equation(*left, *right));
+            result_.equations.push_back(readable_equation(*left, *right, m_.symbols->info(e_.udot[i])));
         }
         if (!e_.speeds_are_rates()) write_as_euler(result_.equations, result_.rows);
         for (std::size_t i = 0; i < e_.h.size(); ++i) {
@@ -244,6 +291,8 @@ private:
     const UnitQuaternions unit_;
     const Equations& given_;
     const Equations e_;  ///< with unit quaternions
+    const Abbreviations names_;
+    bool keeps_names_ = false;
     Derivation result_;
 };
 

@@ -33,8 +33,9 @@ struct Derivation {
     std::vector<Statement> forces;       ///< generalized forces of each part of V and each load, then in all
     std::vector<Statement> derivatives;  ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
-    std::vector<Phrase> rows;                           ///< whose equation each is: coordinates, or speeds
-    std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h(q,u,t); empty where u = q'
+    std::vector<std::pair<Phrase, Phrase>> abbreviations;  ///< definitions of the scene that stay names in these
+    std::vector<Phrase> rows;                              ///< whose equation each is: coordinates, or speeds
+    std::vector<std::pair<Phrase, Phrase>> kinematics;     ///< q' = h(q,u,t); empty where u = q'
     std::vector<Phrase> poles;  ///< where one of these vanishes the rates do not follow from the speeds
     std::vector<std::pair<Phrase, Phrase>> speeds;  ///< chosen by the program: u = N(q,t) q'
     std::string choice;                             ///< in words, where the speeds were chosen by the program

@@ -115,8 +115,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
         d.warn(
             "warning: the rates that remain when the nonholonomic constraints are solved do not determine the "
-            "others at "
-            "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, "
+            "others at every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, "
             "[speeds]\n");
     d.seconds = process_seconds() - start;
     return d;

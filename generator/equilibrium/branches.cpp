@@ -99,8 +99,7 @@ private:
             if (options_.name == q || (options_.name == q + "'" && problem_.essential()[i]))
                 throw ModelError(
                     fmt::format("--follow {}: an equilibrium has this value as an unknown; expected a parameter, "
-                                "or the rate of a "
-                                "cyclic coordinate",
+                                "or the rate of a cyclic coordinate",
                                 options_.name));
         }
         if (options_.name == "t")

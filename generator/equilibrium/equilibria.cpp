@@ -49,8 +49,8 @@ void check_contacts(const Derived& d, const Start& start) {
     for (const int k : lasting.closed) names.push_back(d.mechanism.unilateral[k].gap.name);
     throw ModelError(
         fmt::format("contact {} is closed at this state; equilibria are searched with all contacts open. Give a "
-                    "state by --at in "
-                    "which it is open, or write it as a [[constraint]] in place of the [[contact]]",
+                    "state by --at in which it is open, or write it as a [[constraint]] in place of the "
+                    "[[contact]]",
                     fmt::join(names, ", ")));
 }
 
@@ -103,8 +103,8 @@ void check_balance(const Equilibria& found, const SteadyProblem& problem) {
             const SteadySystem here = problem.linearized_at(problem.start(), problem.start().u);
             throw ModelError(fmt::format(
                 "there is no equilibrium or steady motion: the force along {} is {:.6g} at every state, and "
-                "nothing "
-                "balances it. Add what holds it (a spring, a damper, a constraint), or set the force to 0 by --at",
+                "nothing balances it. Add what holds it (a spring, a damper, a constraint), or set the force to "
+                "0 by --at",
                 found.equations.u[here.split.u[i]].get_name(), static_cast<double>(here.tangent.balance[i])));
         }
 }

@@ -97,8 +97,7 @@ OwnSteps steps_of_appell(const Mechanism& m, const Equations& e) {
     const std::vector<ex> slope = m.z->pull_back({{S, 1}}, e.udot), conservative = motion.conservative();
     for (int r = 0; r < e.size(); ++r) {
         write.partial(forces, "S", e.udot[r], slope[r]);
-        const std::string of = m.symbols->info(e.u[r]).text();
-        write.statement(forces, "Q", of, conservative[r] + e.dissipative[r] + e.applied[r]);
+        write.force(forces, "Q", e.u[r], conservative[r] + e.dissipative[r] + e.applied[r]);
     }
     return {.sections = {std::move(energy), std::move(forces)}};
 }

@@ -152,11 +152,11 @@ OwnSteps steps_of_kane(const Mechanism& m, const Equations& e) {
     if (!e.A.empty())
         section.words = "Generalized active forces F and inertia forces F*, F + F* + A^T lambda = 0:";
     for (int r = 0; r < e.size(); ++r) {
-        const std::string of = e.speeds_are_rates() ? m.q[r].get_name() : m.symbols->info(e.u[r]).text();
+        const GiNaC::symbol& of = e.speeds_are_rates() ? m.q[r] : e.u[r];
         GiNaC::exvector inertia{forces.inertia[r]};
         for (int s = 0; s < e.size(); ++s) inertia.push_back(-forces.M(r, s) * e.udot[s]);
-        write.statement(section, "F", of, forces.conservative[r] + forces.dissipative[r] + forces.applied[r]);
-        write.statement(section, "F*", of, GiNaC::add(std::move(inertia)));
+        write.force(section, "F", of, forces.conservative[r] + forces.dissipative[r] + forces.applied[r]);
+        write.force(section, "F*", of, GiNaC::add(std::move(inertia)));
     }
     result.sections.push_back(std::move(section));
     return result;

@@ -104,15 +104,12 @@ OwnSteps steps_of_maggi(const Mechanism& m, const Equations& e) {
         for (unsigned i = 0; i < B.rows(); ++i)
             if (const auto entry = write.normal(B(i, c))) column.push_back(readable(*entry));
         if (column.size() == B.rows())
-            rates.statements.push_back({Statement::Kind::energy,
-                                        "B",
-                                        m.symbols->info(e.u[c]).text(),
-                                        {},
-                                        phrases::tuple(std::move(column))});
+            rates.statements.push_back(
+                {Statement::Kind::force, "B", "", write.symbol_of(e.u[c]), phrases::tuple(std::move(column))});
     }
     Section lagrange{.words = "Lagrange's expressions, E = d/dt dL/dq' - dL/dq - Q:"};
     const std::vector<ex> E = expressions_of(lagrange_operator(m), m);
-    for (int i = 0; i < m.size(); ++i) write.statement(lagrange, "E", m.q[i].get_name(), E[i]);
+    for (int i = 0; i < m.size(); ++i) write.force(lagrange, "E", m.q[i], E[i]);
     Section sum{
         .words =
             e.A.empty()

@@ -155,9 +155,8 @@ OwnSteps steps_of_dalembert(const Mechanism& m, const Equations& e) {
             "Virtual work of the applied forces, dW = sum of Q dq, and of the inertia forces, dW* = sum of Q* dq; "
             "Q + Q* = 0:"};
     for (int i = 0; i < m.size(); ++i) {
-        const std::string of = m.q[i].get_name();
-        write.statement(works, "Q", of, work.conservative[i] + work.dissipative[i] + work.applied[i]);
-        write.statement(works, "Q*", of, work.inertia[i]);
+        write.force(works, "Q", m.q[i], work.conservative[i] + work.dissipative[i] + work.applied[i]);
+        write.force(works, "Q*", m.q[i], work.inertia[i]);
     }
     if (!e.A.empty())
         works.words.replace(works.words.rfind("Q + Q* = 0"), std::string::npos, "Q + Q* + A^T lambda = 0:");

@@ -40,10 +40,10 @@ void StepWriter::equality(Section& section, const Phrase& left, const ex& value)
     if (const auto f = normal(value)) section.equalities.emplace_back(left, in_fractions(*f, *m_.symbols));
 }
 
-void StepWriter::statement(Section& section, const std::string& letter, const std::string& of,
-                           const ex& value) const {
+void StepWriter::force(Section& section, const std::string& letter, const GiNaC::symbol& of,
+                       const ex& value) const {
     if (const auto f = normal(value))
-        section.statements.push_back({Statement::Kind::energy, letter, of, {}, readable(*f)});
+        section.statements.push_back({Statement::Kind::force, letter, "", symbol_of(of), readable(*f)});
 }
 
 void StepWriter::partial(Section& section, const std::string& of, const GiNaC::symbol& by, const ex& value) const {

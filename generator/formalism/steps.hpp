@@ -54,9 +54,8 @@ public:
 
     /// left = value
     void equality(Section& section, const Phrase& left, const GiNaC::ex& value) const;
-    /// letter of `of` = value, zero included
-    void statement(Section& section, const std::string& letter, const std::string& of,
-                   const GiNaC::ex& value) const;
+    /// letter(of) = value, zero included: a generalized force of a coordinate or speed
+    void force(Section& section, const std::string& letter, const GiNaC::symbol& of, const GiNaC::ex& value) const;
     /// d`of`/d`by` = value, where it is not zero
     void partial(Section& section, const std::string& of, const GiNaC::symbol& by, const GiNaC::ex& value) const;
 

@@ -8,7 +8,7 @@
 #include "alembert/error.hpp"
 #include "alembert/tolerances.hpp"
 #include "contact/contacts.hpp"
-#include "formalism/elements.hpp"
+#include "formalism/kane.hpp"
 #include "linear/linearize_symbolic.hpp"
 #include "lower/lower.hpp"
 #include "model/constant.hpp"
@@ -64,25 +64,16 @@ SymbolRows in_symbols(const Linearization& near, const Derived& d, const Lineari
 
 /// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: where rates
 /// are not steady, Kane's speeds may be.
-Linearization linearized(Derived& d, const LinearizeOptions& options, const Start& start) {
-    try {
-        return linearize(d.mechanism, d.equations, start);
-    } catch (const ModelError&) {
-        const std::vector<Mechanism::Constraint>& all = d.mechanism.constraints;
-        const bool nonholonomic = std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });
-        if (!nonholonomic || !options.by.empty() || !d.mechanism.speeds.empty() || !masses_are_known(d.mechanism))
-            throw;
-        std::optional<Linearization> found;
-        try {
-            Derived other = derived_again(d, d.mechanism, "kane");
-            found = linearize(other.mechanism, other.equations, start);
-            d.mechanism = std::move(other.mechanism);
-            d.equations = std::move(other.equations);
-        } catch (const std::runtime_error&) {
-        }
-        if (!found) throw;
-        return *std::move(found);
-    }
+void choose_speeds(Derived& d, const LinearizeOptions& options, const Start& start) {
+    const std::vector<Mechanism::Constraint>& all = d.mechanism.constraints;
+    const bool nonholonomic = std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });
+    if (!nonholonomic || !options.by.empty() || !d.mechanism.speeds.empty() || obstacle_to_kane(d.mechanism) ||
+        is_steady(d.mechanism, d.equations, start))
+        return;
+    Derived other = derived_again(d, d.mechanism, "kane");
+    if (!is_steady(other.mechanism, other.equations, start)) return;
+    d.mechanism = std::move(other.mechanism);
+    d.equations = std::move(other.equations);
 }
 
 /// Contacts that are closed and stay so become constraints of the mechanism.
@@ -110,7 +101,8 @@ LinearizedScene linearize(Scene scene, const LinearizeOptions& options) {
     result.start = start_of(result.mechanism, options.at);
     assemble(result.start, result.mechanism, lower_constraints(result.mechanism), options.at);
     if (!result.mechanism.unilateral.empty()) close_contacts(result, result.start);
-    result.matrices = linearized(result, options, result.start);
+    choose_speeds(result, options, result.start);
+    result.matrices = linearize(result.mechanism, result.equations, result.start);
     result.symbols = in_symbols(result.matrices, result, options);
     return result;
 }

@@ -31,11 +31,8 @@ public:
         if (functions.size() > 3) functions.resize(3);
         return fmt::format(
             "the equations of motion have no first derivative at {}, so they cannot be linearized there: because "
-            "of {}{}, {}. A force "
-            "must have a first derivative at the state, and a potential a second one. Give a state off this "
-            "point, "
-            "or a "
-            "function that is smooth there, such as sqrt(x^2 + e^2) for abs(x)",
+            "of {}{}, {}. A force must have a first derivative at the state, and a potential a second one. Give "
+            "a state off this point, or a function that is smooth there, such as sqrt(x^2 + e^2) for abs(x)",
             place(nodes), fmt::join(functions, ", "),
             labels.empty() ? "" : fmt::format(" in {}", fmt::join(labels, ", ")), fault);
     }

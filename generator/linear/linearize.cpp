@@ -107,7 +107,8 @@ public:
           state_(state_of(start, m, e)),
           at_(instant_of<long double>(residuals_, state_)) {}
 
-    Linearization go() {
+    /// What is not zero at this state and would be in a steady motion; empty where it is one.
+    std::string unsteadiness() {
         std::vector<bool> guessed(residuals_.s, false);
         if (residuals_.rates_are_speeds) guessed = m_.qdot_is_guess;
         split_ = split_of(residuals_, at_, m_.q_is_guess, guessed);
@@ -126,7 +127,11 @@ public:
         depends_ = dependences(residuals_, split_, at_);
         const std::vector<bool> essential = essential_coordinates(depends_, p_);
         check_time(essential);
-        find_motion(essential);
+        return find_motion(essential);
+    }
+
+    Linearization go() {
+        if (const std::string residual = unsteadiness(); !residual.empty()) refuse(residual);
         fill();
         return std::move(result_);
     }
@@ -155,7 +160,8 @@ private:
                               nearby)));
     }
 
-    void find_motion(const std::vector<bool>& essential) {
+    /// Which coordinates are cyclic, which of them move, and which are states. Gives what is not steady.
+    std::string find_motion(const std::vector<bool>& essential) {
         const auto tolerance = [&](const auto& row) {  // what an error of 1e-9 of the state may do
             long double sum = 1e-12L;
             for (Index j = 0; j < nr_; ++j)
@@ -178,7 +184,7 @@ private:
             else if (moves[j])
                 result_.moving.push_back(coordinate(j));
         }
-        if (!residual.empty()) refuse(fmt::format("{}", fmt::join(residual, "; ")));
+        if (!residual.empty()) return fmt::format("{}", fmt::join(residual, "; "));
         for (Index j = 0; j < nr_; ++j)
             if (!essential[j]) result_.cyclic.push_back(coordinate(j));
         // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then
@@ -192,6 +198,7 @@ private:
             else
                 result_.left_out.push_back(coordinate(j));
         }
+        return "";
     }
 
     void fill() {
@@ -302,6 +309,11 @@ private:
 Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start) {
     const Mechanism m = in_terms_of(equations, mechanism);
     return Linearizing(m, equations, start).go();
+}
+
+bool is_steady(const Mechanism& mechanism, const Equations& equations, const Start& start) {
+    const Mechanism m = in_terms_of(equations, mechanism);
+    return Linearizing(m, equations, start).unsteadiness().empty();
 }
 
 }  // namespace alembert

@@ -60,4 +60,8 @@ struct Linearization {
 /// singular at this state.
 Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start);
 
+/// Whether it is an equilibrium or a steady motion in the speeds of these equations. Throws as `linearize` does
+/// for every other reason.
+bool is_steady(const Mechanism& mechanism, const Equations& equations, const Start& start);
+
 }  // namespace alembert

@@ -60,9 +60,8 @@ NormalForces::NormalForces(const Mechanism& m, const Equations& e) : e_(e) {
         if (row == e.lambda.end())
             throw ModelError(
                 fmt::format("friction '{}' needs {}, which the equations do not have: its constraint follows from "
-                            "others, or the "
-                            "speeds leave it out; give the normal force as an expression instead, or leave out "
-                            "what is redundant",
+                            "others, or the speeds leave it out; give the normal force as an expression instead, "
+                            "or leave out what is redundant",
                             f.name, f.multiplier->get_name()));
         const auto known =
             std::find_if(pressed_.begin(), pressed_.end(), [&](const Pressed& p) { return is_it(p.multiplier); });

@@ -15,6 +15,12 @@ using GiNaC::ex;
 
 namespace {
 
+constexpr const char* of_second_degree =
+    ". Only constraints that are linear in the rates determine which displacements are virtual. For others, as in "
+    "the "
+    "example of Appell and Hamel, the motion depends on the mechanism that keeps them: describe that mechanism by "
+    "constraints that are linear in its rates";
+
 bool is_nonlinear(const ex& coefficient, const Mechanism& m) {
     for (const ex& slope : m.z->pull_back({{coefficient, 1}}, m.qdot))
         if (!is_identically_zero(slope, m)) return true;
@@ -23,15 +29,15 @@ bool is_nonlinear(const ex& coefficient, const Mechanism& m) {
 
 }  // namespace
 
-std::pair<std::vector<ex>, ex> linear_form(const ex& value, const std::string& what, Place at,
-                                           const Mechanism& m) {
+std::pair<std::vector<ex>, ex> linear_form(const ex& value, const std::string& what, Place at, const Mechanism& m,
+                                           const std::string& advice) {
     const std::vector<ex> row = m.z->pull_back({{value, 1}}, m.qdot);
     GiNaC::exvector rest{value};
     for (int i = 0; i < m.size(); ++i) {
         if (m.z->depends(row[i], m.qdot) && is_nonlinear(row[i], m))
             throw SceneMistake{
-                {at,
-                 fmt::format("{} is not linear in the rates; expected a sum of coefficients times rates", what)}};
+                {at, fmt::format("{} is not linear in the rates; expected a sum of coefficients times rates{}",
+                                 what, advice)}};
         rest.push_back(-row[i] * m.qdot[i]);
     }
     const ex drift = m.z->name(GiNaC::add(std::move(rest)));
@@ -60,7 +66,8 @@ Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& m) {
         made.drift = m.explicit_time_derivative({value})[0];
         velocity = m.time_derivative({value})[0];
     } else {
-        std::tie(made.row, made.drift) = linear_form(value, "constraint '" + rule.name + "'", rule.at, m);
+        std::tie(made.row, made.drift) =
+            linear_form(value, "constraint '" + rule.name + "'", rule.at, m, of_second_degree);
         if (!rule.drifts) made.drift = 0;
     }
     if (all_zero(made.row))

@@ -25,9 +25,10 @@ struct Rule {
 Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& mechanism);
 
 /// Coefficients of the rates, and what stands beside them: value = row·q' + drift. Throws SceneMistake, beginning
-/// with `what` ("speed 'v'"), where it is not linear.
+/// with `what` ("speed 'v'") and ending with `advice`, where it is not linear.
 std::pair<std::vector<GiNaC::ex>, GiNaC::ex> linear_form(const GiNaC::ex& value, const std::string& what, Place at,
-                                                         const Mechanism& mechanism);
+                                                         const Mechanism& mechanism,
+                                                         const std::string& advice = "");
 
 bool all_zero(const std::vector<GiNaC::ex>& row);
 

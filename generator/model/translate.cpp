@@ -79,7 +79,11 @@ Value Translator::named(const Tree& tree) {
     if (tree.text == "pi") return GiNaC::Pi;
     for (std::size_t i = 0; i < mechanism_.q.size(); ++i)
         if (mechanism_.q[i].get_name() == tree.text) {
-            if (tree.primes > 2) break;
+            if (tree.primes > 2) {  // known to those who can eliminate it
+                const auto third = values_.find(tree.text + "'''");
+                if (tree.primes > 3 || third == values_.end()) break;
+                return third->second;
+            }
             return ex(tree.primes == 0   ? mechanism_.q[i]
                       : tree.primes == 1 ? mechanism_.qdot[i]
                                          : mechanism_.qddot[i]);

@@ -18,11 +18,12 @@ namespace {
 using Kind = AtomNode::Kind;
 using Cost = std::function<int(const Polynomial&)>;
 
-/// The search tries some 4ⁿ forms of n angles, each as often as it has terms: beyond this it would take seconds.
+/// The search tries about 4ⁿ forms of n angles, each once for each of its terms. With more angles than this it
+/// would take seconds.
 constexpr std::size_t most_angles = 3;
 constexpr std::size_t most_terms = 64;
 
-/// An angle that others are whole multiples or sums of, with its functions as variables.
+/// An angle of which others are whole multiples or sums, with its sine and cosine as variables.
 struct Angle {
     explicit Angle(const Polynomial& angle)
         : arg(angle), sine(compound_atom(Kind::sine, {angle})), cosine(compound_atom(Kind::cosine, {angle})) {}
@@ -89,7 +90,7 @@ int exponent_of(const Monomial& monomial, const Atom& atom) {
     return 0;
 }
 
-/// from² = 1 − to², as often as it goes.
+/// Applies from² = 1 − to² as often as possible.
 Polynomial eliminate_square(const Polynomial& polynomial, const Atom& from, const Atom& to) {
     const Polynomial square = Rational(1) - Polynomial(to, 2);
     std::vector<Term> terms;
@@ -107,7 +108,7 @@ Polynomial eliminate_square(const Polynomial& polynomial, const Atom& from, cons
     return Polynomial::collect(std::move(terms));
 }
 
-/// 1 = sin² + cos² in the terms without the angle, where the others have degree two: A·sin² + C·cos².
+/// Inserts 1 = sin² + cos² into the terms without the angle if the others have degree two in it: A·sin² + C·cos².
 Polynomial homogeneous(const Polynomial& polynomial, const Angle& angle) {
     std::vector<Term> terms;
     for (const Term& term : polynomial.terms()) {
@@ -139,9 +140,9 @@ struct Choice {
 
 enum class Forms { level, all };
 
-/// The best form of an expanded polynomial, angle after angle: once the squares of the first are settled, what
-/// stands before each of its products is a polynomial in the others, with a best form of its own. (A·sin²φ +
-/// B·cos²φ)·sin²θ + C·cos²θ
+/// The best form of an expanded polynomial, angle after angle: once the form of the first angle's squares is
+/// chosen, the coefficient of each of its products is a polynomial in the other angles, which has a best form of
+/// its own. (A·sin²φ + B·cos²φ)·sin²θ + C·cos²θ
 Polynomial reduce(const Polynomial& expanded, const Angle* angle, const Angle* end, Forms forms,
                   const Cost& cost) {
     if (angle == end) return expanded;
@@ -174,7 +175,7 @@ Polynomial reduce(const Polynomial& expanded, const std::vector<Angle>& angles, 
         };
         const Polynomial whole = best_of(expanded);
         Choice best{whole, cost(whole)};
-        // A·sin²φ + B·cos²φ − C: each parameter may have a form of its own
+        // A·sin²φ + B·cos²φ − C: the terms of each parameter may have a form of their own
         Polynomial each;
         for (const Polynomial& group : partition(expanded, [](const AtomNode& atom) { return atom.steady; }))
             each = each + best_of(group);
@@ -192,10 +193,10 @@ Polynomial reduce(const Polynomial& expanded, const std::vector<Angle>& angles, 
 struct Basis {
     std::vector<Angle> angles;
     Args args;
-    bool expands = false;  ///< some argument is not an angle itself
+    bool expands = false;  ///< whether some argument is not itself one of the angles
 };
 
-/// One angle for each direction: 2θ and 3θ are multiples of θ.
+/// One angle for all arguments that are proportional to each other: 2θ and 3θ are multiples of θ.
 Basis multiples(const std::vector<Polynomial>& args) {
     std::map<Polynomial, Rational, PolynomialLess> directions;
     for (const Polynomial& arg : args) {
@@ -224,7 +225,7 @@ Basis multiples(const std::vector<Polynomial>& args) {
     return basis;
 }
 
-/// Arguments as whole combinations of the angles given; none where one is not.
+/// The arguments as whole combinations of the given angles; none if one of them is no such combination.
 std::optional<Basis> combinations(const std::vector<Polynomial>& args, const std::vector<Polynomial>& angles) {
     Basis basis;
     for (const Polynomial& angle : angles) basis.angles.emplace_back(angle);
@@ -274,7 +275,7 @@ std::vector<Basis> pairs(const std::vector<Polynomial>& args) {
             if (a.is_zero() || b.is_zero()) continue;
             if (b.terms()[0].coefficient < 0) b = -b;
             if (!is_integer(content(a)) || !is_integer(content(b))) continue;
-            // Solving by leading terms needs leads that differ.
+            // The equations are solved by their leading terms, which therefore must differ.
             if (compare(a.terms()[0].monomial, b.terms()[0].monomial) == 0) continue;
             if (std::any_of(a.terms().begin(), a.terms().end(),
                             [&](const Term& term) { return compare(term.monomial, b.terms()[0].monomial) == 0; }))
@@ -285,7 +286,8 @@ std::vector<Basis> pairs(const std::vector<Polynomial>& args) {
     return result;
 }
 
-/// A product of functions of different angles leaves arguments whose half sum and half difference are whole.
+/// A product of functions of different angles becomes functions of arguments whose half sum and half difference
+/// are whole combinations.
 bool may_be_product(const std::vector<Polynomial>& args) {
     for (std::size_t i = 0; i < args.size(); ++i) {
         for (std::size_t j = i + 1; j < args.size(); ++j) {

@@ -17,7 +17,8 @@ bool is_rest(const AtomNode& atom) {
     return !is_parameter(atom);
 }
 
-/// What stands before accelerations, rates, forces and waves: parameters, coordinates and tangents.
+/// Whether an atom does not belong to the coefficient of accelerations, rates, forces, sines and cosines.
+/// Parameters, coordinates and tangents belong to it.
 bool is_outside_place(const AtomNode& atom) {
     const bool coordinate = atom.kind == AtomNode::Kind::symbol && atom.info.order == 0 &&
                             atom.info.kind == SymbolInfo::Kind::coordinate;
@@ -25,7 +26,7 @@ bool is_outside_place(const AtomNode& atom) {
     return !is_parameter(atom) && !coordinate && !tangent;
 }
 
-/// A sum of even powers, one of them of parameters alone: zero at no real pose.
+/// Whether this is a sum of even powers, one of them of parameters only, and therefore zero at no real pose.
 bool is_positive(const Polynomial& sum) {
     bool has_steady = false;
     for (const Term& term : sum.terms()) {
@@ -39,7 +40,7 @@ bool is_positive(const Polynomial& sum) {
     return has_steady;
 }
 
-/// A coefficient: polynomial in parameters; `rest` is what it stands before.
+/// A coefficient, which is a polynomial in parameters, and `rest`, the factor that it multiplies.
 struct Coefficient {
     Monomial rest;
     Polynomial value;
@@ -96,7 +97,8 @@ CommonFactor common_factor(const Fourier& lhs, const Fourier& rhs, Factorizer& f
     }
     const Polynomial terms = Polynomial::collect(std::move(all));
     result.monomial = common_monomial(terms);
-    // k/m·x is worth a multiplication by m; a sum below a fraction line only if it stands there everywhere.
+    // An equation with k/m·x is multiplied by m; it is multiplied by a sum in a denominator only if all terms have
+    // that denominator.
     std::erase_if(result.monomial, [&](const Factor& factor) {
         return factor.atom->kind != AtomNode::Kind::symbol &&
                !std::all_of(terms.terms().begin(), terms.terms().end(), [&](const Term& term) {

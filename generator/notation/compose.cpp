@@ -25,10 +25,10 @@ enum class Standing { number, pi, sum, parameter, constant, state_sum, state, fu
 struct Piece {
     Standing place;
     std::array<int, 3> order{};
-    Polynomial tie;  ///< decides between pieces of one place and order
+    Polynomial tie;  ///< decides between pieces of the same place and order
     Phrase base;
     Rational exponent = 1;
-    int last = 0;  ///< then this: sin θ before cos θ
+    int last = 0;  ///< decides after `tie`: sin θ before cos θ
 };
 
 bool operator<(const Piece& a, const Piece& b) {
@@ -38,7 +38,7 @@ bool operator<(const Piece& a, const Piece& b) {
     return order != 0 ? order < 0 : a.last < b.last;
 }
 
-/// m, m1, mc, M_cart, J, I2, Ix …
+/// Whether the name looks like a mass or a moment of inertia: m, m1, mc, M_cart, J, I2, Ix …
 bool is_inertia(const std::string& name) {
     if (name.empty() || std::string("mMJI").find(name[0]) == std::string::npos || name == "mu") return false;
     const std::string rest = name.substr(1);
@@ -66,8 +66,8 @@ Piece symbol_piece(const Factor& factor) {
     return piece;
 }
 
-/// Shorter forms are searched for until polynomials of so many terms together have been composed, which takes a
-/// few tenths of a second. A free rigid body takes 2900.
+/// Shorter forms are searched for until the polynomials composed have this many terms together, which takes a few
+/// tenths of a second. A free rigid body takes 2900.
 constexpr std::size_t most_effort = 6000;
 
 /// Steady terms first, then by degree, then in canonical order.
@@ -82,7 +82,8 @@ bool stands_before(const Term& a, const Term& b) {
     return order != 0 ? order < 0 : compare(a.monomial, b.monomial) < 0;
 }
 
-/// Differences of like things, A−C or x1−x2, whose sign is a matter of taste; cos θ−1 too, but not r−l0.
+/// Whether a difference may be written with the opposite sign: A−C or x1−x2, in which the terms are of the same
+/// kind, and cos θ−1, but not r−l0.
 bool may_turn(const Polynomial& sum) {
     const bool state = has_state(sum.terms()[0].monomial);
     bool has_minus = false;
@@ -120,7 +121,7 @@ bool has_state(const Monomial& monomial) {
 bool Composer::stays_apart(const Polynomial& polynomial) const {
     const bool has_decimal =
         decimals_ && std::any_of(polynomial.terms().begin(), polynomial.terms().end(),
-                                 [](const Term& term) { return !is_integer(term.coefficient); });
+                                 [](const Term& term) { return reads_as_decimal(term.coefficient); });
     return polynomial.size() > 1 && (has_decimal || has_own_denominators(polynomial));
 }
 
@@ -240,7 +241,7 @@ Phrase Composer::compose(const Polynomial& polynomial) {
 
     std::vector<Phrase> above, below;
     const Rational size = cln::abs(unit);
-    const bool decimal = decimals_ && !is_integer(size) && is_finite_decimal(size);
+    const bool decimal = decimals_ && reads_as_decimal(size);
     if (decimal)
         above.push_back(number(size, true));
     else if (cln::numerator(size) != 1)

@@ -17,7 +17,7 @@ bool is_whole_symbol(const Factor& factor) {
     return factor.atom->kind == AtomNode::Kind::symbol && factor.exponent >= 1 && is_integer(factor.exponent);
 }
 
-/// Two symbols of a product, and what else stands in it.
+/// Two symbols of a product, and its other factors.
 struct Pair {
     Factor x, y;
     Monomial rest;
@@ -68,13 +68,13 @@ std::vector<Polynomial> candidates(const Polynomial& of, const Pair& pair, int n
     }
     const Rational next = coefficient_of(of, pair.product(n - 2, 2));
     if (cln::zerop(next)) return {};
-    const Rational s = 2 * next / (Rational(n - 1) * mixed);  // of n·c·s and n·(n−1)/2·c·s²
+    const Rational s = 2 * next / (Rational(n - 1) * mixed);  // from the coefficients n·c·s and n·(n−1)/2·c·s²
     return {power_of_sum(pair, n, mixed / (Rational(n) * s), s)};
 }
 
 std::optional<Polynomial> best_power(const Polynomial& polynomial) {
     std::optional<Polynomial> best;
-    std::size_t least = polynomial.size();  // to be beaten, the power itself counted
+    std::size_t least = polynomial.size();  // the number of terms to beat, counting the power as one
     for (const Term& term : polynomial.terms())
         for (const Pair& pair : pairs_in(term.monomial)) {
             const int n = to_int(pair.x.exponent + pair.y.exponent);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// P = a·v + b, linear in v, has the factors of gcd(a, b) and one more. That settles nearly every coefficient of a
-// mechanism. Of what is linear in nothing most is soon proved to be irreducible; the rest goes to GiNaC's factor
-// (square-free, then multivariate Hensel lifting; Geddes, Czapor & Labahn, Algorithms for Computer Algebra (1992),
-// chapters 6 and 8).
+// P = a·v + b, linear in v, has the factors of gcd(a, b) and one more. That factors nearly every coefficient of a
+// mechanism. Most polynomials that are linear in no variable are soon proved to be irreducible; the others are
+// given to GiNaC's factor (square-free, then multivariate Hensel lifting; Geddes, Czapor & Labahn, Algorithms for
+// Computer Algebra (1992), chapters 6 and 8).
 #include "notation/factor.hpp"
 
 #include <algorithm>
@@ -16,20 +16,20 @@ namespace alembert {
 
 namespace {
 
-/// Bounds of what goes to GiNaC, where time grows without one: terms times variables times the sum of the
-/// variables' degrees, which is 36 for (a+b·sin θ)². The tops and four-bars of the scenes need up to 2000; a call
-/// takes milliseconds there, and seconds far beyond. Degrees count in the smallest power that occurs: a^3.1416
-/// beside a is of degree 3927 in a^(1/1250), and would never end.
+/// Bounds on what is given to GiNaC, whose time has no bound of its own: terms times variables times the sum of
+/// the variables' degrees, which is 36 for (a+b·sin θ)². The tops and four-bar linkages of the scenes need up to
+/// 2000; a call then takes milliseconds, and seconds for much larger values. Degrees count in the smallest power
+/// that occurs: a^3.1416 beside a is of degree 3927 in a^(1/1250), and the call would never end.
 constexpr int most_for_ginac = 2000;
 constexpr int highest_degree = 12;
-constexpr int most_searches = 400;      // of one Factorizer, a millisecond each
-constexpr int longest_quotient = 1000;  // terms; (x^1000.1 − 1)/(x^0.1 − 1) has 10001
+constexpr int most_searches = 400;      // the most searches of one Factorizer; each takes about a millisecond
+constexpr int longest_quotient = 1000;  // in terms; (x^1000.1 − 1)/(x^0.1 − 1) has 10001
 
 struct AtomLess {
     bool operator()(const Atom& a, const Atom& b) const { return compare(a, b) < 0; }
 };
 
-/// How often each atom occurs, and its highest exponent.
+/// How often an atom occurs, and its highest exponent.
 struct Occurrence {
     int terms = 0;
     Rational highest = 0;
@@ -60,7 +60,7 @@ bool is_small(const Polynomial& polynomial, const Occurrences& atoms) {
     return total * Rational(polynomial.size() * atoms.size()) <= most_for_ginac;
 }
 
-/// In the variable of the lowest degree, whose images are irreducible most often.
+/// Applies the test in the variable of the lowest degree, whose images are irreducible most often.
 bool is_surely_irreducible(const Polynomial& polynomial, const Occurrences& atoms) {
     const auto degree = [](const auto& entry) { return Rational(entry.second.highest / entry.second.unit); };
     const auto lowest = std::min_element(atoms.begin(), atoms.end(),
@@ -68,8 +68,8 @@ bool is_surely_irreducible(const Polynomial& polynomial, const Occurrences& atom
     return is_surely_irreducible(polynomial, lowest->first, lowest->second.unit);
 }
 
-/// dividend/divisor where it goes without remainder: lexicographic division, the divisor's lead being its first
-/// term.
+/// dividend/divisor if there is no remainder, by lexicographic division; the leading term of the divisor is its
+/// first.
 std::optional<Polynomial> exact_quotient(const Polynomial& dividend, const Polynomial& divisor) {
     const Term& lead = divisor.terms()[0];
     Polynomial rest = dividend;
@@ -96,7 +96,8 @@ bool is_sum_of_squares(const Polynomial& polynomial) {
            polynomial.terms()[0].coefficient * polynomial.terms()[1].coefficient > 0;
 }
 
-/// A polynomial in stand-in symbols, each for the smallest power of an atom that occurs.
+/// Translates a polynomial to substitute symbols, each of which stands for the smallest power of an atom that
+/// occurs.
 class Translation {
 public:
     explicit Translation(const Occurrences& atoms) {
@@ -144,7 +145,7 @@ Polynomial with_positive_lead(const Polynomial& polynomial) {
     return (1 / (polynomial.terms()[0].coefficient < 0 ? Rational(-c) : c)) * polynomial;
 }
 
-/// Of a primitive polynomial with positive lead and no monomial factor.
+/// The factors of a primitive polynomial with positive leading coefficient and without a monomial factor.
 Factorization factors_by_ginac(const Polynomial& polynomial, const Occurrences& atoms) {
     Factorization result;
     const Translation translation(atoms);
@@ -205,7 +206,7 @@ Factorization Factorizer::irreducible_factors(const Polynomial& polynomial) {
         result.sums.emplace_back(polynomial, 1);
     std::sort(result.sums.begin(), result.sums.end(),
               [](const auto& a, const auto& b) { return compare(a.first, b.first) < 0; });
-    // The factors are known up to signs; the product of the leads settles the unit.
+    // The factors are known up to signs; the product of their leading terms determines the sign.
     Polynomial check = Rational(1);
     for (const auto& [sum, exponent] : result.sums) check = check * power(sum, exponent);
     result.unit = polynomial.terms()[0].coefficient / check.terms()[0].coefficient;

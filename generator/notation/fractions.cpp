@@ -12,7 +12,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr std::size_t most_fraction_terms = 40;  // of a numerator
+constexpr std::size_t most_fraction_terms = 40;  // the most terms of a numerator
 
 bool is_momentum(const AtomNode& atom) {
     return atom.kind == AtomNode::Kind::symbol && atom.info.kind == SymbolInfo::Kind::other;
@@ -35,7 +35,7 @@ bool has_rates(const Term& term) {
     });
 }
 
-/// A value of its own for each symbol: the sign of a denominator there is its sign where it is definite.
+/// The value of an expression for fixed values of its symbols. A denominator that is definite has its sign there.
 double number(const ex& e) {
     GiNaC::exmap values;
     const auto gather = [&](const auto& self, const ex& part) -> void {
@@ -43,20 +43,20 @@ double number(const ex& e) {
         for (const ex& inner : part) self(self, inner);
     };
     gather(gather, e);
-    // The order of symbols changes from run to run, so all have one value.
+    // The order of symbols changes from run to run, so all have the same value.
     for (auto& [symbol, value] : values) value = GiNaC::numeric(7, 10);
     const ex value = e.subs(values, GiNaC::subs_options::no_pattern).evalf();
     return GiNaC::is_a<GiNaC::numeric>(value) ? GiNaC::ex_to<GiNaC::numeric>(value).to_double() : 1;
 }
 
-/// One quotient, or nothing where the sum of quotients is as short.
+/// One quotient, or nothing if the sum of quotients is not longer.
 std::optional<Phrase> one_quotient(const Fourier& f, const Symbols& symbols) {
     if (f.size() < 2 || f.size() > most_fraction_terms) return std::nullopt;
     const auto quotient = readable_quotient(in_single_angles(expression(f)), symbols, most_fraction_terms, number);
     return quotient && cost(*quotient) < cost(readable(f)) ? quotient : std::nullopt;
 }
 
-/// The terms of one degree in the momenta.
+/// Writes the terms of one degree in the momenta.
 Phrase of_one_degree(const std::vector<Term>& terms, const Symbols& symbols) {
     std::vector<Term> divided, others;
     for (const Term& term : terms) (is_divided(term) ? divided : others).push_back(term);

@@ -14,8 +14,8 @@ namespace alembert {
 namespace {
 
 constexpr std::uint64_t p = 2147483647;  // 2³¹ − 1 is prime
-constexpr int most_images = 24;          // one in `degree` is irreducible where the polynomial is
-constexpr int highest_tried = 12;        // degree
+constexpr int most_images = 24;          // if the polynomial is irreducible, about one image in `degree` is
+constexpr int highest_tried = 12;        // the highest degree that is tried
 
 std::uint64_t power_mod(std::uint64_t base, std::uint64_t exponent) {
     std::uint64_t result = 1;
@@ -28,21 +28,21 @@ std::uint64_t residue(const cln::cl_I& n) {
     return static_cast<std::uint64_t>(cln::cl_I_to_ulong(cln::mod(n, cln::cl_I(static_cast<unsigned long>(p)))));
 }
 
-/// Nothing where p divides the denominator.
+/// Nothing if p divides the denominator.
 std::optional<std::uint64_t> residue(const Rational& r) {
     const std::uint64_t below = residue(cln::denominator(r));
     if (below == 0) return std::nullopt;
     return residue(cln::numerator(r)) * power_mod(below, p - 2) % p;
 }
 
-/// Coefficients from the constant on; the last is 1 in a divisor.
+/// Coefficients from the constant upwards; in a divisor the last one is 1.
 using Image = std::vector<std::uint64_t>;
 
 void drop_zeros(Image& f) {
     while (!f.empty() && f.back() == 0) f.pop_back();
 }
 
-/// f modulo g, whose lead is 1.
+/// Reduces f modulo g, whose leading coefficient is 1.
 void reduce(Image& f, const Image& g) {
     while (f.size() >= g.size()) {
         const std::uint64_t lead = f.back();
@@ -86,8 +86,8 @@ Image to_the_p(const Image& f, const Image& g) {
     return result;
 }
 
-/// g, of degree 2 at least and with lead 1, has no factor of degree up to half of its own: x^(p^k) − x is the
-/// product of all that are irreducible of a degree that divides k.
+/// Whether g, of degree at least 2 and with leading coefficient 1, has no factor of at most half its degree:
+/// x^(p^k) − x is the product of all that are irreducible of a degree that divides k.
 bool is_irreducible(const Image& g) {
     const Image x{0, 1};
     Image frobenius = x;
@@ -137,7 +137,7 @@ bool is_surely_irreducible(const Polynomial& primitive, const Atom& variable, co
             std::uint64_t c = *coefficient;
             for (const Factor& factor : part.term->monomial) {
                 if (compare(factor.atom, variable) == 0) continue;
-                // A residue need not have a root, so that fractional powers cannot be put in.
+                // A residue need not have a root, so that fractional powers cannot be evaluated.
                 if (cln::denominator(factor.exponent) != 1) return false;
                 const auto [place, is_new] = value.try_emplace(factor.atom, 0);
                 if (is_new) place->second = random() % (p - 1) + 1;

@@ -25,7 +25,7 @@ bool is_fraction(const Phrase& phrase) {
     return phrase.kind == Kind::number && digits(phrase).empty();
 }
 
-/// Needs parentheses that grow.
+/// Whether the phrase needs parentheses that grow with it.
 bool is_tall(const Phrase& phrase) {
     if (phrase.kind == Kind::quotient || is_fraction(phrase)) return true;
     if (phrase.kind == Kind::call && phrase.name == "sqrt") return true;

@@ -5,7 +5,8 @@
 ///
 ///     (m_{1} + m_{2}) l_{1} \ddot{\theta}_{1} + m_{2} l_{2} \dot{\theta}_{2}^{2} \sin(\theta_{1} - \theta_{2})
 ///
-/// Inputs are functions of time here: F(t). Nothing around it: put it into \[ … \] or an align.
+/// Inputs are written as functions of time: F(t). The formula has no delimiters; put it into \[ … \] or an align
+/// environment.
 
 #include <string>
 

@@ -118,7 +118,7 @@ unsigned code_point(std::string_view letter) {
     return value;
 }
 
-/// A letter inside \mathrm{…}; what pdflatex cannot set is named by its number.
+/// A letter inside \mathrm{…}; a letter that pdflatex cannot set is written as its number.
 std::string latex_plain(std::string_view letter) {
     if (letter == "_") return "\\_";
     if (letter.size() == 1) return std::string(letter);

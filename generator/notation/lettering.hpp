@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A scene's names as they are set in print: a letter and an index.
+/// Splits a scene's names into the letter and the index that are set in print.
 ///
 ///     theta1 → θ, 1      m_cart → m, cart      x → x      lambda_rod → λ, rod      speed2 → speed, 2
 ///
@@ -20,10 +20,10 @@ Lettering lettering(const std::string& name);
 /// the name.
 std::string latex_letters(const std::string& letters);
 
-/// True if it is set upright because it has several letters.
+/// True if the stem is set upright because it has several letters.
 bool is_word(const std::string& letters);
 
-/// & < > " escaped.
+/// The text with & < > " escaped.
 std::string xml_escaped(const std::string& text);
 
 }  // namespace alembert

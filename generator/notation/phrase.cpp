@@ -119,7 +119,7 @@ int cost(const Phrase& phrase) {
         case Form::power:
             return result + (phrase.args[0].kind == Form::sum);
         case Form::call: {
-            // sin 2θ is to be read twice
+            // a double angle such as sin 2θ costs more to read
             const Phrase& arg = phrase.args[0];
             const Phrase& first = arg.kind == Form::sum ? arg.args[0] : arg;
             const bool multiple = (phrase.name == "sin" || phrase.name == "cos") && first.kind == Form::product &&
@@ -171,6 +171,11 @@ bool is_decimal(const Rational& value) {
     const cln::cl_I denominator = cln::denominator(value);
     const bool customary = denominator <= 8 || denominator == 16;
     return !customary || cln::abs(cln::numerator(value)) > 32;
+}
+
+bool reads_as_decimal(const Rational& value) {
+    if (is_integer(value) || !is_finite_decimal(value)) return false;
+    return is_decimal(value) || cln::zerop(cln::mod(cln::denominator(value), 5));
 }
 
 std::string digits(const Phrase& number) {

@@ -12,7 +12,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// −(a/2)/d as −a/(2·d)
+/// Writes −(a/2)/d as −a/(2·d).
 Phrase fraction(const Phrase& n, const Phrase& d) {
     if (n.kind == Phrase::Kind::negative) return phrases::negative(fraction(n.args[0], d));
     if (n.kind == Phrase::Kind::quotient) return fraction(n.args[0], phrases::product({n.args[1], d}));

@@ -6,7 +6,7 @@
 ///
 ///     (e−3·cos²α)·v/(1+3·cos²α),   3·S·h/(2·l) − S
 ///
-/// Numerator and denominator are in lowest terms and in factors, angles as in `readable`.
+/// Numerator and denominator are in lowest terms and factored; angles are written as in `readable`.
 
 #include <functional>
 #include <optional>
@@ -16,7 +16,7 @@
 namespace alembert {
 
 /// `number` gives the value of an expression at the scene's numbers; the denominator is written so that it is
-/// positive there. Nothing where a part has more than `most_terms` terms.
+/// positive there. The result is empty if a part has more than `most_terms` terms.
 std::optional<Phrase> readable_quotient(const GiNaC::ex& e, const Symbols& symbols, std::size_t most_terms,
                                         const std::function<double(const GiNaC::ex&)>& number);
 

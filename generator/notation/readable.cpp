@@ -40,7 +40,8 @@ bool is_outside(const AtomNode& atom) {
                                          atom.info.kind == Symbol::definition);
 }
 
-/// What terms without accelerations have in common to be one group; the rest of a term is its coefficient.
+/// Whether an atom belongs to the key by which terms without accelerations are grouped; the rest of a term is its
+/// coefficient.
 bool is_key(const AtomNode& atom) {
     return is_rate(atom) || is_acceleration(atom) || is_opaque(atom) || is_outside(atom);
 }
@@ -56,7 +57,7 @@ Class classify(const Monomial& monomial) {
     return degree > 1 ? Class::quadratic : degree == 1 ? Class::linear : Class::position;
 }
 
-/// [sin θ]^(−3), a base, is sin θ to the power −3 where sines are variables.
+/// Replaces a base such as [sin θ]^(−3) by sin θ to the power −3, because sines count as variables here.
 Monomial resolve_bases(const Monomial& monomial) {
     Monomial result;
     for (const Factor& factor : monomial) {
@@ -99,7 +100,7 @@ public:
         return result;
     }
 
-    /// Energies: m·(x′² + y′²)/2, and a positive term first.
+    /// The lines of an energy: m·(x′² + y′²)/2, with a positive term first.
     Lines energy_lines(const Fourier& f) {
         Lines separate = lines(f);
         Lines result;
@@ -146,8 +147,8 @@ private:
         return result;
     }
 
-    /// One group as terms of the outermost sum: an acceleration keeps one coefficient, the others are split or
-    /// factored, whatever is shortest.
+    /// Writes one group as terms of the outermost sum. An acceleration keeps one coefficient; the other groups are
+    /// split or factored, whichever is shortest.
     Lines split(const Polynomial& group) {
         if (group.size() == 1) return {group};
         const Class kind = classify(group.terms()[0].monomial);
@@ -180,7 +181,7 @@ private:
         return std::move(*best);
     }
 
-    /// A line for each product of state variables; constants that have nothing in common stand alone.
+    /// A line for each product of state variables; constants that have nothing in common have lines of their own.
     Lines by_state(const Polynomial& group) {
         Lines result;
         for (const Polynomial& line : partition(group, [](const AtomNode& atom) { return !atom.steady; })) {
@@ -192,7 +193,8 @@ private:
         return result;
     }
 
-    /// k·(r−l0), m·g·l·(1−cos θ), (x1−x2)²; but not k·(2·x1−x2), a·(sin θ+sin ψ) nor (r·ω²·cos θ−g)·sin θ.
+    /// Whether a group may stay one factored term: k·(r−l0), m·g·l·(1−cos θ), (x1−x2)² may, but not k·(2·x1−x2),
+    /// a·(sin θ+sin ψ) or (r·ω²·cos θ−g)·sin θ.
     bool may_stand_as_one(const Polynomial& group) {
         if (group.size() == 1) return true;
         if (has_own_denominators(group)) return false;
@@ -320,7 +322,7 @@ Phrase readable(const Fourier& f) {
     return writer.write(writer.energy_lines(f));
 }
 
-ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs) {
+ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs, const std::optional<SymbolInfo>& own) {
     const bool decimals = has_decimals(lhs) || has_decimals(rhs);
     Writer writer(decimals);
     Factorizer& factorizer = writer.composer().factorizer();
@@ -330,7 +332,11 @@ ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs) {
     Lines left = writer.lines(first_side), right = writer.lines(second_side);
     Rational scale = decimals ? Rational(1) : common_number(left, right);
     const Lines& first = left.empty() ? right : left;
-    if (!first.empty() && writer.composer()(first[0]).kind == Phrase::Kind::negative) scale = -scale;
+    const bool has_own = own && std::any_of(left.begin(), left.end(), [&](const Polynomial& line) {
+                             const Monomial acceleration = part(line.terms()[0].monomial, is_acceleration);
+                             return !acceleration.empty() && acceleration[0].atom->info.rank == own->rank;
+                         });
+    if (!has_own && !first.empty() && writer.composer()(first[0]).kind == Phrase::Kind::negative) scale = -scale;
     for (Lines* side : {&left, &right})
         for (Polynomial& line : *side) line = (1 / scale) * line;
     ReadableEquation result{writer.write(left), writer.write(right), {}};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Normal forms as a textbook prints them.
+/// Writes normal forms as a textbook prints them.
 ///
 ///     readable(T)                 (m1+m2)·l1²·θ1′²/2 + m2·l2²·θ2′²/2 + m2·l1·l2·θ1′·θ2′·cos(θ1−θ2)
 ///     readable_equation(lhs, Q)   (m1+m2)·l1·θ1″ + m2·l2·θ2″·cos(θ1−θ2) + m2·l2·θ2′²·sin(θ1−θ2) + (m1+m2)·g·sin
@@ -9,8 +9,9 @@
 ///                                   = F·cos θ1,    divided by l1
 ///
 /// Terms are sorted: accelerations in the order of the coordinates, squares and products of rates, single rates,
-/// positions (gravity before springs). An equation is divided by what all its coefficients have in common, but
-/// never by anything that depends on the state, on time or on inputs; its first acceleration is positive.
+/// positions (gravity before springs). An equation is divided by the common factor of all its coefficients, but
+/// never by anything that depends on the state, on time or on inputs. A row in which its own acceleration stands
+/// keeps its sign, so that this acceleration has a positive inertia; elsewhere the first term is positive.
 /// Fractions are cleared; decimals stay decimals.
 
 #include <optional>
@@ -25,10 +26,12 @@ Phrase readable(const Fourier& f);
 
 struct ReadableEquation {
     Phrase lhs, rhs;
-    std::optional<Phrase> divided_by;  ///< none where nothing was divided out
+    std::optional<Phrase> divided_by;  ///< none if nothing was divided out
 };
 
-/// `lhs` holds inertia, potential and dissipation, `rhs` the applied forces.
-ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs);
+/// `lhs` holds inertia, potential and dissipation, `rhs` the applied forces. `own`: the acceleration of the row's
+/// own coordinate or speed, whose coefficient is an inertia and so positive.
+ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs,
+                                   const std::optional<SymbolInfo>& own = {});
 
 }  // namespace alembert

@@ -57,7 +57,7 @@ std::string write_product(const Phrase& phrase) {
     return result;
 }
 
-/// As the scene language calls a function of GiNaC.
+/// The scene language's name of a function of GiNaC.
 std::string language_name(const std::string& name) {
     return name == "csgn" ? "sign" : name == "minimum" ? "min" : name == "maximum" ? "max" : name;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A formula in the expression language of a scene: what is printed can be typed into a claim.
+/// A formula in the expression language of a scene, so that it can be copied into a claim.
 ///
 ///     (m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2)
 
@@ -11,7 +11,7 @@
 
 namespace alembert {
 
-/// Blanks stand around the signs of the outermost sum only.
+/// There are blanks around the signs of the outermost sum only.
 std::string text(const Phrase& phrase);
 
 }  // namespace alembert

@@ -144,8 +144,7 @@ private:
             .kind = budget ? FailureKind::budget_used_up : FailureKind::step_underflow,
             .message = budget
                            ? fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; "
-                                         "raise the budget, "
-                                         "loosen the tolerance or shorten the duration",
+                                         "raise the budget, loosen the tolerance or shorten the duration",
                                          system_.options.budget, t)
                            : fmt::format("{} gave up at t = {:.17g} with {}; loosen the tolerance, or take radau",
                                          by_.name, t, by_.meaning(flag)),

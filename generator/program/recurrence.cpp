@@ -145,8 +145,7 @@ std::optional<std::string> obstacle_to_recurrences(const Program& program, bool 
         if (node.op == Op::abs || node.op == Op::sign || node.op == Op::min || node.op == Op::max)
             return fmt::format(
                 "method 'taylor' needs functions that have a power series everywhere, and {}(...) has a kink; "
-                "take "
-                "dop853",
+                "take dop853",
                 name_of(node.op));
         if (node.op == Op::variable && node.variable.kind == Variable::Kind::unknown)
             return "method 'taylor': the equations name something that no state gives; take dop853";

@@ -116,7 +116,7 @@ Json as_json(const DerivedScene& d) {
             result["kinematics"].push_back(
                 {{"text", text(rate) + " = " + text(value)}, {"latex", latex(rate) + " = " + latex(value)}});
     }
-    for (const auto* list : {&shown.speeds, &shown.definitions})
+    for (const auto* list : {&shown.speeds, &shown.definitions, &shown.abbreviations})
         for (const auto& [name, value] : *list)
             result["definitions"].push_back({{"name", text(name)}, {"text", text(value)}});
     for (const Statement& s : d.joint_loads) result["joint_reactions"][s.of][s.letter] = text(s.value);
@@ -154,6 +154,11 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
                       {}});
     for (const ReadableEquation& e : shown.equations)
         blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    if (!shown.abbreviations.empty()) {
+        blocks.push_back({"with the scene's definitions:", {}});
+        for (const auto& [name, value] : shown.abbreviations)
+            blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
+    }
     if (shown.has_unit_quaternions)
         blocks.push_back({"e.e = 1 of each quaternion e has been used in all terms, after differentiation.", {}});
     for (const Phrase& positive : shown.positive)

@@ -14,8 +14,6 @@ using Eigen::Vector3d;
 using Element = FigureElement::Kind;
 using Kind = FigureShape::Kind;
 
-constexpr double margin = 58;  // for labels and hatching, on the screen
-
 /// Of a point alone, moved on the screen.
 FigureVertex at(int a, double right = 0, double down = 0, bool begins = false) {
     return {.a = a, .along = right, .across = down, .begins = begins};
@@ -32,8 +30,7 @@ class Strokes {
 public:
     Strokes(const Drawing& drawing, const std::vector<Pose>& poses, const std::vector<std::vector<double>>& q)
         : d_(drawing), poses_(poses), q_(q) {
-        choose_view();
-        fit();
+        static_cast<FigureView&>(f_) = figure_view(drawing, poses);
     }
 
     FigureShapes all() {
@@ -67,132 +64,6 @@ private:
             default:
                 return 1;
         }
-    }
-
-    void choose_view() {
-        f_.is_plane = d_.is_plane;
-        Vector3d up = -d_.down;
-        if (d_.is_plane) {
-            int axis = d_.normal == 2 ? 1 : 2;
-            double sign = 1;
-            for (int k = 0; k < 3; ++k)
-                if (k != d_.normal && std::abs(up[k]) > 0.7) {
-                    axis = k;
-                    sign = up[k] > 0 ? 1 : -1;
-                }
-            const int other = 3 - axis - d_.normal;
-            f_.up = sign * Vector3d::Unit(axis);
-            f_.right = Vector3d::Unit(other);
-            f_.toward = f_.right.cross(f_.up);
-            return;
-        }
-        int axis = 2;
-        for (int k = 0; k < 3; ++k)
-            if (std::abs(up[k]) > 0.7) axis = k;
-        const Vector3d vertical = up[axis] < 0 ? Vector3d(-Vector3d::Unit(axis)) : Vector3d(Vector3d::Unit(axis));
-        const Vector3d first = Vector3d::Unit((axis + 1) % 3), second = vertical.cross(first);
-        const double azimuth = -0.9, elevation = 0.35;
-        const Vector3d out = std::cos(azimuth) * first + std::sin(azimuth) * second;
-        f_.right = -std::sin(azimuth) * first + std::cos(azimuth) * second;
-        f_.up = -std::sin(elevation) * out + std::cos(elevation) * vertical;
-        f_.toward = std::cos(elevation) * out + std::sin(elevation) * vertical;
-    }
-
-    /// Points that the picture must hold.
-    std::vector<int> shown() const {
-        std::vector<int> points;
-        for (const FigureElement& e : d_.elements) {
-            if (e.kind == Element::length) {
-                points.insert(points.end(), e.points.begin(), e.points.begin() + 2);
-                continue;
-            }
-            const bool first_alone = e.kind == Element::block || e.kind == Element::force ||
-                                     e.kind == Element::impulse || e.kind == Element::torque;
-            if (e.kind == Element::gravity || e.kind == Element::axes || e.kind == Element::angle ||
-                e.kind == Element::guide || e.kind == Element::box || e.kind == Element::wall)
-                continue;
-            if (e.kind == Element::floor) {
-                points.push_back(e.points[3]);
-                continue;
-            }
-            points.insert(points.end(), e.points.begin(), first_alone ? e.points.begin() + 1 : e.points.end());
-        }
-        return points;
-    }
-
-    Vector3d middle(const Pose& pose) const {
-        Vector3d sum = Vector3d::Zero();
-        for (const int k : f_.followed) sum += pose[k];
-        return f_.followed.empty() ? sum : Vector3d(sum / static_cast<double>(f_.followed.size()));
-    }
-
-    struct Extent {
-        Vector3d low = Vector3d::Constant(1e300), high = Vector3d::Constant(-1e300);
-        void hold(const Vector3d& p) {
-            if (!p.allFinite()) return;
-            low = low.cwiseMin(p);
-            high = high.cwiseMax(p);
-        }
-        Vector3d size() const { return (high - low).cwiseMax(0); }
-    };
-
-    Extent extent_of(const Pose& pose, const std::vector<int>& points, const Vector3d& origin) const {
-        Extent extent;
-        for (const int k : points) {
-            const Vector3d p = pose[k] - origin;
-            extent.hold({p.dot(f_.right), p.dot(f_.up), p.dot(f_.toward)});
-        }
-        for (const FigureElement& e : d_.elements)
-            if (e.kind == Element::ring || e.kind == Element::ball || e.kind == Element::box) {
-                const Vector3d p = pose[e.points[0]] - origin;
-                const Vector3d c(p.dot(f_.right), p.dot(f_.up), p.dot(f_.toward));
-                double size = e.size;
-                for (std::size_t k = 1; k < e.points.size(); ++k)
-                    size = std::max(size, (pose[e.points[k]] - pose[e.points[0]]).norm());
-                extent.hold(c + Vector3d::Constant(size));
-                extent.hold(c - Vector3d::Constant(size));
-            }
-        return extent;
-    }
-
-    void fit() {
-        const std::vector<int> points = shown();
-        Extent whole;
-        double own = 0;
-        for (const Pose& pose : poses_) {
-            const Extent here = extent_of(pose, points, Vector3d::Zero());
-            whole.hold(here.low);
-            whole.hold(here.high);
-            own = std::max(own, here.size().norm());
-        }
-        const bool has_floor = std::any_of(d_.elements.begin(), d_.elements.end(), [](const FigureElement& e) {
-            return e.kind == Element::floor && e.size == 0;
-        });
-        f_.followed = d_.traced;
-        if (poses_.size() > 1 && own > 0 && whole.size().norm() > 4 * own && !has_floor) {
-            f_.follows = true;
-            whole = {};
-            for (const Pose& pose : poses_) {
-                const Extent here = extent_of(pose, points, middle(pose));
-                whole.hold(here.low);
-                whole.hold(here.high);
-            }
-        }
-        Vector3d size = whole.size();
-        if (!(size.norm() > 0)) size = Vector3d::Constant(1);
-        Vector3d centre = (whole.low + whole.high) / 2;
-        if (!centre.allFinite()) centre.setZero();
-        if (!f_.is_plane) {
-            const double half = size.norm() / 2;
-            f_.height = 360;
-            f_.scale = (f_.height / 2 - margin / 2) / half;
-        } else {
-            f_.height = std::clamp(f_.width * (size[1] + 1e-9) / (size[0] + 1e-9), 230.0, 400.0);
-            f_.scale = std::min((f_.width - 2 * margin) / std::max(size[0], 1e-9),
-                                (f_.height - 2 * margin) / std::max(size[1], 1e-9));
-            f_.scale = std::min(f_.scale, 0.6 * f_.width / size.norm());
-        }
-        f_.centre = centre[0] * f_.right + centre[1] * f_.up + centre[2] * f_.toward;
     }
 
     Vector2d screen(const Vector3d& p) const { return {p.dot(f_.right) * f_.scale, -p.dot(f_.up) * f_.scale}; }

@@ -9,7 +9,7 @@
 /// A stroke's vertices hang on points of a pose, so that the strokes of one drawing serve all its poses: in this
 /// program for a picture, and in the page's script for the animation, which does the same arithmetic.
 
-#include "figure/drawing.hpp"
+#include "report/figure_view.hpp"
 #include "report/json.hpp"
 
 namespace alembert {
@@ -48,14 +48,8 @@ struct FigureShape {
     double most = 0;         ///< or not nearer than this; 0: no bound
 };
 
-struct FigureShapes {
+struct FigureShapes : FigureView {
     std::vector<FigureShape> shapes = {};
-    double width = 480, height = 360, scale = 1;
-    Eigen::Vector3d centre{0, 0, 0};
-    Eigen::Vector3d right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};  ///< the view
-    bool is_plane = true;
-    bool follows = false;  ///< the view moves with the masses
-    std::vector<int> followed = {};
 };
 
 /// Scaled so that all poses fit. `q`: the coordinates at each pose, which arcs follow. There is one pose at least.

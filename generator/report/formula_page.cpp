@@ -157,6 +157,7 @@ Component component_of(const std::string& letter) {
 
 std::string latex_letter(const std::string& letter) {
     if (letter == "L'") return "\\dot{L}";
+    if (letter.ends_with('*')) return letter.substr(0, letter.size() - 1) + "^{*}";
     const Component c = component_of(letter);
     return c.index.empty() ? c.latex
                            : c.latex + "_" + (c.index.size() == 1 ? c.index : "{\\text{" + c.index + "}}");

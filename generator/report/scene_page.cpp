@@ -85,9 +85,8 @@ std::string error_page(const std::string& file, const std::string& message) {
     std::string page = head("There is a mistake in " + file, false);
     put(page,
         "<header><h1>The scene has a mistake</h1></header>\n<main id=\"main\"><section>\n<p>alembert cannot read "
-        "<code>{}</code>. It says:</p>\n<pre class=\"problem\" role=\"alert\">{}</pre>\n<p>Repair this and make "
-        "the "
-        "page again.</p>\n</section></main>\n</body>\n</html>\n",
+        "<code>{}</code>. It says:</p>\n<pre class=\"problem\" role=\"alert\">{}</pre>\n"
+        "<p>Repair this and make the page again.</p>\n</section></main>\n</body>\n</html>\n",
         html(file), html(message));
     return page;
 }

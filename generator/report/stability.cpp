@@ -48,6 +48,12 @@ Json as_json(const Stability& s) {
         for (std::size_t k = 0; k < s.states.size(); ++k) result["start"][s.states[k]] = s.periodic_start[k];
     }
     result["certain"] = s.certain;
+    if (s.lyapunov)
+        result["lyapunov"] = {
+            {"function", s.lyapunov->function}, {"rate", s.lyapunov->rate},
+            {"sign", s.lyapunov->sign},         {"rate_sign", s.lyapunov->rate_sign},
+            {"set", s.lyapunov->set},           {"method", s.lyapunov->sampled ? "sampled" : "exact"},
+            {"samples", s.lyapunov->samples}};
     result["conditions"] = s.conditions;
     result["conditions_for"] = s.conditions_for;
     if (!s.routh.empty()) result["routh"] = s.routh;
@@ -74,6 +80,12 @@ std::string as_text(const Stability& s) {
             s.near && !s.near->matrices.cyclic.empty()
                 ? fmt::format(" (not {}, which nothing depends on)", fmt::join(s.near->matrices.cyclic, ", "))
                 : "");
+    if (s.lyapunov) {
+        put(page, "\nV = {}: {}\n", s.lyapunov->function, s.lyapunov->sign);
+        put(page, "dV/dt{}: {}\n", s.lyapunov->rate.empty() ? "" : " = " + s.lyapunov->rate,
+            s.lyapunov->rate_sign);
+        if (!s.lyapunov->set.empty()) put(page, "dV/dt is zero where {}\n", s.lyapunov->set);
+    }
     if (!s.multipliers.empty()) {
         put(page, "\nPeriod {:.16g} s, multipliers over it:\n\n{:>24}{:>24}{:>20}{:>12}\n", s.period, "real",
             "imaginary", "size", "radius");

@@ -39,14 +39,12 @@ std::string refusal_of(const Mechanism::Friction& f, const Program& p, double t,
     if (!f.multiplier)
         return fmt::format(
             "the normal force of friction '{}' becomes negative at t = {:.15g}; give one that is never negative, "
-            "such "
-            "as max(0, …), or abs(…) where it acts on both sides (there {})",
+            "such as max(0, …), or abs(…) where it acts on both sides (there {})",
             f.name, t, numbers);
     return fmt::format(
         "at t = {:.15g} no mode of friction '{}' is consistent, or more than one is: the determinant of the "
-        "equation "
-        "for {} is not positive there, so that friction makes the reaction grow faster than the reaction resists "
-        "(Painlevé); a smaller coefficient has a motion there ({})",
+        "equation for {} is not positive there, so that friction makes the reaction grow faster than the "
+        "reaction resists (Painlevé); a smaller coefficient has a motion there ({})",
         t, f.name, f.multiplier->get_name(), numbers);
 }
 

@@ -33,8 +33,7 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         if (steps >= many_steps && !inseparable(d))
             return {.method = Method::kahanli8,
                     .why = fmt::format("a fixed step was asked for, forces depend on positions alone, and in "
-                                       "{:.0f} steps the energy must "
-                                       "not drift",
+                                       "{:.0f} steps the energy must not drift",
                                        steps)};
         return {.method = Method::rk4, .why = "a fixed step was asked for"};
     }
@@ -62,13 +61,13 @@ std::string name_given(const RunOptions& request, const Derived& d) {
 
 std::optional<Method> given_method(const RunOptions& request, const Derived& d) {
     const std::string given = name_given(request, d);
-    if (given == "auto") return std::nullopt;
+    if (given == automatic_method) return std::nullopt;
     const auto known = method_named(given);
     if (is_sundials(given))
         throw ModelError(fmt::format("method '{}' is one of 'simulate' alone; take bdf or radau", given));
     if (!known)
-        throw ModelError(
-            fmt::format("unknown method '{}'; expected auto, {}; or cvode, ida", given, method_names()));
+        throw ModelError(fmt::format("unknown method '{}'; expected {}, {}; or {}", given, automatic_method,
+                                     method_names(), fmt::join(sundials_methods(), ", ")));
     if (needs_separable(*known)) need_separable(d, given);
     if (needs_canonical(*known)) need_canonical(d, given);
     return known;
@@ -84,8 +83,7 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
         if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))
             throw ModelError(
                 fmt::format("a step of {:g} s was asked for, but {} chooses its own steps; give a tolerance, or a "
-                            "method with fixed "
-                            "steps (rk4, gauss, kahanli8 …)",
+                            "method with fixed steps (rk4, gauss, kahanli8 …)",
                             request.step, name));
         return {.method = *given};
     }

@@ -51,8 +51,7 @@ Peers measure_peers(const PeerRequest& request, const std::function<double(const
         return {.runs = {},
                 .missing =
                     "alembert-peers is not beside this program; it is built where CMake finds libsundials-dev, "
-                    "libgsl-dev "
-                    "or libboost-dev (Debian)"};
+                    "libgsl-dev or libboost-dev (Debian)"};
     const Leftover task(new_file());
     {
         std::ofstream out(task.path());

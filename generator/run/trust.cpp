@@ -69,9 +69,8 @@ std::vector<std::string> doubts(const Evidence& e) {
         distance < near && e.precision > two_digits * distance)
         reasons.push_back(
             fmt::format("the motion passes a singular pose of its coordinates (as in gimbal lock) at a relative "
-                        "distance of {:.1e}, where "
-                        "rates magnify an error of {:.1e} to {:.1e}; other coordinates, or a quaternion, have no "
-                        "such pose there",
+                        "distance of {:.1e}, where rates magnify an error of {:.1e} to {:.1e}; other "
+                        "coordinates, or a quaternion, have no such pose there",
                         distance, e.precision, distance > 0 ? e.precision / distance : HUGE_VAL));
     if (const QuickTime* const q = quickest(e.inputs); q != nullptr && e.fixed_step > q->step)
         reasons.push_back(

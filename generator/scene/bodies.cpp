@@ -10,7 +10,7 @@
 namespace alembert {
 namespace {
 
-/// `at = "P"`, or `key` (a vector) with `from` and `axes`.
+/// Reads `at = "P"`, or `key` (a vector) with `from` and `axes`.
 Position read_position(const Table& table, std::string_view key, bool has_at) {
     Position position;
     position.offset.place = table.place();
@@ -49,7 +49,7 @@ std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& 
     return rotation;
 }
 
-/// Four names, or none where they are told to be wrong.
+/// Reads four names; none if they are wrong, which is then reported.
 std::vector<Name> read_quaternion(const Table& table) {
     const toml::node& node = *table.find("quaternion")->node;
     const toml::array* const list = node.as_array();

@@ -145,7 +145,13 @@ private:
     }
 
     void check_masses() {
-        const Legal mass{.subject = "a mass"}, moment{.subject = "a moment of inertia"};
+        const Legal mass{
+            .subject = "a mass",
+            .if_changing =
+                "; a body whose mass changes is no closed system, and its equation depends on the "
+                "velocity of what leaves or joins it: with kinetic = \"(m0 - k*t)*x'^2/2\" in [energy] "
+                "that has no velocity, (m x')' = F; otherwise give the thrust as a [[force]]"},
+            moment{.subject = "a moment of inertia"};
         if (scene_.gravity) check(*scene_.gravity, {.subject = "gravity", .input_order = 2, .time = true});
         for (const Particle& particle : scene_.particles) {
             quantities_.check(particle.mass, mass);
@@ -363,8 +369,39 @@ private:
                                                      in_quotes(name.text), described(declared->kind)));
                 more.insert(name.text);
             }
+        for (const auto& [name, value] : claim.near) {
+            const bool is_rate = name.text.ends_with('\'');
+            const std::string of = is_rate ? name.text.substr(0, name.text.size() - 1) : name.text;
+            const Declared* const declared = NameSpaces::find(names_.values, of);
+            if (declared == nullptr)
+                complain(name.place, fmt::format("unknown name {}; expected a coordinate", in_quotes(of)));
+            else if (declared->kind != Declared::Kind::coordinate)
+                complain(name.place, fmt::format("'near' gives the values of coordinates, and of rates as \"x'\"; "
+                                                 "{} is {}",
+                                                 in_quotes(of), described(declared->kind)));
+            quantities_.check(value, {.subject = "a state that a claim is held near"});
+        }
+        if (claim.at == "solution" && claim.equation.lhs.tree) {
+            const Tree& left = *claim.equation.lhs.tree;
+            const Declared* const declared =
+                left.kind == Tree::Kind::name ? NameSpaces::find(names_.values, left.text) : nullptr;
+            if (left.kind == Tree::Kind::name && declared == nullptr)
+                complain(
+                    claim.equation.lhs.place(),
+                    fmt::format("unknown name {}; expected a coordinate or a multiplier", in_quotes(left.text)));
+            else if (declared == nullptr || left.primes > 0 ||
+                     (declared->kind != Declared::Kind::coordinate &&
+                      declared->kind != Declared::Kind::multiplier))
+                complain(
+                    claim.equation.lhs.place(),
+                    "a claim at \"solution\" has the name of a coordinate or a multiplier on its left, and on its "
+                    "right what this is in the course of time: x = x0*cos(w*t)");
+            quantities_.check(claim.equation.rhs,
+                              {.subject = "a solution", .input_order = 2, .time = true, .more = &more});
+            return;
+        }
         const Legal anything{.subject = "a claim",
-                             .order = 2,
+                             .order = claim.at == "motion" ? 3 : 2,
                              .input_order = 2,
                              .time = true,
                              .advice = {},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What can be known of a scene without algebra: every name declared once and known where it is used, nothing
-/// defined by itself, every quantity made only of what it may depend on, vectors and scalars where they belong.
+/// Checks that need no algebra: every name is declared once and known where it is used, nothing is defined by
+/// itself, every quantity depends only on what it may depend on, and vectors and scalars stand where they belong.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace alembert {
 
 std::vector<Diagnostic> check_scene(const Scene& scene);
 
-/// The same of the claims alone, of a scene that has been read.
+/// The same checks for the claims only, of a scene that has been read already.
 std::vector<Diagnostic> check_claims(const Scene& scene);
 
 }  // namespace alembert

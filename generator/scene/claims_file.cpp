@@ -34,6 +34,26 @@ std::vector<Word> words_of(const std::string& line) {
     return words;
 }
 
+/// Of "near theta = 0, phi = pi/2", from the first name on.
+std::vector<std::pair<Name, Expression>> values_after(const std::string& line, std::size_t offset,
+                                                      const SourceText& source, std::size_t begin,
+                                                      std::vector<Diagnostic>& mistakes) {
+    std::vector<std::pair<Name, Expression>> result;
+    for (std::size_t from = offset; from < line.size();) {
+        std::size_t end = from;  // of this value: a comma outside parentheses
+        for (int depth = 0; end < line.size() && (line[end] != ',' || depth > 0); ++end)
+            depth += line[end] == '(' ? 1 : line[end] == ')' ? -1 : 0;
+        std::vector<Place> places;
+        for (std::size_t k = from; k <= end; ++k) places.push_back(source.place(begin + k));
+        const Equality value = parse_equality(line.substr(from, end - from), places, mistakes, false);
+        std::string name = value.lhs.text;
+        while (!name.empty() && is_blank(name.back())) name.pop_back();
+        result.emplace_back(Name{std::move(name), places.front()}, value.rhs);
+        for (from = end + 1; from < line.size() && is_blank(line[from]);) ++from;
+    }
+    return result;
+}
+
 }  // namespace
 
 Scene with_claims(Scene scene, const std::string& file) {
@@ -50,6 +70,7 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
 
     std::vector<Name> unknowns, constants;
     std::string at = "motion";
+    std::vector<std::pair<Name, Expression>> near;
     std::istringstream lines(result.text);
     const SourceText source(result.text);
     std::size_t begin = 0, next = 0;
@@ -70,13 +91,21 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
                     {source.place(begin), fmt::format("'{}' names nothing; expected names after it", first)});
             continue;
         }
-        if (!is_equation && words.size() == 1 && (first == "rest" || first == "impact" || first == "motion")) {
+        if (!is_equation && words.size() == 1 &&
+            (first == "rest" || first == "impact" || first == "motion" || first == "solution")) {
             at = first;
+            near.clear();
+            continue;
+        }
+        if (is_equation && first == "near" && words.size() > 1) {
+            at = "near";
+            near = values_after(line, words[1].offset, source, begin, mistakes);
             continue;
         }
         Claim claim;
         claim.place = source.place(begin + words[0].offset);
         claim.at = at;
+        claim.near = near;
         claim.unknowns = unknowns;
         claim.constants = constants;
         std::vector<Place> places;

@@ -14,10 +14,10 @@
 namespace alembert {
 
 /// The scene with the file's claims in place of its own. Its file and text become those of the claims, for
-/// messages. Throws SceneError for what cannot be read, with its line.
+/// messages. Throws SceneError, with the line, for anything that cannot be read.
 Scene with_claims(Scene scene, const std::string& file);
 
-/// The same from a text already in memory; `file` is only what messages call it.
+/// The same from a text in memory; `file` is only the name that messages give it.
 Scene with_claims(Scene scene, std::string text, std::string file);
 
 }  // namespace alembert

@@ -7,7 +7,7 @@
 //     power    = primary ("^" exponent)?            exponent = ("-" | "+") exponent | power
 //     primary  = number | name primes? | function "(" sum ("," sum)* ")" | "(" sum ")" primes?
 //
-// Sums and products are flat, so that only nesting costs depth.
+// Sums and products are flat, so that only nesting adds depth.
 
 #include "scene/expression.hpp"
 
@@ -33,11 +33,11 @@ constexpr std::size_t longest_expression = 64 * 1024;
 constexpr int most_levels = 200;
 constexpr double most_exponent = 64;
 
-/// A subexpression, with what is known of it without any algebra.
+/// A subexpression, with what is known about it without algebra.
 struct Operand {
     TreePtr tree;
-    std::optional<double> value;  ///< where it is made of numbers alone
-    double exponent = 1;          ///< product of the whole exponents directly above its base
+    std::optional<double> value;  ///< its value, if it consists of numbers only
+    double exponent = 1;          ///< the product of the whole exponents directly above its base
 };
 
 class Parser {
@@ -162,7 +162,7 @@ private:
         return negated(minus, begin, exponent());
     }
 
-    /// The whole exponents over the base, multiplied where one power stands directly on another.
+    /// The whole exponent of the base; exponents are multiplied if one power stands directly on another.
     static double whole_exponent(const Operand& base, const Operand& exponent, int offset) {
         if (!exponent.value || *exponent.value != std::floor(*exponent.value)) return base.exponent;
         const double whole = *exponent.value;
@@ -189,8 +189,8 @@ private:
         refuse_missing_operand(words_);
     }
 
-    /// Of a name that may be a quantity's too, a parenthesis makes a function, behind primes as well (which are
-    /// refused then; x'(-) is no call).
+    /// A name that may also be that of a quantity is a function if a parenthesis follows, even after primes, which
+    /// are then refused; x'(-) is no call.
     bool is_call() const {
         const std::string word = words_.word(now());
         if (is_reserved_function(word) || Words::is(words_.ahead(1), '(')) return true;
@@ -209,8 +209,9 @@ private:
 
     int primes() {
         if (now().kind != Token::Kind::primes) return 0;
-        if (now().length > 2)
-            stop(now().offset, "at most two primes: mechanics knows rates and accelerations only");
+        if (now().length > 3)
+            stop(now().offset,
+                 "at most three primes: third derivatives are the highest, and stand in claims alone");
         return words_.tokens[words_.at++].length;
     }
 

@@ -40,8 +40,8 @@ struct Tree {
     int length = 0;
 };
 
-/// An expression as written, where it was written, and what it says. `tree` is null only where the key was
-/// missing in the scene.
+/// An expression as text, its place in the file, and its tree. `tree` is null only if the key was missing in the
+/// scene.
 struct Expression {
     std::string text;
     std::vector<Place> places;  ///< place in the file of each byte of `text`, and one past the end
@@ -52,8 +52,8 @@ struct Expression {
     }
 };
 
-/// Parses one expression. Mistakes are appended to `diagnostics` (then the result's tree is null).
-/// `places` as in Expression; may be empty. Limits: 64 KiB, 200 levels of nesting, whole exponents up to 64.
+/// Parses one expression. Mistakes are appended to `diagnostics`, and the result's tree is then null. `places` is
+/// as in Expression and may be empty. The limits are 64 KiB, 200 levels of nesting, and whole exponents up to 64.
 Expression parse_expression(std::string text, std::vector<Place> places, std::vector<Diagnostic>& diagnostics);
 
 /// An equation `lhs = rhs` (exactly one `=`).
@@ -61,15 +61,16 @@ struct Equality {
     Expression lhs, rhs;
 };
 
-/// `lhs = rhs` without needless blanks.
+/// The text `lhs = rhs` without superfluous blanks.
 std::string text_of(const Equality& equation);
 
-/// With `rates_before`, `x'(-)` (the rate before an impact) is read: a call named `(-)` of the name x with one
-/// prime.
+/// With `rates_before`, `x'(-)`, the rate before an impact, is allowed: it becomes a call named `(-)` whose
+/// argument is the name x with one prime.
 Equality parse_equality(const std::string& text, const std::vector<Place>& places,
                         std::vector<Diagnostic>& diagnostics, bool rates_before = false);
 
-/// The scalar functions of one argument, of two, and the vector functions; for reserved names and for hints.
+/// The names of the scalar functions of one argument, of those of two arguments, and of the vector functions, for
+/// reserved names and for hints.
 const std::vector<std::string>& function_names();
 
 }  // namespace alembert

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The functions of the expression language: how many arguments, of what, giving what.
+/// The functions of the expression language: the number and kind of their arguments and the kind of their value.
 
 #include <string_view>
 
@@ -13,15 +13,15 @@ struct Function {
     int least, most;  ///< number of arguments
     Takes takes;
     bool gives_vector;
-    std::string_view usage;  ///< as a hint shows it
-    int order = 0;           ///< of the geometry: how many times the coordinates are differentiated
+    std::string_view usage;  ///< the call as hints show it
+    int order = 0;           ///< of functions of the geometry: how often the coordinates are differentiated
 };
 
-/// Null where there is no such function.
+/// Null if there is no such function.
 const Function* find_function(std::string_view name);
 
-/// Functions of numbers keep their names for themselves. Those of the geometry (omega, ex, pos …) are functions
-/// only before a parenthesis; elsewhere the name is free for a parameter, a coordinate or a definition.
+/// The names of functions of numbers are reserved. Those of geometric functions (omega, ex, pos …) mean functions
+/// only before a parenthesis; otherwise they may name a parameter, a coordinate or a definition.
 bool is_reserved_function(std::string_view name);
 
 }  // namespace alembert

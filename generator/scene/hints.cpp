@@ -15,7 +15,7 @@ constexpr const char* about_commas =
     "a comma stands only between the arguments of a function; the decimal sign is a point";
 constexpr const char* about_primes = "a prime stands right after a name or a parenthesis: x' or (…)'";
 
-/// The parenthesis that begins here, as written; `(…)` where it is long or never closed.
+/// The text of the parenthesis that begins here; `(…)` if it is long or never closed.
 std::string argument_text(const Words& words) {
     const int begin = words.now().offset;
     int open = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// How joints move: one row for each type. The number of coordinates, their meaning in words, which keys a joint
-/// has and how many rows close a loop follow from the row; so do the geometry and the closing conditions
-/// (model/joints.hpp).
+/// The moves that joints allow: one row of a table for each type. From the row follow the number of coordinates,
+/// their meaning in words, the keys of the joint, the number of rows that close a loop, and the geometry and the
+/// closing conditions (model/joints.hpp).
 ///
 ///     moves_of(Joint::Type::cylindrical).moves      // turn about the axis, shift along it
 ///     locked_directions(Joint::Type::cylindrical)   // 4
@@ -16,14 +16,14 @@
 
 namespace alembert {
 
-/// What one coordinate does; a turn in space has three angles, or the four of a quaternion.
+/// The move of one coordinate. A turn in space has three angles, or the four coordinates of a quaternion.
 struct Move {
     enum class Kind {
         turn,
         shift,
         turn_in_space,
         screw
-    };  ///< of a screw, the shift that comes with the turn: no coordinate
+    };  ///< the shift of a screw, which comes with its turn and has no coordinate
     Kind kind;
     char along = 'a';  ///< x, y, z of the joint's axes; 'a': the axis that the scene gives
 };
@@ -34,22 +34,22 @@ struct JointMoves {
 
     bool has(Move::Kind kind) const;
     bool has_axis() const;
-    /// Coordinates before those of the turn in space.
+    /// The number of coordinates before those of the turn in space.
     std::size_t before_turn_in_space() const;
 };
 const JointMoves& moves_of(Joint::Type type);
 
-/// Names of all types.
+/// The names of all types.
 const std::vector<std::string>& joint_types();
 std::optional<Joint::Type> joint_type_named(const std::string& name);
 
-/// Coordinates that a joint of this type has, where it places a body.
+/// The number of coordinates of the joint, if it places a body.
 std::size_t coordinates_of(const Joint& joint);
 
-/// ": the turn, then the shift"; nothing where there is no more than one.
+/// ": the turn, then the shift"; empty if there is at most one coordinate.
 std::string meaning_of_coordinates(const Joint& joint);
 
-/// Rows of a joint that closes a loop.
+/// The number of rows of a joint that closes a loop.
 int locked_directions(Joint::Type type);
 
 }  // namespace alembert

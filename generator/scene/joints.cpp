@@ -73,8 +73,8 @@ void read_angles(const Table& table, Joint& joint) {
                                   in_quotes(a)));
 }
 
-/// Coordinates and prescribed motions; a motion takes the place of the coordinate of its name, or its own by the
-/// order of the file.
+/// Reads coordinates and prescribed motions. A motion takes the place of the coordinate of its name, otherwise its
+/// place in the order of the file.
 void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
     const auto inner = [&](std::string_view key) -> std::optional<Table> {
         const Entry* const entry = table.find(key);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The tables of a scene and the keys of each: the one list that the reader goes by. A test compares
+/// The tables of a scene and the keys of each. The reader uses this list only. A test compares
 /// docs/scene-language.md and docs/scene.schema.json with it.
 ///
 ///     keys_of("force")            // at, vector, axes, reaction
 ///
-/// A table that stands inside another is named by the way to it: "body.inertia". A star stands for a name that the
-/// user chooses: "parameters.*" is the longer form of one parameter, { value, unit, about }.
+/// A table inside another is named by its path: "body.inertia". A star stands for a name that the user chooses:
+/// "parameters.*" is the longer form of one parameter, { value, unit, about }.
 
 #include <algorithm>
 #include <array>
@@ -26,8 +26,8 @@ struct TableKeys {
     };
     std::string_view table;
     Shape shape;
-    std::array<std::string_view, 13> known =
-        {};  ///< empty at the end; none at all where the user chooses the names
+    /// Followed by empty entries; all are empty if the user chooses the names.
+    std::array<std::string_view, 13> known = {};
 
     constexpr std::span<const std::string_view> keys() const {
         return {known.data(), static_cast<std::size_t>(std::find(known.begin(), known.end(), "") - known.begin())};
@@ -75,10 +75,10 @@ inline constexpr TableKeys table_keys[] = {
     {"simulation",
      TableKeys::Shape::one,
      {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "period"}},
-    {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at"}},
+    {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at", "near"}},
 };
 
-/// Throws std::logic_error where the list has no such table, which is a mistake in the reader.
+/// Throws std::logic_error if the list has no such table, which is a mistake in the reader.
 inline const TableKeys& table_named(std::string_view name) {
     for (const TableKeys& one : table_keys)
         if (one.table == name) return one;

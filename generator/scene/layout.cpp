@@ -38,7 +38,7 @@ private:
     const std::string_view text_;
     std::size_t at_ = 0;
     std::string table_;
-    std::map<std::string, Place> keys_;  // of the present table
+    std::map<std::string, Place> keys_;  // the keys of the present table
     Layout layout_;
 
     bool is_in(std::string_view set) const { return set.find(text_[at_]) != std::string_view::npos; }
@@ -58,7 +58,7 @@ private:
         skip_line();
     }
 
-    /// A dotted key, its parts joined with dots; empty where there is none.
+    /// Reads a dotted key, its parts joined with dots; empty if there is none.
     std::string key() {
         std::string whole;
         const std::size_t begin = at_;
@@ -81,7 +81,7 @@ private:
         }
     }
 
-    /// `key = value`, or a line that the parser will refuse.
+    /// Reads `key = value`, or a line that the parser will refuse.
     void statement() {
         const std::size_t begin = at_;
         const std::string name = key();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A first look at a TOML file, for what its parser tells badly or not at all: a key given twice in a table (the
-/// parser stops at the first and does not say where the other stands), and keys so deep that trees built from them
-/// would overflow the stack.
+/// A first pass over a TOML file, for mistakes that its parser reports badly or not at all: keys that are given
+/// twice in a table (the parser stops at the first one and does not say where the other stands), and keys so
+/// deeply nested that trees built from them would overflow the stack.
 
 #include <map>
 #include <string>
@@ -19,12 +19,12 @@ struct Layout {
     };
     std::string text;  ///< the file with doubled keys and their values blanked out
     std::vector<Statement> statements;
-    std::map<std::string, Place> headers;  ///< where `[name]` stands first
+    std::map<std::string, Place> headers;  ///< where each `[name]` stands first
     std::vector<Diagnostic> mistakes;
-    bool is_too_deep = false;  ///< then it must not be parsed
+    bool is_too_deep = false;  ///< if true, the file must not be parsed
 };
 
-/// Blanks the statement at `offset`, so that what follows can be parsed. False where there is none.
+/// Blanks the statement at `offset`, so that what follows can be parsed. False if there is none.
 bool drop_statement(Layout& layout, std::size_t offset);
 
 Layout survey(const SourceText& source);

@@ -8,7 +8,7 @@
 namespace alembert {
 namespace {
 
-/// Between two points or along an expression.
+/// Reads a link between two points or along an expression.
 Link read_link(const Table& table, std::string_view constant) {
     Link link{.place = table.place(), .between = {}, .along = {}, .constant = {}, .length = {}};
     const Entry* const between = table.find("between");

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_told = 20;
 constexpr int window = 100;  // columns of a long line that are shown around the caret
 
-/// One character of a line as it is shown.
+/// One character of a line in the form in which it is shown.
 struct Cell {
     std::string text;
     int width;
@@ -43,7 +43,7 @@ std::vector<std::size_t> line_starts(std::string_view text) {
     return starts;
 }
 
-/// The line and, below it, the caret; a long line is cut to a window around the caret.
+/// The line and the caret below it; a long line is cut to a window around the caret.
 std::string excerpt(std::string_view line, int column) {
     while (!line.empty() && (line.back() == '\r' || line.back() == '\n')) line.remove_suffix(1);
     const std::vector<Cell> all = cells(line);

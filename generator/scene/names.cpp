@@ -21,7 +21,7 @@ struct Declaration {
     std::size_t index;
 };
 
-/// A name without a place was missing in the file, which the reader has told.
+/// A name without a place was missing in the file, which the reader has reported.
 template <typename Item>
 void add(std::vector<Declaration>& list, const std::vector<Item>& items, DeclaredAs kind) {
     for (std::size_t i = 0; i < items.size(); ++i)
@@ -50,7 +50,7 @@ std::string reason(const std::string& name) {
     return "a function";
 }
 
-/// Tells an illegal or reserved name; true where it may be used.
+/// Reports an illegal or reserved name; true if the name may be used.
 bool check(const Name& name, DeclaredAs kind, std::vector<Diagnostic>& diagnostics) {
     if (!is_name(name.text))
         diagnostics.push_back(
@@ -64,7 +64,7 @@ bool check(const Name& name, DeclaredAs kind, std::vector<Diagnostic>& diagnosti
     return false;
 }
 
-/// Enters the declarations in the order of the file; the second of two is the mistake.
+/// Enters the declarations in the order of the file; if two have the same name, the second is the mistake.
 NameSpaces::Space enter(std::vector<Declaration> list, std::vector<Diagnostic>& diagnostics) {
     NameSpaces::Space space;
     std::stable_sort(list.begin(), list.end(),

@@ -15,7 +15,7 @@ namespace alembert {
 struct Declared {
     enum class Kind { coordinate, speed, parameter, input, definition, frame, point, particle, body, multiplier };
     Kind kind;
-    std::size_t index;  ///< in the scene's list of its kind
+    std::size_t index;  ///< the position in the scene's list of that kind
     Place place;
 };
 
@@ -32,10 +32,10 @@ struct NameSpaces {
     }
 };
 
-/// Gathers what the scene declares; illegal, reserved and doubled names are told.
+/// Collects what the scene declares and reports illegal, reserved and repeated names.
 NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics);
 
-/// All names of a space, for "did you mean".
+/// All names of a name space, for "did you mean".
 std::vector<std::string> spellings(const NameSpaces::Space& space);
 
 }  // namespace alembert

@@ -28,7 +28,8 @@ public:
             check_coordinates(*joint);
         }
         check_own_places();
-        // Of a joint whose table is wrong nothing more is known.
+        // Nothing is known about a joint whose table is wrong, so bodies without a place are reported only if all
+        // tables are right.
         if (usable_.size() == scene_.joints.size()) tell_unplaced();
     }
 
@@ -149,7 +150,7 @@ private:
                           : std::string("its own position");
     }
 
-    /// A body that a joint places has no frame of its own, nor half a position.
+    /// Checks that a body that a joint places has no frame of its own and no incomplete position.
     void check_own_places() {
         for (Body& body : scene_.bodies) {
             if (!body.joint) continue;
@@ -169,7 +170,7 @@ private:
     }
 
     void tell_unplaced() {
-        std::unordered_map<std::string, std::string> parents;  // of bodies that nothing placed
+        std::unordered_map<std::string, std::string> parents;  // of bodies that were not placed
         for (const Joint* joint : usable_)
             if (!is_placed(joint->child.body)) parents.emplace(joint->child.body.text, joint->parent.body.text);
         std::unordered_set<std::string> told;

@@ -13,7 +13,7 @@ namespace {
 
 using Kind = Tree::Kind;
 
-constexpr int most_suggestions = 200;  // looking for them takes time, and no one reads more
+constexpr int most_suggestions = 200;  // a limit, because finding them takes time and nobody reads more
 
 constexpr const char* no_derivative =
     "a vector has no plain derivative; the rate of pos(P) is vel(P), that of vel(P) is acc(P)";
@@ -26,7 +26,7 @@ bool begins_with(const std::string& text, const char* beginning) {
     return text.rfind(beginning, 0) == 0;
 }
 
-/// z1, z2 …: the definitions that `derive` prints beyond the readable size.
+/// z1, z2 …, the intermediate symbols that `derive` prints when the equations are too long to be read.
 bool is_intermediate(const std::string& text) {
     return text.size() > 1 && text[0] == 'z' && text.find_first_not_of("0123456789", 1) == std::string::npos;
 }
@@ -203,8 +203,9 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
         case Declared::Kind::multiplier:
             if (!context.legal.multipliers)
                 complain(context, tree,
-                         fmt::format("{} may not depend on a multiplier: {}", context.legal.subject,
-                                     in_quotes(tree.text)));
+                         fmt::format("{} may not depend on a multiplier: {}; friction that grows with a normal "
+                                     "force is a table of its own, [[friction]]",
+                                     context.legal.subject, in_quotes(tree.text)));
             return constant("is a multiplier, whose derivative mechanics does not give");
         default:
             return;
@@ -224,10 +225,9 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
     const std::string word = in_quotes(tree.text + std::string(static_cast<std::size_t>(tree.primes), '\''));
     const bool is_speed = declared && declared->kind == Declared::Kind::speed;
     const bool indirect = is_speed || (declared && declared->kind == Declared::Kind::definition);
-    if (std::max(found.order, found.input_order) > 2)
-        return complain(
-            context, tree,
-            fmt::format("a third derivative, by {}; mechanics knows rates and accelerations only", word));
+    if (found.order > std::max(2, legal.order) || found.input_order > 2)
+        return complain(context, tree,
+                        fmt::format("a third derivative, by {}; only claims about the motion may hold one", word));
     if (found.order >= 0 && legal.order < 0)
         return complain(context, tree,
                         fmt::format("{} may depend on {} only; {} {}", legal.subject,
@@ -235,13 +235,15 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
                                     is_speed   ? "is a generalized speed"
                                     : indirect ? "contains a coordinate"
                                     : declared ? "is a coordinate"
-                                               : "depends on the coordinates"));
+                                               : "depends on the coordinates") +
+                            legal.if_changing);
     if (found.time && !legal.time)
         return complain(context, tree,
                         fmt::format("{} may depend on parameters only; {} {}", legal.subject, word,
                                     tree.text == "t" ? "is the time"
                                     : indirect       ? "contains the time"
-                                                     : "is an input, a function of time"));
+                                                     : "is an input, a function of time") +
+                            legal.if_changing);
     if (found.order > legal.order)
         return complain(context, tree,
                         fmt::format("{} may not depend on {}: {}{}{}", legal.subject, order_name(found.order),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What a quantity may be made of, and whether an expression keeps to it.
+/// What a quantity may depend on, and the check that an expression obeys this.
 
 #include <string>
 #include <unordered_map>
@@ -12,18 +12,20 @@
 
 namespace alembert {
 
-/// What an expression may contain. Orders count derivatives: of coordinates (-1: no coordinates at all) and
-/// inputs.
+/// What an expression may contain. Orders are the highest allowed derivatives of coordinates (-1: no coordinates
+/// at all) and of inputs.
 struct Legal {
     std::string subject;  ///< "a mass", for messages
     int order = -1;
     int input_order = -1;
     bool time = false;
     bool definitions = true;
-    std::string advice = {};                                ///< what to do instead, where a rate is refused
-    const std::unordered_set<std::string>* more = nullptr;  ///< further names (of claims)
-    bool multipliers = false;                               ///< of the scene's constraints
-    bool claim = false;  ///< momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, known or not
+    std::string advice = {};       ///< what to do instead if a rate is refused
+    std::string if_changing = {};  ///< what to do instead if the time or a coordinate is refused
+    const std::unordered_set<std::string>* more = nullptr;  ///< further names, those of claims
+    bool multipliers = false;  ///< whether the multipliers of the scene's constraints are legal
+    /// Whether momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, whether known or not.
+    bool claim = false;
 };
 
 class Quantities {
@@ -37,13 +39,13 @@ public:
         values_.insert(values_.end(), {"t", "pi"});
     }
 
-    /// Definitions, numbers or vectors, must be described in an order in which each comes after those it refers
-    /// to.
+    /// Definitions, numbers or vectors, must be described in an order in which each comes after those to which it
+    /// refers.
     void describe(const Definition& definition);
-    /// The same of a speed, whose form is checked at once.
+    /// The same for a speed, whose form is also checked here.
     void describe(const Speed& speed);
 
-    /// Tells unknown names, illegal contents, and vectors where a number is expected.
+    /// Reports unknown names, illegal contents, and vectors where a number is expected.
     void check(const Expression& expression, const Legal& legal);
 
     void check_point(const Name& name) { check_place(name.text, name.place, "point"); }
@@ -52,7 +54,7 @@ public:
     std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
 private:
-    /// What is in an expression: the highest orders met, -1 for none.
+    /// What an expression contains: the highest orders of derivatives, -1 for none.
     struct Contents {
         int order = -1;
         int input_order = -1;
@@ -66,13 +68,17 @@ private:
 
     const NameSpaces& names_;
     std::vector<Diagnostic>& diagnostics_;
-    std::vector<std::string> values_, frames_, points_;      // as spelled, for "did you mean"
-    std::unordered_map<std::string, Contents> definitions_;  // and speeds
+    std::vector<std::string> values_, frames_, points_;      // spellings, for "did you mean"
+    std::unordered_map<std::string, Contents> definitions_;  // of definitions and speeds
     std::unordered_set<std::string> vectors_;                // definitions that are vectors
-    std::unordered_set<std::string> unknown_;                // each is told once for each expression
+    std::unordered_set<std::string> unknown_;                // each is reported once for each expression
     int suggestions_ = 0;
 
-    enum class Rank { number, vector, wrong };  ///< wrong: a mistake was told, and nothing more follows from it
+    enum class Rank {
+        number,
+        vector,
+        wrong
+    };  ///< wrong: a mistake was reported, and no further mistakes are derived from it
 
     void complain(const Context& context, const Tree& tree, std::string message);
     Rank rank(Context& context, const Tree& tree, int raised);

@@ -67,7 +67,7 @@ constexpr Section sections[] = {
     {"claim", each<read_claim>},
 };
 
-/// Where a table's header is: of one written `x = { … }` the key.
+/// The place of a table's header; for a table written `x = { … }`, that of the key.
 Place header_of(const Entry& entry) {
     const Place place = place_of(*entry.node);
     return place.line > 0 ? std::min(place, entry.place) : entry.place;
@@ -126,7 +126,7 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
             refuse_unknown(reading, entry);
     }
     const Entry* const coordinates = top.find("coordinates");
-    const bool is_other = coordinates && !coordinates->node->is_table();  // which has been told
+    const bool is_other = coordinates && !coordinates->node->is_table();  // this has been reported already
     const bool has_polynomial = top.has("polynomial");
     if (has_polynomial && coordinates)
         reading.complain(header_of(*top.find("polynomial")),
@@ -146,7 +146,8 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
     if (!scene.simulation.start) scene.simulation.start = zero({});
 }
 
-/// Nothing where the file is not valid TOML; then its first mistakes are told, each statement with one left out.
+/// Nothing if the file is not valid TOML. Its first mistakes are then reported; after each, the statement that has
+/// it is removed and the rest is parsed again.
 std::optional<toml::table> parse_toml(Layout layout, const SourceText& source, std::vector<Diagnostic>& mistakes) {
     bool is_valid = true;
     for (int k = 0; k < most_syntax_mistakes; ++k) try {

@@ -22,7 +22,7 @@ struct Node {
     std::size_t index;
     const Name* name;
     std::vector<std::size_t> targets = {};
-    int weight = 1;  ///< levels of nesting within its own expressions
+    int weight = 1;  ///< levels of nesting in its own expressions
     enum class State { fresh, open, done } state = State::fresh;
     int levels = 0;
     bool in_circle = false;
@@ -71,7 +71,7 @@ private:
         }
     }
 
-    /// Nodes were made in this order; each now gets what it refers to.
+    /// Records what each node refers to. The order is that in which the nodes were made.
     void connect() {
         std::size_t n = 0;
         for (const Parameter& p : scene_.parameters) look(nodes_[n++], p.value);
@@ -104,7 +104,7 @@ private:
         }
     }
 
-    /// Where the joint places a body, the other one comes first.
+    /// A body that a joint places refers to the other body of the joint.
     void look(Node& node, const Joint& joint, const Index& index) {
         const Joint::Side& other = *joint.places_child ? joint.parent : joint.child;
         target(node, frames_, other.body.text);
@@ -152,7 +152,8 @@ private:
 
     void search(std::size_t start, std::vector<Diagnostic>& diagnostics) {
         if (nodes_[start].state != Node::State::fresh) return;
-        std::vector<std::pair<std::size_t, std::size_t>> path{{start, 0}};  // node, next of its targets
+        // A node, and the next of its targets to visit.
+        std::vector<std::pair<std::size_t, std::size_t>> path{{start, 0}};
         nodes_[start].state = Node::State::open;
         while (!path.empty()) {
             const std::size_t here = path.back().first;
@@ -179,7 +180,7 @@ private:
         node.levels = std::min(deepest + node.weight, most_defined_levels + 1);
         if (node.levels > most_defined_levels && deepest <= most_defined_levels)
             diagnostics.push_back(
-                {node.name->place, fmt::format("{} stands on a chain of more than {} levels of others",
+                {node.name->place, fmt::format("{} depends on other names through more than {} levels",
                                                in_quotes(node.name->text), most_defined_levels)});
         if ((node.kind == DeclaredAs::definition || node.kind == DeclaredAs::speed) && !node.in_circle)
             references_.definitions.emplace_back(node.kind, node.index);

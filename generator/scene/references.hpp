@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What refers to what: the graph of definitions, parameters, inputs, frames and points, without circles.
+/// The graph of references between definitions, parameters, inputs, frames and points. It must have no circles.
 
 #include <vector>
 
@@ -10,11 +10,11 @@
 namespace alembert {
 
 struct References {
-    /// Definitions and speeds (kind, index), each after those it refers to; those in circles are missing.
+    /// Definitions and speeds (kind, index), each after those to which it refers; those in circles are missing.
     std::vector<std::pair<Declared::Kind, std::size_t>> definitions;
 };
 
-/// Tells circles (each once), and chains so long that they could not be followed.
+/// Reports circles (each once), and chains that are too long to be followed.
 References follow(const Scene& scene, std::vector<Diagnostic>& diagnostics);
 
 }  // namespace alembert

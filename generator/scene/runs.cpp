@@ -5,33 +5,21 @@
 #include <string_view>
 #include <utility>
 
+#include "alembert/methods.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
 namespace {
 
-struct Method {
-    std::string_view name;
-    bool takes_step;
-};
-
-constexpr Method methods[] = {
-    {"auto", false},   {"euler", true},     {"rk2", true},       {"rk4", true},     {"dopri5", false},
-    {"dop853", false}, {"verner76", false}, {"verner98", false}, {"abm", false},    {"bdf", false},
-    {"taylor", false}, {"radau", false},    {"radau5", false},   {"radau9", false}, {"radau13", false},
-    {"verlet", true},  {"kahanli8", true},  {"gauss", true},     {"rattle", true},  {"rattle8", true},
-    {"cvode", false},  {"ida", false},
-};
-
-std::string with_fixed_steps() {
+std::string methods_with_fixed_steps() {
     std::vector<std::string_view> names;
-    for (const Method& method : methods)
-        if (method.takes_step) names.push_back(method.name);
+    for (const Method method : all_methods())
+        if (has_fixed_step(method)) names.push_back(name(method));
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// True for a literal number that is zero or negative, however it is written.
+/// True for a literal number that is zero or negative, in any notation.
 bool is_not_positive(const Tree& tree) {
     if (tree.kind == Tree::Kind::negate) return tree.args[0]->kind == Tree::Kind::number;
     return tree.kind == Tree::Kind::number &&
@@ -39,32 +27,31 @@ bool is_not_positive(const Tree& tree) {
 }
 
 std::optional<Name> read_method(const Table& table) {
-    const std::optional<Name> name = table.name("method");
-    if (!name) return {};
-    const auto known = std::find_if(std::begin(methods), std::end(methods),
-                                    [&](const Method& m) { return m.name == name->text; });
-    if (known == std::end(methods)) {
-        std::vector<std::string> names;
-        for (const Method& method : methods) names.emplace_back(method.name);
-        const std::string meant = nearest(name->text, names);
-        table.reading().complain(name->place,
-                                 fmt::format("unknown method {}; {}", in_quotes(name->text),
-                                             meant.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+    const std::optional<Name> given = table.name("method");
+    if (!given) return {};
+    const std::vector<std::string> words = method_words();
+    if (std::find(words.begin(), words.end(), given->text) == words.end()) {
+        const std::string meant = nearest(given->text, words);
+        table.reading().complain(given->place,
+                                 fmt::format("unknown method {}; {}", in_quotes(given->text),
+                                             meant.empty() ? fmt::format("there are {}", fmt::join(words, ", "))
                                                            : "did you mean '" + meant + "'?"));
         return {};
     }
-    if (table.has("step") && !known->takes_step)
+    const std::optional<Method> own = method_named(given->text);
+    const bool fixed = own && has_fixed_step(*own);
+    if (table.has("step") && !fixed)
         table.complain(
             "step",
             fmt::format("only methods with fixed steps ({}) take 'step'; {} chooses its own: give 'tolerance'",
-                        with_fixed_steps(), known->name));
-    if (table.has("max_step") && known->takes_step)
+                        methods_with_fixed_steps(), given->text));
+    if (table.has("max_step") && fixed)
         table.complain(
             "max_step",
             fmt::format(
                 "'max_step' bounds the steps of methods that choose their own; {} has a fixed step: give 'step'",
-                known->name));
-    return name;
+                given->text));
+    return given;
 }
 
 }  // namespace
@@ -118,21 +105,30 @@ int read_direction(const Table& table) {
     return 0;
 }
 
-std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
-    const Entry* const entry = table.find("impulses");
+/// A table of expressions by name, { theta = "expression" }.
+std::vector<std::pair<Name, Expression>> values_by_name(const Table& table, std::string_view key,
+                                                        std::string_view expected, std::string_view each) {
+    const Entry* const entry = table.find(key);
     if (!entry) return {};
     const toml::table* const node = entry->node->as_table();
     if (!node || node->empty()) {
-        table.complain("impulses",
-                       fmt::format("{} is {}; expected impulses by coordinate: {{ theta = \"expression\" }}",
-                                   table.what("impulses"), node ? "empty" : kind_of(*entry->node)));
+        table.complain(key, fmt::format("{} is {}; expected {}", table.what(key),
+                                        node ? "empty" : kind_of(*entry->node), expected));
         return {};
     }
-    const Table inner(table.reading(), *node, table.what("impulses"), entry->place);
-    std::vector<GeneralizedForce> impulses;
+    const Table inner(table.reading(), *node, table.what(key), entry->place);
+    std::vector<std::pair<Name, Expression>> result;
     for (const Entry& one : inner.entries())
-        impulses.push_back({{one.key, one.place},
-                            read_expression(table.reading(), *one.node, labelled("the impulse along", one.key))});
+        result.emplace_back(Name{one.key, one.place},
+                            read_expression(table.reading(), *one.node, labelled(each, one.key)));
+    return result;
+}
+
+std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
+    std::vector<GeneralizedForce> impulses;
+    for (auto& [name, value] : values_by_name(
+             table, "impulses", "impulses by coordinate: { theta = \"expression\" }", "the impulse along"))
+        impulses.push_back({name, value});
     return impulses;
 }
 
@@ -159,10 +155,21 @@ void read_claim(Table table, Scene& scene) {
     claim.constants = table.names("constants");
     if (const auto at = table.name("at")) {
         claim.at = at->text;
-        if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact")
+        if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact" && claim.at != "solution")
             table.reading().complain(
-                at->place, fmt::format("a claim is held at \"motion\", \"rest\" or \"impact\", not at {}",
+                at->place,
+                fmt::format("a claim is held at \"motion\", \"rest\", \"impact\" or \"solution\", not at {}",
+                            in_quotes(claim.at)));
+    }
+    if (table.has("near")) {
+        claim.near =
+            values_by_name(table, "near", "values of coordinates and rates: { theta = 0 }", "the value of");
+        if (claim.at != "motion")
+            table.complain("near",
+                           fmt::format("a claim at {} cannot hold to first order 'near' a state; leave out one "
+                                       "of the two",
                                        in_quotes(claim.at)));
+        claim.at = "near";
     }
     if (const Entry* const equation = table.find("equation"); !equation)
         table.reading().complain(table.place(), table.title() + " needs 'equation'");

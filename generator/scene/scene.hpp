@@ -5,9 +5,9 @@
 ///
 ///     const Scene scene = read_scene("scenes/textbook/double_pendulum.toml");
 ///
-/// Everything stands in the order of the file. What `read_scene` returns is consistent as far as names go: every
-/// name is declared, no definitions go in a circle, every frame's and point's ancestors exist. What it cannot
-/// know without algebra (a negative mass at the scene's values, a singular system) is the model's to say.
+/// Everything stands in the order of the file. The names in the result of `read_scene` are consistent: every name
+/// is declared, no definitions form a circle, and every frame's and point's ancestors exist. Mistakes that take
+/// algebra to find (a negative mass at the scene's values, a singular system) are found by the model.
 
 #include <array>
 #include <functional>
@@ -45,30 +45,32 @@ struct Input {
 
 struct Coordinate {
     Name name;
-    Expression initial, rate;  ///< in parameters; never null after reading (missing: 0)
-    bool initial_is_guess = false, rate_is_guess = false;  ///< may move so that the constraints hold at the start
-    std::optional<Place> rate_given = {};                  ///< where the scene says `rate` or `rate_guess`
+    Expression initial, rate;  ///< in parameters; never null after reading (0 if missing)
+    bool initial_is_guess = false,
+         rate_is_guess = false;            ///< the value may be changed so that the constraints hold at the start
+    std::optional<Place> rate_given = {};  ///< the place where the scene gives `rate` or `rate_guess`
     std::string unit, about;
 };
 
 struct Definition {
     Name name;
     Expression value;
-    bool is_motion = false;  ///< in place of a joint's coordinate: in t, inputs and parameters alone
+    /// Whether this prescribes a joint's coordinate; then it depends on t, inputs and parameters only.
+    bool is_motion = false;
 };
 
-/// A generalized speed: a form in the rates, linear in them.
+/// A generalized speed, which is linear in the rates.
 struct Speed {
     Name name;
     Expression form;
-    Expression initial;  ///< in parameters; null where missing
+    Expression initial;  ///< in parameters; null if missing
     std::string unit, about;
 };
 
 /// One simple rotation about an axis of the frame reached so far.
 struct Rotation {
-    char letter = 0;  ///< 'x', 'y' or 'z'; 0 where the axis is a vector
-    Vector axis;      ///< three expressions in parameters, not normalized; empty where a letter is given
+    char letter = 0;  ///< 'x', 'y' or 'z'; 0 if the axis is a vector
+    Vector axis;      ///< three expressions in parameters, not normalized; empty if a letter is given
     Expression angle;
 };
 
@@ -76,10 +78,10 @@ struct Frame {
     Name name;
     Name parent{"N", {}};
     std::vector<Rotation> rotations;
-    std::vector<Name> quaternion = {};  ///< four coordinates, scalar first; then there are no rotations
+    std::vector<Name> quaternion = {};  ///< four coordinates, scalar first; if given, there are no rotations
 };
 
-/// Where something is: `from` the point, by the `offset` along `axes`. (`at = "P"` is P with a zero offset.)
+/// A position: the point `from`, plus the `offset` along `axes`. (`at = "P"` is P with a zero offset.)
 struct Position {
     Name from{"O", {}};
     Vector offset;
@@ -98,25 +100,25 @@ struct Particle {
 };
 
 struct Inertia {
-    std::optional<Expression> planar;  ///< about the z axis; then the tensor is empty
+    std::optional<Expression> planar;  ///< the moment about the z axis; if given, the tensor is empty
     std::array<Expression, 6> tensor;  ///< xx, yy, zz, xy, yz, zx elements; missing ones are the number 0
     Place place;
-    bool is_diagonal = false;  ///< was given as [Ixx, Iyy, Izz]
+    bool is_diagonal = false;  ///< whether it was given as [Ixx, Iyy, Izz]
 };
 
 struct Body {
     Name name;
     Expression mass;
     Name frame{"N", {}};
-    Position position;  ///< of the mass centre
+    Position position;  ///< the position of the mass centre
     std::optional<Inertia> inertia;
     std::optional<Name> about;
-    bool has_position = true;          ///< the scene gives 'at' or 'position'
-    std::optional<std::size_t> joint;  ///< which one places it; its frame then bears its own name
+    bool has_position = true;          ///< whether the scene gives 'at' or 'position'
+    std::optional<std::size_t> joint;  ///< the joint that places it; its frame then has the body's name
 };
 
-/// Holds two bodies together. The joint's axes stand in each body as `rotate` says, and come together where all
-/// its coordinates are 0.
+/// Holds two bodies together. `rotate` gives the joint's axes in each body; the two sets of axes coincide when all
+/// coordinates of the joint are 0.
 struct Joint {
     enum class Type { fixed, revolute, prismatic, cylindrical, universal, spherical, planar, screw, free };
     struct Side {
@@ -127,12 +129,12 @@ struct Joint {
     Name name;
     Type type = Type::fixed;
     Side parent, child;
-    Rotation axis;     ///< its angle is null
-    Expression pitch;  ///< null but for a screw
+    Rotation axis;     ///< with a null angle
+    Expression pitch;  ///< null unless the joint is a screw
     std::string angles;
-    std::vector<Name> coordinates;     ///< those with a prescribed motion among them, in the order of the type
-    bool is_whole = true;              ///< nothing was wrong with its table
-    std::optional<bool> places_child;  ///< or the parent; nothing where it places none
+    std::vector<Name> coordinates;     ///< in the order of the type, including those with a prescribed motion
+    bool is_whole = true;              ///< whether its table was free of mistakes
+    std::optional<bool> places_child;  ///< true if it places the child, false if the parent, nothing if neither
     bool closes_loop = false;
 };
 
@@ -144,7 +146,7 @@ struct Force {
     std::optional<Name> reaction;
 };
 
-/// What acts in no time at the start: ∫F dt at a point.
+/// An impulse ∫F dt at a point that acts at the start.
 struct Impulse {
     Place place;
     Name at;
@@ -164,7 +166,7 @@ struct Torque {
 struct Link {
     Place place;
     std::optional<std::pair<Name, Name>> between;
-    Expression along;     ///< null where `between` is given
+    Expression along;     ///< null if `between` is given
     Expression constant;  ///< stiffness or damping
     Expression length;    ///< unstretched (springs), the number 0 when missing
 };
@@ -178,7 +180,7 @@ struct GeneralizedForce {
 struct ConstraintRule {
     Name name;
     bool holonomic = true;
-    Equality equation;               ///< rhs is the number 0 where there is no `=`
+    Equality equation;               ///< rhs is the number 0 if there is no `=`
     std::optional<Name> multiplier;  ///< lambda_<name> when missing
 };
 
@@ -193,13 +195,13 @@ struct UnilateralRule {
 struct FrictionRule {
     Name name;
     Expression coefficient;
-    Expression resting;      ///< the static coefficient; null where it is the same
+    Expression resting;      ///< the static coefficient; null if it is the same
     Expression slip;         ///< the sliding velocity, linear in the rates
-    std::optional<Name> on;  ///< whose multiplier's size is N
-    Expression normal;       ///< N; null where `on` is given
+    std::optional<Name> on;  ///< the constraint or contact whose reaction is N
+    Expression normal;       ///< N; null if `on` is given
 };
 
-/// The point of `body` at the mass centre + `contact` has the velocity of the point of `on` there.
+/// The point of `body` at the mass centre + `contact` has the same velocity as the point of `on` at that place.
 struct RollingRule {
     Name name;
     Name body;
@@ -220,8 +222,8 @@ struct EventRule {
     Name name;
     Expression when;
     bool stop = false;
-    int direction = 0;                            ///< +1: only where `when` grows, −1: falls, 0: both
-    std::vector<GeneralizedForce> impulses = {};  ///< at each zero; of the rates before
+    int direction = 0;  ///< +1: only where `when` grows; −1: only where it falls; 0: both
+    std::vector<GeneralizedForce> impulses = {};  ///< act at each zero, and may depend on the rates before it
 };
 
 /// [polynomial]: a characteristic polynomial without a mechanism, highest power first.
@@ -231,7 +233,8 @@ struct PolynomialRule {
 };
 
 struct Simulation {
-    Expression start, duration, tolerance, step, max_step, sample, period;  ///< null where missing, but start: 0
+    Expression start, duration, tolerance, step, max_step, sample,
+        period;  ///< null if missing, except that start is then 0
     std::optional<Name> method;
 };
 
@@ -240,11 +243,13 @@ struct Claim {
     Equality equation;
     std::string source;
     std::vector<Name> unknowns, constants;
-    std::string at = "motion";  ///< motion, rest or impact
+    std::string at = "motion";  ///< motion, rest, impact, solution or near
+    /// Where it holds to first order: coordinates, and rates as "x'", with their values in parameters.
+    std::vector<std::pair<Name, Expression>> near = {};
 };
 
 struct Scene {
-    std::string file;  ///< as given by the user
+    std::string file;  ///< the name of the file as the user gave it
     std::string text;  ///< the whole file, for messages that show its lines
     std::string title, source, notes;
     std::optional<Vector> gravity;
@@ -261,7 +266,7 @@ struct Scene {
     std::vector<Force> forces;
     std::vector<Torque> torques;
     std::vector<Link> springs, dampers;
-    Expression kinetic, potential, lagrangian;  ///< [energy]; null where missing
+    Expression kinetic, potential, lagrangian;  ///< from [energy]; null if missing
     Expression rayleigh;
     std::vector<GeneralizedForce> generalized_forces;
     std::vector<Impulse> impulses;
@@ -276,24 +281,26 @@ struct Scene {
     Simulation simulation;
     std::vector<Claim> claims;
     std::vector<Diagnostic> warnings;
-    /// Told each warning, of the reader and of all later stages, as soon as it is found: it is not lost where an
-    /// error follows. Where it is empty, warnings are kept with the results.
+    /// Called with each warning of the reader and of all later stages as soon as it is found, so that it is not
+    /// lost if an error follows. If it is empty, warnings are kept with the results.
     std::function<void(const std::string&)> on_warning = {};
 };
 
 /// Reads and checks a scene. Throws SceneError with every mistake found, or if the file cannot be read.
 Scene read_scene(const std::string& file);
 
-/// The same from a text already in memory; `file` is only what messages call it.
+/// The same from a text in memory; `file` is only the name that messages give it.
 Scene parse_scene(std::string text, std::string file);
 
-/// Throws SceneError for mistakes found after reading (by the model), in the same form and order of place.
+/// Throws SceneError for mistakes that were found after reading (by the model), in the same form and ordered by
+/// place.
 [[noreturn]] void fail(const Scene& scene, std::vector<Diagnostic> diagnostics);
 
 /// `file:line:column: message`, the line and a caret, for each diagnostic.
 std::string describe(const Scene& scene, const std::vector<Diagnostic>& diagnostics);
 
-/// The nearest of `known` to `word` if near enough to be meant (edit distance), else empty.
+/// The word of `known` that is nearest to `word` in edit distance, if it is near enough to be meant; otherwise
+/// empty.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace alembert

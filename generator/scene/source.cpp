@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t largest_scene = 1024 * 1024;
 
-/// Reads one TOML string from its opening quotes on, adding what it means byte by byte.
+/// Reads one TOML string from its opening quotes on and appends its value byte by byte.
 class StringReader {
 public:
     StringReader(const SourceText& source, std::size_t begin)
@@ -57,7 +57,7 @@ private:
 
     void plain() {
         const std::size_t begin = at_;
-        if (text_[at_] == '\r') ++at_;  // a line end is one \n, however it is written
+        if (text_[at_] == '\r') ++at_;  // every line end becomes a single \n
         const std::size_t from = at_;
         if (at_ < text_.size()) decode(text_, at_);
         add(text_.substr(from, at_ - from), source_.place(begin));

@@ -13,7 +13,7 @@
 namespace alembert {
 namespace {
 
-/// What toml++ says of a value that begins with no quote or bracket and is no number, date or boolean.
+/// The messages of toml++ for a value that begins with no quote or bracket and is no number, date or boolean.
 constexpr std::string_view of_values[] = {"could not determine value type",
                                           "expected digit",
                                           "expected decimal digit",
@@ -32,7 +32,7 @@ constexpr std::string_view of_values[] = {"could not determine value type",
                                           "could not be interpreted",
                                           "is not representable in 64 bits"};
 
-/// toml++'s words, and ours for the same.
+/// Messages of toml++, and what is said instead.
 constexpr std::pair<std::string_view, std::string_view> rewordings[] = {
     {"unescaped control characters", "this string is not closed on its line"},
     {"encountered end-of-file", "the file ends here, but a string, an array or a table is still open"},

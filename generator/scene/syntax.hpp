@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What is wrong with a file that is not valid TOML, in the words of a scene's author.
+/// Says what is wrong with a file that is not valid TOML, in words that the author of a scene understands.
 
 #include "scene/layout.hpp"
 #include "scene/toml.hpp"

@@ -10,7 +10,7 @@
 namespace alembert {
 namespace {
 
-/// `name = value` or `name = { value, unit, about }`, as parameters and inputs have it.
+/// Reads `name = value` or `name = { value, unit, about }`, the forms of parameters and inputs.
 template <typename Item>
 Item read_item(const Table& table, const Entry& entry, const std::string& what, std::string_view keys_as) {
     Item item{.name = {entry.key, entry.place}, .value = {}, .unit = {}, .about = {}};

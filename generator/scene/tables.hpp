@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The tables of a scene, one function for each: reads the table and appends what it says to the scene.
+/// The tables of a scene. There is one function for each, which reads the table and appends its contents to the
+/// scene.
 
 #include "scene/value.hpp"
 
@@ -26,7 +27,7 @@ void read_point(Table table, Scene& scene);
 void read_particle(Table table, Scene& scene);
 void read_body(Table table, Scene& scene);
 std::vector<Rotation> read_rotations(const Table& table, std::string_view key);
-/// A rotation's axis; the angle is left null.
+/// Reads the axis of a rotation; the angle stays null.
 Rotation read_axis(const Reading& reading, const toml::node& node);
 
 // joints.cpp: what holds them together

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Characters and words: UTF-8, what is a name, how a stranger's text is shown in a message.
+/// Characters and words: UTF-8, the form of names, and how text from a file is shown in a message.
 ///
 ///     in_quotes("a\nb")  gives  'a\nb' with the line end escaped: nothing in a scene reaches the terminal raw.
 
@@ -10,7 +10,7 @@
 
 namespace alembert {
 
-/// What `decode` gives for a byte that begins no UTF-8 sequence.
+/// The result of `decode` for a byte that begins no UTF-8 sequence.
 inline constexpr char32_t invalid_character = 0xFFFFFFFF;
 
 /// The code point at `text[i]`; moves `i` past it. Overlong forms, surrogates and stray bytes are invalid: then
@@ -29,7 +29,7 @@ inline bool is_digit(char32_t c) {
 /// A letter or `_`, then letters, digits, `_`.
 bool is_name(std::string_view text);
 
-/// Characters that would disturb a terminal: controls, marks of writing direction, invisible ones.
+/// Characters that would disturb a terminal: control characters, marks of writing direction, invisible characters.
 bool is_disturbing(char32_t c);
 
 /// `text` with disturbing characters and invalid bytes escaped, and cut to `most` characters.
@@ -41,7 +41,7 @@ std::string in_quotes(std::string_view text);
 /// `label 'text'`.
 std::string labelled(std::string_view label, std::string_view text);
 
-/// Columns on a terminal: 0, 1 or 2.
+/// The columns of a character on a terminal: 0, 1 or 2.
 int width(char32_t c);
 
 }  // namespace alembert

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_digits = 400;
 
-/// What to write in place of a character that looks right but is not part of the language.
+/// What to write instead of a character that looks right but is not part of the language.
 std::string_view replacement(char32_t c) {
     switch (c) {
         case U'·':
@@ -167,8 +167,8 @@ private:
         return (end == std::string::npos ? text_.size() : end) - begin;
     }
 
-    /// A literal stands for an exact rational, but what it stands for must also be a double, and no power of ten
-    /// may be so large that its digits fill the memory.
+    /// A literal stands for an exact rational. Its value must also fit into a double, and no power of ten may be
+    /// so large that its digits fill the memory.
     void check_range(std::size_t begin) const {
         const char* const end = text_.data() + at_;
         double value = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The words of an expression.
+/// The tokens of an expression.
 ///
 ///     tokenize("2*x''")  gives  number `2`, symbol `*`, name `x`, primes `''`, end
 
@@ -16,10 +16,10 @@ struct Token {
     Kind kind;
     int offset;  ///< bytes into the text
     int length;
-    char symbol = 0;  ///< one of + - * / ^ ( ) , = where it is a symbol
+    char symbol = 0;  ///< one of + - * / ^ ( ) , = if the token is a symbol
 };
 
-/// What is wrong with an expression, and at which byte. Thrown inside this layer only.
+/// What is wrong with an expression, and at which byte. It is thrown inside this room only.
 struct Mistake {
     int offset;
     std::string message;
@@ -28,7 +28,7 @@ struct Mistake {
 /// Throws Mistake at the first character that cannot be part of an expression.
 std::vector<Token> tokenize(const std::string& text);
 
-/// The words of one expression and how far its reader has come.
+/// The tokens of one expression and the reader's position among them.
 struct Words {
     const std::string& text;
     std::vector<Token> tokens;
@@ -41,7 +41,7 @@ struct Words {
     bool at_end() const { return now().kind == Token::Kind::end; }
     bool at_symbol(char symbol) const { return is(now(), symbol); }
     std::string word(const Token& token) const { return text.substr(token.offset, token.length); }
-    /// The end in bytes of the last token read.
+    /// The end, in bytes, of the last token that was read.
     int end() const { return at == 0 ? 0 : last().offset + last().length; }
 };
 

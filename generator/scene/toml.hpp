@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// toml++ as the reader uses it: compiled into this layer (toml.cpp), with line ends in inline tables and bare
-/// keys of any letters (`θ = 0.1`), which the system's shared library lacks. Its assertions are off in every
-/// build: `[=]` fails one of them and is then refused in good order, and with NDEBUG clang would take them for
-/// granted. And what its table of blank characters calls unreachable (`é` or `Ж` where a blank may stand) is not:
-/// it is no blank.
+/// toml++ with the reader's settings. It is compiled into this room (toml.cpp), with line ends in inline tables
+/// and bare keys of any letters (`θ = 0.1`), which the system's shared library lacks. Its assertions are off in
+/// every build: `[=]` fails one of them although it is refused properly afterwards, and with NDEBUG clang would
+/// assume that they hold. A case that its table of blank characters calls unreachable (`é` or `Ж` where a blank
+/// may stand) does occur; such a character is no blank.
 
 #undef TOML_HEADER_ONLY
 #undef TOML_SHARED_LIB

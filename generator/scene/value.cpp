@@ -14,7 +14,8 @@
 namespace alembert {
 namespace {
 
-/// A number exactly as typed, but for the sign + and separators; hexadecimal, octal and binary ones in decimal.
+/// A number exactly as typed, without the sign + and separators; hexadecimal, octal and binary numbers are
+/// converted to decimal.
 Literal read_number(const Reading& reading, const toml::node& node) {
     const std::string_view text = reading.source.text();
     std::size_t at = reading.source.offset(place_of(node));
@@ -35,7 +36,8 @@ Literal read_number(const Reading& reading, const toml::node& node) {
     return literal;
 }
 
-/// The string with a place for each byte; all at its beginning should the two readings of it differ.
+/// The string with a place for each byte. Should the two readings of it differ, all bytes have the place of its
+/// beginning.
 Literal read_literal(const Reading& reading, const toml::node& node) {
     const std::string& text = node.as_string()->get();
     Literal literal = read_string(reading.source, reading.source.offset(place_of(node)));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Values of a TOML file, read as what the scene language expects of them. Every mistake is noted and reading goes
-/// on with an empty value; keys come in the order of the file.
+/// Reads values of a TOML file as the types that the scene language expects. Every mistake is recorded, and
+/// reading goes on with an empty value. Keys come in the order of the file.
 ///
 ///     const Table table(reading, node, "[[particle]]", place);
 ///     table.allow("particle");
@@ -19,11 +19,11 @@
 
 namespace alembert {
 
-/// What one reading shares.
+/// What all functions share that read one file.
 struct Reading {
     const SourceText& source;
     std::vector<Diagnostic>& diagnostics;
-    bool has_joints = false;  ///< then bodies may be placed by them
+    bool has_joints = false;  ///< if true, bodies may be placed by joints
 
     void complain(Place place, std::string message) const { diagnostics.push_back({place, std::move(message)}); }
 };
@@ -42,18 +42,18 @@ std::string kind_of(const toml::node& node);
 /// A string or a plain number. `what` names the value in messages: `'mass'`, `parameter 'm'`.
 Expression read_expression(const Reading& reading, const toml::node& node, const std::string& what);
 
-/// An equation, which must be a string.
+/// Reads an equation, which must be a string.
 Equality read_equality(const Reading& reading, const toml::node& node, bool rates_before);
 
-/// The number 0, where a value may be missing.
+/// The number 0, for a value that may be missing.
 Expression zero(Place place);
 
-/// A string, with the place of its first character.
+/// Reads a string, with the place of its first character.
 std::optional<Name> read_name(const Reading& reading, const toml::node& node, const std::string& what);
 
 std::vector<Name> read_names(const Reading& reading, const toml::node& node, const std::string& what);
 
-/// Two or three expressions.
+/// Reads two or three expressions.
 Vector read_vector(const Reading& reading, const toml::node& node, const std::string& what);
 
 class Table {
@@ -65,7 +65,7 @@ public:
     Place place() const { return place_; }
     const std::vector<Entry>& entries() const { return entries_; }
 
-    /// Complains of each key that the table of this name in scene/keys.hpp does not have.
+    /// Reports each key that the table of this name in scene/keys.hpp does not have.
     void allow(std::string_view name) const;
 
     const Entry* find(std::string_view key) const;
@@ -76,7 +76,7 @@ public:
     bool flag(std::string_view key) const;
     std::optional<Name> name(std::string_view key) const;
     std::vector<Name> names(std::string_view key) const;
-    Expression expression(std::string_view key) const;  ///< null where missing
+    Expression expression(std::string_view key) const;  ///< null if missing
     std::optional<Vector> vector(std::string_view key) const;
 
     Name needed_name(std::string_view key) const;
@@ -86,7 +86,7 @@ public:
     /// `'key' of [[table]]`, for messages.
     std::string what(std::string_view key) const;
 
-    /// The title with the table's own name, for messages that come after it was read.
+    /// Adds the table's own name to its title, for the messages that follow.
     void entitle(const Name& name);
 
 private:

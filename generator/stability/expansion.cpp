@@ -90,6 +90,32 @@ Expansion Expansion::composed(const Expansion& a, const std::vector<Certain>& se
     return result;
 }
 
+Expansion derivative(const Expansion& a, int variable) {
+    Expansion result = a;
+    for (Certain& c : result.c_) c = 0;
+    for (std::size_t k = 0; a.monomials_ && k < a.c_.size(); ++k) {
+        Monomials::Exponents exponents = a.monomials_->exponents(static_cast<int>(k));
+        const int times = exponents[static_cast<std::size_t>(variable)]--;
+        if (times > 0 && !a.c_[k].is_zero())
+            result.c_[static_cast<std::size_t>(a.monomials_->index(exponents))] += Certain(times) * a.c_[k];
+    }
+    return result;
+}
+
+Expansion put_into(const Expansion& a, const std::vector<Expansion>& at) {
+    Expansion sum(a.value());
+    std::vector<Expansion> product{Expansion(1)};  // of each monomial
+    for (std::size_t k = 1; a.monomials_ && k < a.c_.size(); ++k) {
+        Monomials::Exponents exponents = a.monomials_->exponents(static_cast<int>(k));
+        std::size_t first = 0;
+        while (exponents[first] == 0) ++first;
+        --exponents[first];
+        product.push_back(product[static_cast<std::size_t>(a.monomials_->index(exponents))] * at[first]);
+        if (!a.c_[k].is_zero()) sum += Expansion(a.c_[k]) * product.back();
+    }
+    return sum;
+}
+
 Expansion operator/(const Expansion& a, const Expansion& b) {
     if (b.value().may_be_zero()) throw NotAnalytic("a division by zero");
     const Certain inverse = Certain(1) / b.value();

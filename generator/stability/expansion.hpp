@@ -86,6 +86,14 @@ public:
     friend Expansion abs(const Expansion& a);
     friend Expansion pow(const Expansion& a, const Expansion& b);
     friend Expansion atan2(const Expansion& y, const Expansion& x);
+    /// ∂a/∂variable; the terms of highest degree of `a` give those of the degree below, and none of the highest.
+    friend Expansion derivative(const Expansion& a, int variable);
+    friend Expansion without_constant(Expansion a) {
+        a.c_[0] = 0;
+        return a;
+    }
+    /// a, a polynomial of the deviations, where these are `at`.
+    friend Expansion put_into(const Expansion& a, const std::vector<Expansion>& at);
 
 private:
     static Expansion half() { return Expansion(Certain(Rational(1) / 2)); }

@@ -189,8 +189,7 @@ Decision judged(const FloquetResult& found, const std::vector<RootOf>& roots, bo
     if (linear && !has(Place::unclear))
         return {StabilityVerdict::stable, StabilityTheorem::floquet,
                 "all multipliers are simple and on the unit circle: the equations are linear and have a "
-                "Hamiltonian, so "
-                "that none can leave it"};
+                "Hamiltonian, so that none can leave it"};
     return {
         StabilityVerdict::undecided, StabilityTheorem::none,
         fmt::format("critical: no multiplier is surely beyond the unit circle, and some are on it{}; the first "

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stability/integrals.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include "formalism/elements.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
+#include "stability/signs.hpp"
 
 namespace alembert {
 
@@ -203,44 +203,6 @@ EnergyForms forms_of(const Local& local, const std::vector<ex>& functions) {
     return result;
 }
 
-/// Q0 + Σ s_k Q_k positive definite for some s: the least eigenvalue is concave in s, and is climbed along one s
-/// after the other.
-std::optional<std::vector<double>> climb(const CertainMatrix& Q0, const std::vector<CertainMatrix>& more) {
-    const auto numbers = [](const CertainMatrix& m) {
-        Eigen::MatrixXd result(m.rows, m.columns);
-        for (int i = 0; i < m.rows; ++i)
-            for (int j = 0; j < m.columns; ++j) result(i, j) = m(i, j).number();
-        return result;
-    };
-    const Eigen::MatrixXd base = numbers(Q0);
-    std::vector<Eigen::MatrixXd> others;
-    for (const CertainMatrix& m : more) others.push_back(numbers(m));
-    std::vector<double> s(more.size(), 0.0);
-    const auto least = [&] {
-        Eigen::MatrixXd sum = base;
-        for (std::size_t k = 0; k < s.size(); ++k) sum += s[k] * others[k];
-        return sum.size() == 0
-                   ? 1.0
-                   : Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(sum, Eigen::EigenvaluesOnly).eigenvalues()[0];
-    };
-    for (int round = 0; round < (more.size() > 1 ? 8 : 1) && least() <= 0; ++round)
-        for (std::size_t k = 0; k < s.size(); ++k) {
-            const double scale = 1e4 * (base.norm() + 1e-300) / (others[k].norm() + 1e-300);
-            double low = s[k] - scale, high = s[k] + scale;
-            const auto at = [&](double x) {
-                s[k] = x;
-                return least();
-            };
-            for (int cut = 0; cut < 120; ++cut) {
-                const double left = low + (high - low) * 0.382, right = low + (high - low) * 0.618;
-                (at(left) < at(right) ? low : high) = at(left) < at(right) ? left : right;
-            }
-            s[k] = (low + high) / 2;
-        }
-    if (!(least() > 0)) return {};
-    return s;
-}
-
 /// `either_sign`: H is conserved, so that a maximum will do as well.
 bool definite(const Local& local, const std::vector<ex>& functions, bool either_sign) {
     const EnergyForms forms = forms_of(local, functions);
@@ -275,7 +237,7 @@ bool definite(const Local& local, const std::vector<ex>& functions, bool either_
     for (const int sign : {1, -1}) {
         if (sign < 0 && !either_sign) break;
         CertainMatrix Q = Certain(sign) * combined(particular);
-        const auto s = climb(Q, more);
+        const auto s = definite_combination(Q, more);
         if (!s) continue;
         for (std::size_t k = 0; k < s->size(); ++k)
             Q = Q + Certain(Rational(cln::rational(cln::cl_DF((*s)[k])))) * more[k];

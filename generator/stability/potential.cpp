@@ -6,7 +6,7 @@
 #include "formalism/elements.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
-#include "stability/spectrum.hpp"
+#include "stability/signs.hpp"
 
 namespace alembert {
 
@@ -136,33 +136,6 @@ std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, c
     return {};
 }
 
-/// Of a form in two variables, c_k x^(d−k) y^k: is it positive everywhere, or negative somewhere?
-struct FormSign {
-    bool positive = false, somewhere_negative = false;
-};
-FormSign sign_of_form(const CertainVector& c) {
-    FormSign result;
-    const int d = static_cast<int>(c.size()) - 1;
-    if (d % 2 == 1) return {.somewhere_negative = true};
-    for (const int y : {-64, -16, -4, -2, -1, 0, 1, 2, 4, 16, 64})
-        for (const int x : {0, 1, 3}) {
-            Certain sum = 0;
-            for (int k = 0; k <= d; ++k) {
-                Certain term = c[k];
-                for (int e = 0; e < d - k; ++e) term *= Certain(x);
-                for (int e = 0; e < k; ++e) term *= Certain(y);
-                sum += term;
-            }
-            if (sum.sign() == -1) return {.somewhere_negative = true};
-        }
-    if (c[0].sign() != 1 || c[d].sign() != 1) return result;
-    // No real root: then it has the sign of x^d.
-    result.positive = true;
-    for (const RootOf& root : roots_of(c))
-        result.positive = result.positive && std::abs(root.value.imag()) > root.radius;
-    return result;
-}
-
 std::optional<DegenerateMinimum> by_form(const AmendedPotential& W) {
     const Monomials plane(2, highest_form);
     const Expansion value =
@@ -175,10 +148,10 @@ std::optional<DegenerateMinimum> by_form(const AmendedPotential& W) {
             zero = zero && form.back().is_zero();
         }
         if (zero) continue;
-        const FormSign sign = sign_of_form(form);
-        if (!sign.positive && !sign.somewhere_negative) return {};
+        const SignNear sign = sign_of_binary_form(form);
+        if (!sign.negative && !sign.definite) return {};
         return DegenerateMinimum{
-            .minimum = sign.positive, .unstable = false, .degree = d, .coefficient = form[0].number()};
+            .minimum = !sign.negative, .unstable = false, .degree = d, .coefficient = form[0].number()};
     }
     return {};
 }

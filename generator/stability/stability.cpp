@@ -13,6 +13,7 @@
 #include "stability/conservative.hpp"
 #include "stability/critical.hpp"
 #include "stability/floquet.hpp"
+#include "stability/lyapunov.hpp"
 #include "stability/polynomial.hpp"
 #include "stability/potential.hpp"
 #include "stability/verdict.hpp"
@@ -67,8 +68,16 @@ const char* name_of(StabilityTheorem theorem) {
             return "Lyapunov's critical case of a pair on the axis";
         case StabilityTheorem::arnold:
             return "Arnold (two frequencies)";
-        case StabilityTheorem::lyapunov_function:
-            return "the Lyapunov function given";
+        case StabilityTheorem::lyapunov_stable:
+            return "Lyapunov's theorem on stability";
+        case StabilityTheorem::lyapunov_asymptotic:
+            return "Lyapunov's theorem on asymptotic stability";
+        case StabilityTheorem::lasalle:
+            return "Barbashin-Krasovskii-LaSalle";
+        case StabilityTheorem::lyapunov_instability:
+            return "Lyapunov's theorem on instability";
+        case StabilityTheorem::chetaev_instability:
+            return "Chetaev's theorem on instability";
         case StabilityTheorem::floquet:
             return "Floquet multipliers";
     }
@@ -217,10 +226,8 @@ void check_steady(const LinearizedScene& near) {
             if (c.multiplier.is_equal(contact.gap.multiplier))
                 throw ModelError(
                     fmt::format("contact {} is closed at this state: a disturbance may open it, and what the "
-                                "motion does then no "
-                                "first approximation tells. Give a state in which all contacts are open, or a "
-                                "constraint in place "
-                                "of the contact",
+                                "motion does then no first approximation tells. Give a state in which all "
+                                "contacts are open, or a constraint in place of the contact",
                                 c.name));
     for (const Mechanism::Input& input : near.mechanism.inputs)
         for (const std::string& name : near.matrices.inputs)
@@ -228,9 +235,8 @@ void check_steady(const LinearizedScene& near) {
                 near.mechanism.z->depends(input.value, {near.mechanism.t}))
                 throw ModelError(
                     fmt::format("the input {} changes with time, so that there is no equilibrium; give the period "
-                                "of the system, "
-                                "--period or `period` of [simulation], for its Floquet multipliers, or make the "
-                                "input constant",
+                                "of the system, --period or `period` of [simulation], for its Floquet "
+                                "multipliers, or make the input constant",
                                 input.derivative[0].get_name()));
 }
 
@@ -250,11 +256,28 @@ Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
     return result;
 }
 
+/// The verdict is what V proves; what is known without V is told beside.
+void judge_function(Stability& result, const std::string& V, const Local* local) {
+    const auto [answer, decision] = by_lyapunov_function(V, *result.near, local);
+    const std::string without = result.verdict == StabilityVerdict::undecided
+                                    ? "undecided"
+                                    : fmt::format("{}, by {}", name_of(result.verdict), name_of(result.theorem));
+    take(result, decision);
+    result.reason += fmt::format(" (without V: {})", without);
+    result.lyapunov = answer;
+}
+
 }  // namespace
 
 Stability stability(Scene scene, const StabilityOptions& options) {
+    const bool periodic = options.period > 0 || scene.simulation.period;
+    if (!options.lyapunov.empty() && (scene.polynomial || periodic))
+        throw ModelError(
+            "a Lyapunov function is judged at an equilibrium or a steady motion of a mechanism; leave it out for "
+            "a "
+            "[polynomial] or a periodic motion");
     if (scene.polynomial) return stability_of_polynomial(scene, options);
-    if (options.period > 0 || scene.simulation.period) return stability_of_periodic(std::move(scene), options);
+    if (periodic) return stability_of_periodic(std::move(scene), options);
     Stability result{.title = scene.title};
     LinearizeOptions linearize_options{.by = options.by, .at = options.at, .exact_at = options.exact_at};
     result.near = linearize(std::move(scene), linearize_options);
@@ -273,6 +296,7 @@ Stability stability(Scene scene, const StabilityOptions& options) {
         result.eigenvalues = eigenvalues_of(blurred(result.A), false);
         take(result, decide_first(result.eigenvalues));
         if (result.verdict == StabilityVerdict::undecided) take(result, undecided(result.eigenvalues));
+        if (!options.lyapunov.empty()) judge_function(result, options.lyapunov, nullptr);
         return result;
     }
     result.states = local->states;
@@ -306,6 +330,7 @@ Stability stability(Scene scene, const StabilityOptions& options) {
     }
     take(result, decision);
     add_conditions(result, *local, options.exact_at);
+    if (!options.lyapunov.empty()) judge_function(result, options.lyapunov, &*local);
     return result;
 }
 

@@ -27,22 +27,26 @@ enum class StabilityVerdict { asymptotically_stable, stable, unstable, undecided
 /// What decided.
 enum class StabilityTheorem {
     none,
-    hurwitz,              ///< of a polynomial or of linear equations: the roots themselves
-    jordan,               ///< roots on the axis: simple ones, or as many eigenvectors as the root counts, or not
-    first_approximation,  ///< Lyapunov: all real parts negative, or one positive
-    malkin,               ///< Lyapunov and Malkin: zero roots as many as parameters of the steady motion
-    lagrange_dirichlet,   ///< the potential has a minimum
-    routh,                ///< the amended potential has one, momenta of cyclic coordinates held
-    jacobi,               ///< the potential less T₀ has one, in a frame that moves
-    kelvin_chetaev,       ///< complete or pervasive damping of a conservative system
-    kelvin_odd,           ///< an odd number of unstable degrees cannot be stabilized by gyroscopic forces
-    chetaev_integrals,    ///< a combination of integrals is definite
-    potential_form,       ///< terms of higher degree of the potential
-    one_zero_root,        ///< Lyapunov's critical case of one zero root
-    pair_on_axis,         ///< Lyapunov's critical case of a pair on the axis
-    arnold,               ///< fourth-order normal form of a Hamiltonian with two degrees of freedom
-    lyapunov_function,    ///< the user's
-    floquet,              ///< multipliers of a periodic system
+    hurwitz,               ///< of a polynomial or of linear equations: the roots themselves
+    jordan,                ///< roots on the axis: simple ones, or as many eigenvectors as the root counts, or not
+    first_approximation,   ///< Lyapunov: all real parts negative, or one positive
+    malkin,                ///< Lyapunov and Malkin: zero roots as many as parameters of the steady motion
+    lagrange_dirichlet,    ///< the potential has a minimum
+    routh,                 ///< the amended potential has one, momenta of cyclic coordinates held
+    jacobi,                ///< the potential less T₀ has one, in a frame that moves
+    kelvin_chetaev,        ///< complete or pervasive damping of a conservative system
+    kelvin_odd,            ///< an odd number of unstable degrees cannot be stabilized by gyroscopic forces
+    chetaev_integrals,     ///< a combination of integrals is definite
+    potential_form,        ///< terms of higher degree of the potential
+    one_zero_root,         ///< Lyapunov's critical case of one zero root
+    pair_on_axis,          ///< Lyapunov's critical case of a pair on the axis
+    arnold,                ///< fourth-order normal form of a Hamiltonian with two degrees of freedom
+    lyapunov_stable,       ///< of a function given: positive definite, and never growing
+    lyapunov_asymptotic,   ///< and falling
+    lasalle,               ///< and no other motion keeps its value
+    lyapunov_instability,  ///< it takes positive values, and grows everywhere near
+    chetaev_instability,   ///< or where it is positive
+    floquet,               ///< multipliers of a periodic system
 };
 
 /// "asymptotically stable" …
@@ -51,11 +55,21 @@ const char* name_of(StabilityVerdict verdict);
 /// "Lagrange-Dirichlet" …
 const char* name_of(StabilityTheorem theorem);
 
+/// What a function V proves (lyapunov.hpp).
+struct LyapunovAnswer {
+    std::string function = {}, rate = {};   ///< V as typed; dV/dt, empty where it is long
+    std::string sign = {}, rate_sign = {};  ///< "positive definite", "negative semidefinite" … or "not known"
+    bool sampled = false;                   ///< signs were looked at in numbers only
+    std::string samples = {};               ///< what was seen there
+    std::string set = {};                   ///< where dV/dt is zero, if it is semidefinite
+};
+
 struct StabilityOptions {
     std::string by = {};  ///< a formalism; empty: the program chooses
     Overrides at = {};
     ExactOverrides exact_at = {};  ///< the same as typed: decimals are exact
     double period = 0;             ///< s; 0: the scene's, where it gives one
+    std::string lyapunov = {};     ///< a function V to be judged; then the verdict is what V proves
 };
 
 struct Stability {
@@ -76,6 +90,7 @@ struct Stability {
     StabilityVerdict verdict = StabilityVerdict::undecided;
     StabilityTheorem theorem = StabilityTheorem::none;
     std::string reason = {};
+    std::optional<LyapunovAnswer> lyapunov = {};  ///< of the function that was given
 };
 
 /// Throws as `linearize` where the state is neither an equilibrium nor a steady motion.

@@ -84,8 +84,7 @@ private:
             if (change.rank < n)
                 throw IntegrationError(
                     "the speeds do not determine the rates at the start: their forms, with the constraints, lose "
-                    "rank "
-                    "at these coordinates; start elsewhere, or choose other coordinates (a quaternion, for "
+                    "rank at these coordinates; start elsewhere, or choose other coordinates (a quaternion, for "
                     "angles in gimbal lock)",
                     start_.t, start_.q);
             const Eigen::VectorXd step = change.x;

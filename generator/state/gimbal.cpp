@@ -32,8 +32,7 @@ std::string way_out(const Scene& scene, const Body& body) {
     if (!joint.angles.empty())
         return fmt::format(
             "give joint '{}' a quaternion: four coordinates, {{ e0 = 1, e1 = 0, e2 = 0, e3 = 0 }}, in place of "
-            "its three "
-            "angles, and no 'angles'",
+            "its three angles, and no 'angles'",
             joint.name.text);
     return "let one spherical joint turn the body, by a quaternion: four coordinates, scalar first, and no "
            "'angles'";
@@ -69,8 +68,7 @@ std::optional<std::string> gimbal_lock(const Scene& scene, const Mechanism& m, c
         if (evenness(program, nodes, beside) < tolerance::gimbal_lock) continue;
         return fmt::format(
             "the angles {} of frame '{}' are in gimbal lock: two of them turn body '{}' about the same line, and "
-            "the third "
-            "cannot turn it about all others; {}",
+            "the third cannot turn it about all others; {}",
             angles, body.frame.text, body.name.text, way_out(scene, body));
     }
     return std::nullopt;

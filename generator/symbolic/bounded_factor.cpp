@@ -10,7 +10,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// Terms times symbols times the sum of the degrees: a tenth of a second or so.
+/// The bound on terms times symbols times the sum of the degrees, which takes about a tenth of a second.
 constexpr double most_work = 4000;
 constexpr int highest_degree = 12;
 

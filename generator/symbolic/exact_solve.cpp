@@ -9,7 +9,8 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int most_nodes = 3000;  // of one entry; the common divisors of larger ones take seconds
+// A bound for one entry; finding the common divisors of larger ones takes seconds.
+constexpr int most_nodes = 3000;
 
 int nodes(const ex& e, int limit = most_nodes + 1) {
     int count = 1;
@@ -100,7 +101,7 @@ std::optional<GiNaC::exvector> solve_exactly(ExactRows K, GiNaC::exvector b,
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j < n && used[i] == 0; ++j) {
                 if (taken[j] != 0 || K[i][j].is_zero() || !(std::abs(number(K[i][j])) > 1e-12 * scale)) continue;
-                int others = 0;  // an entry that few others stand beside makes few new ones
+                int others = 0;  // a pivot with few other entries in its row and column creates few new ones
                 for (std::size_t k = 0; k < n; ++k)
                     others += (used[k] == 0 && !K[k][j].is_zero()) + (taken[k] == 0 && !K[i][k].is_zero());
                 const int price = nodes(K[i][j]) * others;

@@ -20,7 +20,7 @@ namespace {
 
 using Kind = AtomNode::Kind;
 
-/// A term, and powers of polynomials that were taken out of it to be multiplied out.
+/// A term, and the powers of polynomials that were taken out of it and must be multiplied out.
 struct Product {
     Term term;
     std::vector<std::pair<Polynomial, int>> powers;
@@ -93,7 +93,7 @@ Term circular_term(bool is_sine, Polynomial arg) {
     return {{{compound_atom(is_sine ? Kind::sine : Kind::cosine, {std::move(arg)}), 1}}, sign};
 }
 
-/// A term split into its circular function and the rest.
+/// A term split into its sine or cosine and the rest.
 struct Split {
     Monomial rest;
     const AtomNode* wave;
@@ -129,8 +129,8 @@ bool charge(Budget& budget, std::size_t terms) {
     return !budget.spent;
 }
 
-/// c = s^(1/e)·r with r as small as trial division makes it: the part of a root that is rational, and what is
-/// left.
+/// c = s^(1/e)·r with r as small as trial division makes it: the rational part of a root, and the part that
+/// remains under it.
 std::pair<Rational, Rational> take_root(const Rational& c, const Rational& e) {
     const cln::cl_I q = cln::denominator(e);
     // n/d = n·d^(q−1)/d^q
@@ -297,7 +297,7 @@ Fourier cosine(const Fourier& arg) {
 }
 
 Fourier power(const Fourier& base, const Rational& exponent, Budget& budget) {
-    if (budget.spent) return {};  // and `base` may be a product that was given up, which looks like zero
+    if (budget.spent) return {};  // `base` may be a product that was abandoned, which looks like zero
     if (is_integer(exponent) && exponent >= 0) return raise(base, to_int(exponent), budget);
     if (base.size() == 0) {
         if (exponent > 0) return {};

@@ -6,14 +6,14 @@
 ///     m·l²·cos²θ  ↦  ½·l²·m + ½·l²·m·cos(2θ)
 ///
 /// Every trigonometric polynomial has exactly one such form, so `is_zero` decides equality for these. Divisions
-/// and roots are atoms with negative or broken exponents; there `is_zero` clears the denominators first, which
-/// decides rational expressions too. Other functions (exp, log, atan2 …) are opaque but for oddness and
-/// exp(a)·exp(b).
+/// and roots are atoms with negative or fractional exponents; for these `is_zero` clears the denominators first,
+/// which decides rational expressions too. Other functions (exp, log, atan2 …) are treated as independent, except
+/// that odd functions and exp(a)·exp(b) are recognized.
 ///
 ///     const std::optional<Fourier> f = fourier(expression, symbols);
 ///     if (f && is_zero(*f - *g)) …            // proved equal
 ///
-/// A product of k angles has 2ᵏ terms: `fourier` gives nothing, quickly, where any product on the way would have
+/// A product of k angles has 2ᵏ terms: `fourier` soon gives an empty result if any product on the way would have
 /// more than `budget` terms. Throws std::out_of_range for symbols that were not declared and std::domain_error for
 /// a division by zero.
 
@@ -27,7 +27,8 @@
 
 namespace alembert {
 
-/// How many terms a product may have, and how many all products together; `spent` once one went beyond.
+/// How many terms one product may have, and how many all products together; `spent` is true once a limit was
+/// exceeded.
 struct Budget {
     std::size_t terms = static_cast<std::size_t>(-1);
     std::size_t work = static_cast<std::size_t>(-1);
@@ -40,7 +41,7 @@ public:
     Fourier() = default;                                           ///< zero
     Fourier(const Rational& constant) : polynomial_(constant) {}   // NOLINT: a number is a normal form
     explicit Fourier(Atom atom) : polynomial_(std::move(atom)) {}  ///< no sine or cosine
-    /// For terms that obey the rule already.
+    /// From terms that already have at most one sine or cosine each.
     static Fourier collect(std::vector<Term> terms) { return Fourier(Polynomial::collect(std::move(terms))); }
 
     const Polynomial& polynomial() const { return polynomial_; }
@@ -70,10 +71,11 @@ Fourier power(const Fourier& base, const Rational& exponent, Budget& budget);
 /// and false may be wrong.
 bool is_zero(const Fourier& f);
 
-/// The part of f that holds symbol^exponent, divided by it. (The linear coefficient of an acceleration.)
+/// The part of f that contains symbol^exponent, divided by that power (for example the coefficient of an
+/// acceleration).
 Fourier coefficient(const Fourier& f, const GiNaC::symbol& symbol, int exponent = 1);
 
-/// The coefficient of π itself in an argument.
+/// The rational coefficient of π in an argument.
 Rational coefficient_of_pi(const Polynomial& arg);
 
 /// The sine or cosine of a term, or null.

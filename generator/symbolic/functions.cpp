@@ -21,7 +21,7 @@ REGISTER_FUNCTION(absolute, eval_func(absolute_eval))
 
 namespace {
 
-/// (√5 − 1)/4 and the like for multiples of π/10, π/12 …
+/// Whether the value would contain nested roots, as for multiples of π/10, π/12 …
 bool would_be_nested_roots(const ex& angle) {
     const ex turns = angle / GiNaC::Pi;
     if (!GiNaC::is_a<GiNaC::numeric>(turns)) return false;

@@ -27,12 +27,12 @@ bool is_atom(const ex& e) {
             (is_a<numeric>(e.op(1)) && is_a<symbol>(e.op(0))));
 }
 
-/// A power that a polynomial may contain.
+/// Whether `e` is a power that a polynomial may contain.
 bool is_whole_power(const ex& e) {
     return is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer);
 }
 
-/// Sum kept flat: GiNaC adds n terms at once faster than one by one.
+/// A flat sum, because GiNaC adds n terms faster at once than one by one.
 ex sum_of(GiNaC::exvector terms) {
     if (terms.empty()) return 0;
     return terms.size() == 1 ? terms.front() : ex(GiNaC::add(std::move(terms)));
@@ -86,12 +86,12 @@ std::vector<symbol> Intermediates::symbols_in(const ex& e) const {
     return result;
 }
 
-/// Replaces functions and powers that are not whole by symbols; what is left is a polynomial in atoms.
+/// Replaces functions and powers that are not whole by symbols, so that a polynomial in atoms remains.
 ex Intermediates::flatten(const ex& e) {
     if (is_number(e) || is_a<symbol>(e)) return e;
     if (is_a<GiNaC::function>(e)) {
         GiNaC::exvector args;
-        bool is_same = true;  // then it stays as it is, unevaluated if it was: sin(π/10)
+        bool is_same = true;  // if true, `e` stays as it is, even if unevaluated like sin(π/10)
         for (const ex& arg : e) {
             args.push_back(name(arg));
             is_same = is_same && args.back().is_equal(arg);
@@ -104,7 +104,7 @@ ex Intermediates::flatten(const ex& e) {
             return pow(is_a<symbol>(base) || is_number(base) ? base : name(base), e.op(1));
         }
         const ex value = pow(name(e.op(0)), name(e.op(1)));
-        // A number may have come out of the power, or the power may have turned whole.
+        // The power may have become a number or a whole power.
         if (is_a<GiNaC::power>(value) && !is_whole_power(value)) return name_whole(value);
         return is_a<GiNaC::power>(value) || is_atom(value) ? value : flatten(value);
     }
@@ -121,7 +121,8 @@ ex Intermediates::name_whole(const ex& e) {
     entry.uses = symbols_in(e);
     entry.tree_size = tree_size(e);
     std::set<int> sources{current_source_};
-    // What several share keeps its own sources; a sum over bodies has them all, up to a readable number.
+    // A symbol that is named while no source is set gets the sources of the symbols in its definition, up to a
+    // readable number of them.
     for (const symbol& s : entry.uses)
         if (const Entry* used = find(s); used && current_source_ == 0)
             sources.insert(used->sources.begin(), used->sources.end());
@@ -155,11 +156,11 @@ double Intermediates::tree_size(const ex& e) const {
     return size;
 }
 
-/// ∂definition/∂by, the symbols in the definition being independent.
+/// ∂definition/∂by, where the symbols in the definition count as independent.
 ex Intermediates::partial(const Entry& entry, const symbol& by) {
     const auto key = std::pair(static_cast<std::size_t>(&entry - entries_.data()), symbols_->info(by).rank);
     if (const auto found = partials_.find(key); found != partials_.end()) return found->second;
-    const ex definition = entry.definition;  // a copy: naming below may move the entries
+    const ex definition = entry.definition;  // a copy, because naming below may move the entries
     const ex self = entry.symbol;
     ex result = 0;
     if (is_a<GiNaC::function>(definition)) {
@@ -215,7 +216,7 @@ std::vector<ex> Intermediates::pull_back(const std::vector<std::pair<ex, ex>>& t
     std::vector<ex> roots;
     for (const auto& [target, weight] : targets) roots.push_back(flatten(target));
 
-    // Which entries lead to one of `wrt` at all.
+    // The entries that depend on one of `wrt`.
     std::set<unsigned> leads;
     for (const symbol& s : wrt) leads.insert(s.gethash());
     const std::vector<std::size_t> order = reachable(roots);

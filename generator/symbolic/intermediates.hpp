@@ -2,7 +2,7 @@
 #pragma once
 
 /// Intermediate symbols (Autolev's Z): every value that is more than an atom gets a symbol of its own, so that no
-/// expression ever grows beyond a line and every derivative is made once.
+/// expression grows beyond a line and every derivative is computed once.
 ///
 ///     Intermediates z(symbols);
 ///     const ex x = z.name(l1*sin(theta1) + l2*sin(theta2));       // a symbol; its definition is recorded
@@ -10,11 +10,11 @@
 ///     const std::vector<ex> M0 = z.push_forward(p, {{qdot[0], 1}});   // column of ∂p/∂q', forward mode
 ///
 /// A definition is either one function of atoms (sin, sqrt, …, a power that is not whole) or a polynomial,
-/// possibly with negative whole powers, in atoms; an atom is a number, a symbol, or a number times a symbol.
-/// The same expression gets the same symbol. Definitions refer to earlier ones only.
+/// possibly with negative whole powers, in atoms; an atom is a number, a symbol, or a number times a symbol. Equal
+/// expressions get the same symbol. Definitions refer to earlier ones only.
 ///
 /// Reverse and forward differentiation on the resulting graph: Griewank & Walther, Evaluating Derivatives (2008),
-/// chapter 3. Without it the same derivation has 4·10²⁰ tree nodes for a chain of 32 rods.
+/// chapter 3. Without intermediate symbols the derivation of a chain of 32 rods has 4·10²⁰ tree nodes.
 
 #include <map>
 #include <set>
@@ -35,18 +35,20 @@ public:
         GiNaC::symbol symbol;
         GiNaC::ex definition;
         std::vector<GiNaC::symbol> uses;  ///< symbols in the definition, by rank
-        std::vector<int> sources;         ///< sorted indices into `source_labels`: where it comes from
-        double tree_size = 1;             ///< nodes when all intermediates are substituted
+        std::vector<int>
+            sources;  ///< sorted indices into `source_labels`: the parts of the mechanism from which it comes
+        double tree_size = 1;  ///< number of nodes if all intermediates were substituted
     };
 
-    /// The atom that stands for `e`: `e` itself if it is one. Functions inside get symbols of their own.
+    /// The atom that stands for `e`: `e` itself if it is one. Functions inside `e` get symbols of their own.
     GiNaC::ex name(const GiNaC::ex& e);
 
-    /// Takes over the entries of another table of the same scene that this one does not have, so that what is
-    /// expressed in the symbols of either can be used with this one.
+    /// Adds the entries of another table of the same scene that this one does not have, so that expressions in the
+    /// symbols of either can be used with this one.
     void adopt(const Intermediates& other);
 
-    /// Who is to blame for what is named from now on ("body M2", "spring 1"); returns the former label's index.
+    /// Sets the source of all symbols that are named from now on ("body M2", "spring 1"); returns the index of the
+    /// former label.
     int set_source(const std::string& label);
     void restore_source(int index) { current_source_ = index; }
     const std::vector<std::string>& source_labels() const { return labels_; }
@@ -55,7 +57,7 @@ public:
     std::vector<GiNaC::ex> pull_back(const std::vector<std::pair<GiNaC::ex, GiNaC::ex>>& targets,
                                      const std::vector<GiNaC::symbol>& wrt);
 
-    /// Where a direction leads: dot of each base symbol that moves.
+    /// A direction of differentiation: the derivative of each base symbol that is not constant along it.
     using Direction = std::vector<std::pair<GiNaC::symbol, GiNaC::ex>>;
 
     /// The derivative of each of `values` along `direction`.
@@ -65,7 +67,7 @@ public:
     const Entry* find(const GiNaC::symbol& symbol) const;
     const std::vector<Entry>& entries() const { return entries_; }
 
-    /// `e` with all intermediate symbols replaced by what they stand for. Look at `tree_size` first.
+    /// `e` with all intermediate symbols replaced by what they stand for. Check `tree_size` first.
     GiNaC::ex expand(const GiNaC::ex& e) const;
     double tree_size(const GiNaC::ex& e) const;
 
@@ -75,12 +77,12 @@ public:
     const Symbols& symbols() const { return *symbols_; }
 
 private:
-    /// What a direction has been followed through already: scenes of hundreds of points are differentiated point
-    /// by point.
+    /// The derivatives along a direction that are known already. Scenes of hundreds of points are differentiated
+    /// point by point.
     struct Flow {
         Direction direction = {};
-        std::map<unsigned, GiNaC::ex> dot = {};  // symbol hash → its derivative, where that is not 0
-        std::set<std::size_t> done = {};         // entries
+        std::map<unsigned, GiNaC::ex> dot = {};  // symbol hash → its derivative, if that is not 0
+        std::set<std::size_t> done = {};         // entries that have been differentiated
     };
     int source_of(const std::string& label);
     Flow& flow_along(const Direction& direction);

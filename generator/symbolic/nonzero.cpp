@@ -24,7 +24,7 @@ public:
     explicit Sampling(const Intermediates& z) : z_(z) {}
 
     Rounded operator()(const ex& e) {
-        std::set<const Intermediates::Entry*> needed;  // in the order of their making
+        std::set<const Intermediates::Entry*> needed;  // in the order in which they were made
         std::vector<ex> stack{e};
         while (!stack.empty()) {
             const ex top = stack.back();
@@ -85,7 +85,7 @@ private:
 
     Rounded symbol(const GiNaC::symbol& s) const {
         if (const auto found = known_.find(s.gethash()); found != known_.end()) return found->second;
-        // Multiples of the golden ratio, modulo 1: no two alike, none near 0.
+        // Multiples of the golden ratio, modulo 1: no two are equal, and none is near 0.
         const double turn = 0.6180339887498949 * (z_.symbols().info(s).rank + 1),
                      value = 0.4 + turn - std::floor(turn);
         return {value, value};

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A quick look at one state: most of what is not identically zero shows there.
+/// A quick test at one state, which recognizes most expressions that are not identically zero.
 ///
 ///     if (shows_nonzero(e, z)) …        // then no normal form is needed to refuse e = 0
 ///
 /// Symbols get fixed numbers of order one, and each operation carries along how far rounding may have moved its
 /// value (a running error bound of first order: Higham, Accuracy and Stability of Numerical Algorithms (2002),
-/// §3.3). True only where the value is 10⁵ times that bound; false says nothing. Polynomials, powers, sines and
-/// cosines are looked at; anything else gives false.
+/// §3.3). The result is true only if the value is 10⁵ times that bound; false means nothing. Only polynomials,
+/// powers, sines and cosines are evaluated; anything else gives false.
 
 #include "symbolic/intermediates.hpp"
 

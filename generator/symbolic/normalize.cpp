@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// GiNaC's tree → normal form, each shared subexpression once.
+// Converts GiNaC's tree to the normal form; each shared subexpression is converted once.
 #include <algorithm>
 #include <stdexcept>
 #include <unordered_map>
@@ -67,7 +67,8 @@ private:
     Fourier product(const GiNaC::ex& e) {
         std::vector<Fourier> factors;
         for (std::size_t i = 0; i < e.nops(); ++i) factors.push_back((*this)(e.op(i)));
-        // GiNaC's order is random: without our own, the budget would be exceeded in some runs and not in others.
+        // GiNaC's order is random. Without a fixed order the budget would be exceeded in some runs and not in
+        // others.
         std::sort(factors.begin(), factors.end(),
                   [](const Fourier& a, const Fourier& b) { return compare(a.polynomial(), b.polynomial()) < 0; });
         Fourier result = Rational(1);
@@ -114,7 +115,7 @@ private:
         if (name == "sin") return sine(first);
         if (name == "cos") return cosine(first);
         if (name == "exp") return exponential(args[0]);
-        // GiNaC takes symbols for complex ones; ours are real.
+        // GiNaC treats symbols as complex; ours are real.
         if (name == "conjugate" || name == "real_part") return first;
         if (name == "imag_part") return {};
         const bool negative = !args[0].is_zero() && args[0].terms()[0].coefficient < 0;

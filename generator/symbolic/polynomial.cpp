@@ -41,7 +41,7 @@ int compare_symbols(const SymbolInfo& a, const SymbolInfo& b) {
     return key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0;
 }
 
-/// Of atoms that compare as equal: are their symbols of the same scene?
+/// For atoms that compare as equal: do their symbols belong to the same scene?
 int compare_owners(const AtomNode& a, const AtomNode& b) {
     if (&a == &b) return 0;
     if (a.kind == AtomNode::Kind::symbol) return a.symbol.compare(b.symbol);
@@ -108,7 +108,7 @@ Atom compound_atom(AtomNode::Kind kind, std::vector<Polynomial> args, std::strin
     node->args = std::move(args);
     node->steady = std::all_of(node->args.begin(), node->args.end(), steady);
     if (kind == AtomNode::Kind::base) node->primitive = is_primitive(node->args.at(0));
-    // Equal atoms are mostly one object, which makes their comparison short.
+    // Equal atoms are mostly stored as one object, which makes comparisons short.
     constexpr std::size_t most = 4096;
     static auto& known = *new std::set<Atom, decltype([](const Atom& a, const Atom& b) {
                                            const int order = compare(a, b);
@@ -139,7 +139,7 @@ int compare(const Monomial& a, const Monomial& b) {
         if (a[i].atom != b[i].atom)
             if (const int order = compare(*a[i].atom, *b[i].atom); order != 0) return order;
         if (a[i].exponent.pointer == b[i].exponent.pointer)
-            continue;  // small whole numbers are their own pointers
+            continue;  // CLN stores small whole numbers in the pointer itself
         if (const int order = sign(static_cast<int>(cln::compare(b[i].exponent, a[i].exponent))); order != 0)
             return order;
     }

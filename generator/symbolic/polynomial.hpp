@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Sparse polynomials over the rationals in ordered atoms: what the normal form and the readable form are made of.
+/// Sparse polynomials over the rationals in ordered atoms. The normal form and the readable form consist of them.
 ///
 ///     Σ coefficient · Π atomᵉˣᵖᵒⁿᵉⁿᵗ        e.g.  1/2·m·x'² − g·m·(x²+y²)^(−1/2)
 ///
-/// An atom is a symbol, π, a base (a polynomial that stands under a negative or broken exponent) or a function of
+/// An atom is a symbol, π, a base (a polynomial with a negative or fractional exponent) or a function of
 /// polynomials. Exponents are rational and may be negative. Terms are ordered by the ranks of their symbols
-/// (coordinates first), never by address or by GiNaC's order, so equal values are equal texts in every run.
+/// (coordinates first), never by address or by GiNaC's order, so that equal values give equal texts in every run.
 
 #include <cln/rational.h>
 #include <ginac/ginac.h>
@@ -31,7 +31,7 @@ struct Factor {
     Atom atom;
     Rational exponent;
 };
-using Monomial = std::vector<Factor>;  ///< by atom, ascending; no zero exponents
+using Monomial = std::vector<Factor>;  ///< ascending by atom; no exponent is zero
 
 struct Term {
     Monomial monomial;
@@ -43,7 +43,7 @@ public:
     Polynomial() = default;                ///< zero
     Polynomial(const Rational& constant);  // NOLINT: a number is a polynomial
     explicit Polynomial(Atom atom, const Rational& exponent = 1);
-    /// Sorts, adds up equal monomials and drops zeros.
+    /// Sorts the terms, adds those with equal monomials and drops zeros.
     static Polynomial collect(std::vector<Term> terms);
 
     const std::vector<Term>& terms() const { return terms_; }
@@ -60,12 +60,13 @@ struct AtomNode {
     /// The order of the kinds is the order of atoms in a monomial: a sine or cosine comes last.
     enum class Kind { symbol, pi, base, function, cosine, sine };
     Kind kind = Kind::symbol;
-    SymbolInfo info;               ///< of a symbol
+    SymbolInfo info;               ///< if the atom is a symbol
     GiNaC::ex symbol;              ///< the symbol itself
-    std::string name;              ///< of a function, as GiNaC calls it
-    std::vector<Polynomial> args;  ///< of a function, sine, cosine; the one polynomial of a base
-    bool steady = true;            ///< made of numbers and parameters only
-    bool primitive = true;         ///< a base: without content, sign or monomial to be taken out of whole powers
+    std::string name;              ///< GiNaC's name of a function
+    std::vector<Polynomial> args;  ///< the arguments of a function, sine or cosine; the one polynomial of a base
+    bool steady = true;            ///< whether it consists of numbers and parameters only
+    /// For a base: whether it has no content, sign or monomial that could be taken out of whole powers.
+    bool primitive = true;
 
     bool is_circular() const { return kind == Kind::cosine || kind == Kind::sine; }
 };
@@ -96,9 +97,9 @@ Polynomial power(const Polynomial& base, int exponent);  ///< exponent ≥ 0
 Monomial operator*(const Monomial& a, const Monomial& b);
 Monomial power(const Monomial& base, const Rational& exponent);
 
-/// The largest monomial that divides all terms (lowest exponents, negative ones too).
+/// The largest monomial that divides all terms (with the lowest exponents, which may be negative).
 Monomial common_monomial(const Polynomial& polynomial);
-/// What every term holds: a/r² + b/r³ = r⁻²·(a + b/r), while a + b/r shares nothing.
+/// The monomial that every term contains: a/r² + b/r³ = r⁻²·(a + b/r), while the terms of a + b/r share nothing.
 Monomial shared_monomial(const Polynomial& polynomial);
 /// The positive rational c for which the coefficients of polynomial/c are coprime integers; 1 for zero.
 Rational content(const Polynomial& polynomial);
@@ -127,7 +128,7 @@ std::vector<Polynomial> partition(const Polynomial& polynomial, Predicate is_in)
 }
 
 bool is_integer(const Rational& value);
-/// Throws std::overflow_error where the value is no small integer.
+/// Throws std::overflow_error if the value is no small integer.
 int to_int(const Rational& value);
 
 GiNaC::ex expression(const Rational& value);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The symbols of one scene: GiNaC symbols with what they stand for, in the order of their declaration.
+/// The symbols of one scene: GiNaC symbols and their meaning, in the order of their declaration.
 ///
 /// GiNaC's own order of terms changes from run to run; everything that is printed or emitted is ordered by
 /// `info(s).rank` instead.
@@ -32,7 +32,7 @@ struct SymbolInfo {
     bool before = false;        ///< x'(-), a rate before an impact; of kind `other`
     bool intermediate = false;  ///< stands for an expression (Intermediates); of kind `other`
 
-    /// name and primes, as a user would type it.
+    /// The name and its primes, as a user would type them.
     std::string text() const {
         return name + std::string(static_cast<std::size_t>(order), '\'') + (before ? "(-)" : "");
     }
@@ -42,9 +42,9 @@ class Symbols {
 public:
     /// Declares a new symbol. Its rank is the number of symbols declared before.
     GiNaC::symbol declare(std::string name, SymbolInfo::Kind kind, int index = 0, int order = 0);
-    /// z0, z1 …: the name of an expression in a table of intermediate symbols, at this position.
+    /// Declares z0, z1 …, the symbol of the expression at this position in a table of intermediate symbols.
     GiNaC::symbol declare_intermediate(int index);
-    /// x'(-) of the coordinate x.
+    /// Declares x'(-) for the coordinate x.
     GiNaC::symbol declare_rate_before(const GiNaC::symbol& coordinate);
 
     /// Throws std::out_of_range for a symbol that was not declared here.
@@ -57,7 +57,7 @@ private:
     std::vector<GiNaC::symbol> by_rank_;
     std::vector<SymbolInfo> infos_;
     std::unordered_map<unsigned, std::size_t>
-        position_;  // keyed by gethash(), one-to-one in a symbol's serial number
+        position_;  // the key is gethash(), which corresponds one to one to a symbol's serial number
 };
 
 }  // namespace alembert

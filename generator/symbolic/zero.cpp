@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// f = 0 for a sum of quotients: multiply by every denominator; what is left is a polynomial in independent
+// f = 0 for a sum of quotients: multiply by every denominator; the result is a polynomial in independent
 // functions.
 #include <algorithm>
 #include <optional>
@@ -14,8 +14,8 @@ namespace {
 
 using Kind = AtomNode::Kind;
 
-/// tan x = sin x/cos x; cos(x + π/4) = (cos x − sin x)/√2 and the like for thirds of a right angle: what the zero
-/// test has to know, and a reader would rather not see.
+/// tan x = sin x/cos x; cos(x + π/4) = (cos x − sin x)/√2 and similarly for thirds of a right angle. The zero test
+/// needs these forms; readers prefer not to see them.
 Fourier resolve(const Factor& factor, Budget& budget) {
     const AtomNode& atom = *factor.atom;
     if (atom.kind == Kind::function && atom.name == "tan" && is_integer(factor.exponent)) {
@@ -43,7 +43,7 @@ Fourier resolve(const Fourier& f, Budget& budget) {
     return Fourier::collect(std::move(terms));
 }
 
-/// The lowest negative power of a base, of the first base in order; none where there is no denominator.
+/// The lowest negative power of the first base in order; none if there is no denominator.
 std::optional<Factor> denominator(const Fourier& f) {
     std::optional<Factor> result;
     for (const Term& term : f.terms()) {
@@ -61,7 +61,7 @@ std::optional<Factor> denominator(const Fourier& f) {
 bool is_zero(const Fourier& f) {
     Budget budget{.terms = 200000, .work = 2000000};
     Fourier rest = resolve(f, budget);
-    // Each round clears one base; bases inside it may appear instead, but not without end.
+    // Each round clears one base. Bases inside it may appear instead, but only finitely often.
     for (int round = 0; round < 64 && rest.size() != 0; ++round) {
         const std::optional<Factor> below = denominator(rest);
         if (!below) return false;

@@ -4,8 +4,8 @@
 /// The binary interface between an emitted solver and whoever runs it.
 ///
 /// An emitted file exports one C function, `alembert_solver()`, that returns the table below. The emitted file
-/// includes nothing, so it carries its own copy of the struct (templates/solver.cpp.mustache): whoever changes
-/// one changes the other and raises `abi_version`; a test compares the two word for word.
+/// includes nothing, so it carries its own copy of the struct (templates/solver.cpp.mustache). If you change one
+/// of the two, change the other and raise `abi_version`; a test compares them word for word.
 ///
 /// Arrays (all row-major, all doubles, SI or whatever units the scene uses throughout):
 ///   state  n + s    coordinates q, then speeds u: the rates q' (s = n) unless the equations are in others
@@ -15,7 +15,8 @@
 ///                   Lagrangian is given; the power dE/dt of everything that changes E (loads outside V,
 ///                   prescribed motions)
 ///   jacobi 1        T₂ − T₀ + V, the generalized energy
-/// `par` must have been through `prepare` after its last change. No function keeps state: all are thread-safe.
+/// `par` must have been through `prepare` after its last change. No function keeps a state of its own, so all are
+/// thread-safe.
 
 extern "C" {
 
@@ -32,65 +33,65 @@ struct alembert_solver_table {
     const char* scene;        ///< title or file name of the scene
     const char* formulation;  ///< formalism and form, e.g. "lagrange, textbook form"
     const char* const* coordinate_names;
-    const char* const* speed_names;  ///< s; null where they are the rates
+    const char* const* speed_names;  ///< s names; null if the speeds are the rates q'
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
     const double* parameter_values;  ///< the scene's own values, p of them
     void (*prepare)(double* par);
     void (*rhs)(double t, const double* state, const double* par, double* rate);
-    /// mass: s×s symmetric, forcing: s; M u' = f + Aᵀλ. Null for trees of so many joints that M would be most of
-    /// the file.
+    /// mass: s×s symmetric, forcing: s; M u' = f + Aᵀλ. The pointer is null for trees with so many joints that M
+    /// would take most of the file.
     void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
     /// `rate` as from `rhs` at the same t and state; energy: T, V, E, power; jacobi: one number.
     void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
                    double* jacobi);
     void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
     void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
-    /// position: m, f(q,t) of holonomic constraints, 0 for others; velocity: m, A q' + b; rows: A, m×n row-major;
-    /// where the speeds are not the rates, then A in speeds, m×s, with zeros for constraints that u has
-    /// eliminated.
+    /// position: m, f(q,t) of holonomic constraints, 0 for others; velocity: m, A q' + b; rows: A, m×n row-major,
+    /// followed, if the speeds are not the rates, by A in terms of the speeds, m×s, in which the rows of
+    /// constraints that u has eliminated are zero.
     void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
                            double* rows);
     /// λ, m of them.
     void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
 };
 
-/// What `alembert_derivatives()` returns, of an emitted file that has this function: partial derivatives of `rhs`,
-/// those entries that are not zero at every state, row by row.
+/// What `alembert_derivatives()` returns, if the emitted file has this function: the partial derivatives of `rhs`.
+/// Entries that are zero at every state are left out; the others are listed row by row.
 struct alembert_derivative_table {
     int abi;
-    int entries;            ///< of d rate / d state
-    int parameter_entries;  ///< of d rate / d parameter
-    int operations;         ///< of one `jacobian`
-    const int* rows;        ///< of each entry; n + s is a row more: of the power
+    int entries;            ///< number of entries of d rate / d state
+    int parameter_entries;  ///< number of entries of d rate / d parameter
+    int operations;         ///< number of operations of one call of `jacobian`
+    const int* rows;        ///< the row of each entry; row n + s, one more than the rates, is that of the power
     const int* columns;
     const int* parameter_rows;
-    const int* parameter_columns;  ///< among the p parameters that a caller sets; what `prepare` makes of them is
-                                   ///< followed through
+    const int* parameter_columns;  ///< among the p parameters that a caller sets; the derivatives include those of
+                                   ///< the constants that `prepare` computes from them
     void (*jacobian)(double t, const double* state, const double* par, double* values);
     void (*parameter_jacobian)(double t, const double* state, const double* par,
-                               double* values);  ///< null if not asked for
+                               double* values);  ///< null if they are not wanted
 };
 
-/// What `alembert_projection()` returns, of an emitted file of a system with constraints.
+/// What `alembert_projection()` returns, which the emitted file of a system with constraints has.
 struct alembert_projection_table {
     int abi;
     /// moved: n + s, the state after one step of Newton's method to the constraints (project.hpp says in which
-    /// metric); position: m, f at the state given; pivots: m, what the elimination of A M⁻¹Aᵀ has divided by, and
-    /// for holonomic constraints that u has eliminated that of A Aᵀ; 0 for others of these. Null where u has
-    /// eliminated all constraints and none is holonomic.
+    /// metric); position: m, f at the state given; pivots: m, the pivots of the elimination of A M⁻¹Aᵀ. For
+    /// constraints that u has eliminated they are those of A Aᵀ if the constraint is holonomic, else 0. The
+    /// pointer is null if u has eliminated all constraints and none is holonomic.
     void (*project)(double t, const double* state, const double* par, double* moved, double* position,
                     double* pivots);
-    /// gamma: m, of A u' = γ; those of constraints that u has eliminated are left as they are. Null where it has
-    /// eliminated all.
+    /// gamma: m, the right-hand side of A u' = γ. The entries of constraints that u has eliminated are not
+    /// written. The pointer is null if u has eliminated all constraints.
     void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
 };
 
 /// What `alembert_pack()` of a file emitted with `--batch` returns: the functions of the same name above for
-/// `lanes` systems at once. Each number of theirs becomes `lanes` of them side by side, one of each system (its
-/// own time and parameters too): q₁ is at state[lanes] … state[2·lanes − 1]. Arrays begin at multiples of 64
-/// bytes. What happens in one lane does not change another by a bit.
+/// `lanes` systems at once. Each number in their arrays becomes `lanes` numbers side by side, one for each system,
+/// which has its own time and parameters too: q₁ is at state[lanes] … state[2·lanes − 1]. Arrays begin at
+/// multiples of 64 bytes. The values in one lane do not change a bit of the results in another.
 struct alembert_pack_table {
     int abi;
     int lanes;

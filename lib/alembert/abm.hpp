@@ -6,9 +6,10 @@
 ///     y_p = y + h Σ_{j<k} g_j ∇^j f,     y₁ = y_p + h g_{k−1} ∇^k f_p,     error = (g_k/g_{k−1} − 1)(y₁ − y_p)
 ///
 /// with g = 1, 1/2, 5/12, 3/8, 251/720 and f_p = f(t + h, y_p): for k = 4 the error is 19/270 of the correction.
-/// The first steps have k = 1, 2, 3. A step of another length takes the polynomial of the rates at other places
-/// (differences.hpp), at most once in five steps. Two evaluations for each step. Dense output: the integral of
-/// that polynomial, order 4. Stable for −1.28 < hλ < 0.
+/// The first steps have k = 1, 2, 3. When the step length changes, which it does at most once in five steps, the
+/// polynomial through the past rates is evaluated at the new distances (differences.hpp). Each step takes two
+/// evaluations. Dense output is the integral of that polynomial, of order 4. The method is stable for −1.28 < hλ <
+/// 0.
 ///
 /// Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §III.1 (the formulas)
 /// and §III.7; Milne 1926.
@@ -22,7 +23,7 @@ class Abm {
 public:
     static constexpr bool has_fixed_step = false;
     static constexpr Between between = Between::own;
-    static constexpr int estimate_order = 2;  // of the first step
+    static constexpr int estimate_order = 2;  // order of the error estimate in the first step
 
     Abm(const Ends& ends, double /*tolerance*/)
         : size_(ends.y.size()), old_(size_, rows), new_(size_, rows), predicted_(size_), rate_(size_) {
@@ -61,7 +62,7 @@ public:
             for (std::size_t i = 0; i < size_; ++i) new_.row(j + 1)[i] = new_.row(j)[i] - old_.row(j)[i];
     }
 
-    /// y₁ + h ∫ from the end backwards; what is missing at the start is spread over the step.
+    /// y₁ + h ∫ from the end backwards; the difference that remains at the start is spread over the step.
     void interpolate(const Ends& ends, double theta, double* out) const {
         const auto at = integrals(theta - 1), at_start = integrals(-1);
         const double share = (1 - theta) * (1 - theta) * (1 + 2 * theta);

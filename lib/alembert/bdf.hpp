@@ -6,15 +6,15 @@
 ///     Σ_{j=1…k} 1/j ∇^j y₁ = h f(t + h, y₁),   or with y₁ = Σ_{j≤k} ∇^j y + d and γ_j = 1 + 1/2 + … + 1/j:
 ///     d = h/γ_k f(t + h, y₁) − Σ_{j=1…k} γ_j/γ_k ∇^j y
 ///
-/// by simplified Newton with ∂f/∂y from differences. Error: d/(k + 1). The length is quasi-constant: after k + 1
-/// equal steps the order among k − 1, k, k + 1 that allows the longest step is taken, and the differences are
-/// stretched (differences.hpp). Dense output: the polynomial of degree k. Orders 1 and 2 are A-stable; 3, 4 and 5
-/// are stable in the sectors of 86°, 73° and 51° to either side of the negative axis, so that stiff oscillations
-/// are not for 3 to 5.
+/// solved by the simplified Newton method with ∂f/∂y from differences. The error estimate is d/(k + 1). The step
+/// length is quasi-constant: after k + 1 equal steps the order among k − 1, k, k + 1 that allows the longest step
+/// is taken, and the differences are stretched (differences.hpp). Dense output: the polynomial of degree k. Orders
+/// 1 and 2 are A-stable; 3, 4 and 5 are stable in the sectors of 86°, 73° and 51° to either side of the negative
+/// axis, so that orders 3 to 5 do not suit stiff oscillations.
 ///
-/// Weak where a very stiff spring holds a coordinate (its stiffness 1e8 in units of mass and second): a change of
-/// the length then disturbs the rate, many changes are rejected and steps stay some ten times too short. Take
-/// radau.
+/// The method is weak where a very stiff spring holds a coordinate (with a stiffness of 1e8 in units of mass and
+/// second): a change of the step length then disturbs the rate, many changes are rejected, and steps stay about
+/// ten times too short. Use radau for such systems.
 ///
 /// Sources: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, §III.1; Shampine & Reichelt, SIAM
 /// J. Sci. Comput. 18 (1997) 1-22, §2, with κ = 0; Hairer & Wanner II, §V.2, table 2.1 (the angles).
@@ -29,7 +29,7 @@ class Bdf {
 public:
     static constexpr bool has_fixed_step = false;
     static constexpr Between between = Between::own;
-    static constexpr int estimate_order = 2;  // of the first step
+    static constexpr int estimate_order = 2;  // order of the error estimate in the first step
 
     Bdf(const Ends& ends, double tolerance)
         : n_(ends.size),
@@ -83,7 +83,7 @@ public:
     void finished(const Ends& ends) {
         for (std::size_t i = 0; i < size_; ++i) {
             const double d = (ends.next[i] - ends.y[i]) + (ends.next_rest[i] - ends.rest[i]) -
-                             predicted_[i];  // projected or not
+                             predicted_[i];  // whether or not the end was projected
             new_.row(order_ + 2)[i] = d - old_.row(order_ + 1)[i];
             new_.row(order_ + 1)[i] = d;
             for (std::size_t j = order_; j >= 1; --j) new_.row(j)[i] = old_.row(j)[i] + new_.row(j + 1)[i];
@@ -108,7 +108,7 @@ public:
         is_fresh_ = false;
     }
 
-    /// `ends` is past the step; the differences are those of its end.
+    /// `ends` is already past the step, and the differences are those at its end.
     double next_length(const Ends& ends, bool accepted, double ratio) {
         const double h = ends.h;
         const auto factor = [](double of_tolerance, std::size_t order) {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A mechanical system by its momenta, for methods that step in them (rattle.hpp):
+/// A mechanical system in terms of its momenta, for methods that advance momenta (rattle.hpp):
 ///
 ///     p = ∂L/∂q' = M(q,t) q' + p₀(q,t),   p' = F + Aᵀλ,   F = ∂L/∂q + Q,   f(q,t) = 0,   A = ∂f/∂q
 ///
-/// with Q the loads that are in no potential; where there are none and L is free of t, H = p·q' − L is conserved.
-/// M is positive definite. States are (q, q'), n each.
+/// Q are the loads that have no potential; if there are none and L does not depend on t, H = p·q' − L is
+/// conserved. M is positive definite. States are (q, q'), n numbers each.
 ///
 ///     rhs.canonical = make_canonical(module, form, parameters);
 ///
-/// The pair of emitted files: `module` with the equations of motion, `form` with M (lower triangle, row by row), p
-/// and F as outputs, one after the other. Quaternions have e·e = 1 and no inertia along e: the form has ½
-/// (row·q')² of that constraint in L, which is zero in every motion and makes M regular.
+/// There are two emitted files: `module` has the equations of motion, and `form` has M (lower triangle, row by
+/// row), p and F as outputs, one after the other. A quaternion obeys e·e = 1 and has no inertia along e. Therefore
+/// L in `form` contains ½ (row·q')² with the row of that constraint: it is zero in every motion and makes M
+/// regular.
 
 #include <functional>
 #include <memory>
@@ -33,7 +34,7 @@ struct Canonical {
     int form_size() const { return coordinates * (coordinates + 1) / 2 + 2 * coordinates; }
 };
 
-/// Throws std::invalid_argument where the two files do not fit together.
+/// Throws std::invalid_argument if the two files do not fit together.
 std::shared_ptr<const Canonical> make_canonical(const Module& module, const Module& form,
                                                 const std::vector<double>& values = {});
 

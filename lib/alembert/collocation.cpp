@@ -13,7 +13,7 @@ namespace {
 using Real = long double;
 using Complex = std::complex<Real>;
 
-/// Square, row by row.
+/// A square matrix, row by row.
 template <typename T>
 struct Square {
     int n;
@@ -22,7 +22,7 @@ struct Square {
     const T& operator()(int i, int j) const { return entries[static_cast<std::size_t>(i * n + j)]; }
 };
 
-/// By Gauss and Jordan, the largest pivot of a column first.
+/// The inverse by Gauss-Jordan elimination with the largest pivot of each column.
 template <typename T>
 Square<T> inverted(Square<T> a) {
     Square<T> result{a.n};
@@ -62,7 +62,7 @@ Eigen::MatrixXd rounded(const Square<Real>& a) {
     return result;
 }
 
-/// Coefficients, lowest first.
+/// The coefficients of a polynomial, lowest first.
 using Polynomial = std::vector<Real>;
 
 Polynomial derivative(const Polynomial& p) {
@@ -86,7 +86,7 @@ Polynomial pade_denominator(int s) {
     return q;
 }
 
-/// For odd s: the real zero first, then those with positive imaginary part, one of each pair.
+/// For odd s: the real eigenvalue first, then one of each complex pair, that with positive imaginary part.
 std::vector<Complex> eigenvalues(int s) {
     const Polynomial q = pade_denominator(s), slope = derivative(q);
     std::vector<Complex> known, all;
@@ -152,7 +152,7 @@ RadauTable made(int s) {
     const Square<Real> inverse = product(powers, inverted(integrals));
     const std::vector<Complex> mu = eigenvalues(s);
 
-    // Columns and rows of V and V⁻¹: λ, then each pair.
+    // The columns of V and the rows of V⁻¹: that of λ, then one for each pair.
     std::vector<Polynomial> derivatives{{1}};
     for (const Real node : c) {  // M, one factor after the other
         Polynomial& M = derivatives[0];
@@ -202,7 +202,8 @@ RadauTable made(int s) {
         table.v_complex.push_back(column(k));
         table.back_complex.push_back(row(k));
     }
-    // Σ b̂_i c_i^k = 1/(k+1), less γ₀ for k = 0; h f_i = Σ (A⁻¹)_ij Z_j; and the end is Z_s.
+    // The weights follow from Σ b̂_i c_i^k = 1/(k+1), minus γ₀ for k = 0; h f_i = Σ (A⁻¹)_ij Z_j, and the end is
+    // Z_s.
     const Square<Real> weights = inverted(powers);
     table.e.resize(s);
     for (int i = 0; i < s; ++i) {

@@ -30,12 +30,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Straight-line code of the second size takes g++ 12 about 1.6 s at -O2 and 1.0 s at -O1, and both grow faster
-/// than the size; straight-line code has no loops that -O2 would transform. From the first size on, passes are
-/// left out that take a third of the time where a function has thousands of statements, and leave the code as it
-/// is.
+/// than the size; straight-line code has no loops that -O2 would transform. From the first size on, some passes
+/// are left out that take a third of the time if a function has thousands of statements, and that do not change
+/// the code.
 constexpr std::size_t long_source = 60'000, large_source = 200'000;
 
-constexpr std::size_t digits = 32;  ///< of a fingerprint, at the end of every object in the cache
+constexpr std::size_t digits = 32;  ///< digits of the fingerprint at the end of every object in the cache
 
 std::string joined(const std::vector<std::string>& words, const char* between) {
     std::string text;
@@ -87,7 +87,7 @@ std::string identity(const std::vector<std::string>& compiler) {
     return text;
 }
 
-/// The lines about the first processor that decide what -march=native means.
+/// The lines of /proc/cpuinfo about the first processor that determine what -march=native means.
 std::string processor() {
     std::ifstream file("/proc/cpuinfo");
     std::string text;
@@ -121,7 +121,7 @@ std::vector<std::string> compiler_flags(std::size_t source_size, bool is_clang, 
     return flags;
 }
 
-/// A folder that nobody else can write, removed with what is in it when the process ends.
+/// A folder in which nobody else can write; it is removed with its contents when the process ends.
 fs::path new_private_folder() {
     std::error_code none;
     std::string pattern = (fs::temp_directory_path(none) / "alembert-XXXXXX").string();
@@ -138,12 +138,12 @@ const fs::path& private_folder() {
     return folder.path();
 }
 
-/// May what is there be loaded and run? Code that somebody else can replace is somebody else's code.
+/// May a file or folder with these properties be trusted? Code that somebody else can replace must not be run.
 bool is_ours(const struct stat& info) {
     return info.st_uid == geteuid() && (info.st_mode & (S_IWGRP | S_IWOTH)) == 0;
 }
 
-/// The folder and those above it that are missing, each for its owner alone. False: it cannot be made.
+/// Makes the folder and the missing ones above it, each accessible to its owner only. False if that fails.
 bool make_folders(const fs::path& folder) {
     if (mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST) return true;
     const fs::path above = folder.parent_path();
@@ -173,7 +173,8 @@ fs::path cache_folder(const fs::path& wanted) {
     return !folder.empty() && is_usable(folder) ? folder : private_folder();
 }
 
-/// The bytes of a regular file that is ours; nothing for anything else, a link to such a file too.
+/// The bytes of a regular file that belongs to the user; nothing for anything else, including a link to such a
+/// file.
 std::optional<std::string> read_own_file(const fs::path& path) {
     const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return std::nullopt;
@@ -246,7 +247,7 @@ void build(std::vector<std::string> command, const std::string& source_text, con
         throw CompileError(fmt::format("the compiler failed with status {}:\n  {}\n{}", compiler.status,
                                        joined(command, " "), compiler.output.substr(0, 8000)));
     for (const fs::path& file : {source.path(), result.path()})
-        chmod(file.c_str(), S_IRWXU);  // else the user's umask decides
+        chmod(file.c_str(), S_IRWXU);  // otherwise the user's umask would decide
     seal(result.path());
     move_into_place(source.path(), fs::path(object).replace_extension(".cpp"));
     move_into_place(result.path(), object);

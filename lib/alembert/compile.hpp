@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// From the text of an emitted solver to a shared object, by the system's compiler and through a cache.
+/// Compiles the text of an emitted solver into a shared object, with the system's compiler and a cache.
 ///
 ///     const Compiled pendulum = compile(text, "pendulum", {});
 ///     const Module module = load(pendulum.object);
@@ -14,17 +14,18 @@
 /// short or altered is compiled again rather than loaded. If the cache cannot be written, a private folder takes
 /// its place and is removed when the process ends.
 ///
-/// What is in the cache is run, so it must be of the user whom this process acts for: a folder of somebody else,
-/// or one in which others can write, is refused with CompileError; folders are made with mode 0700; an entry that
-/// is a link, no regular file, or that somebody else can write is not loaded but compiled again.
+/// The code in the cache is executed, so it must belong to the user for whom this process acts. A folder that
+/// belongs to somebody else, or in which others can write, is refused with CompileError. Folders are made with
+/// mode 0700. An entry that is a link, that is not a regular file or that somebody else can write is not loaded
+/// but compiled again.
 ///
-/// Flags: no -ffast-math, ever: at link time it would switch the whole process to flush-to-zero when the object is
-/// loaded. `fast_math` adds single flags to the same command, and these leave the link alone: the result then
-/// depends on how the compiler orders sums. The start files and libstdc++ are left out (-nostdlib): emitted code
-/// needs libm only, and linking takes a third of the time without them.
+/// The flag -ffast-math is never used: at link time it would switch the whole process to flush-to-zero when the
+/// object is loaded. `fast_math` adds single flags that do not change the link; the result then depends on how the
+/// compiler orders sums. The start files and libstdc++ are left out (-nostdlib): emitted code needs libm only, and
+/// linking takes a third of the time without them.
 ///
-/// Throws CompileError: no compiler (with what was looked for and what to install), the compiler's own errors,
-/// disk full. Nothing goes through a shell.
+/// Throws CompileError if there is no compiler (the message says what was looked for and what to install), if the
+/// compiler reports errors or if the disk is full. No command goes through a shell.
 
 #include <filesystem>
 #include <string>
@@ -33,11 +34,12 @@
 namespace alembert {
 
 struct CompileOptions {
-    std::string compiler = {};  ///< program, perhaps with arguments; empty: $CXX if set, else g++, else clang++
-    std::vector<std::string> extra_flags = {};  ///< after ours, so that they win
+    /// A program, perhaps with arguments; if empty, $CXX if it is set, else g++, else clang++.
+    std::string compiler = {};
+    std::vector<std::string> extra_flags = {};  ///< placed after our flags, so that they override these
     bool fast_math = false;
     std::filesystem::path cache =
-        {};  ///< empty: $XDG_CACHE_HOME/alembert, else $HOME/.cache/alembert, else a private folder
+        {};  ///< if empty, $XDG_CACHE_HOME/alembert, else $HOME/.cache/alembert, else a private folder
 };
 
 struct Compiled {
@@ -46,7 +48,8 @@ struct Compiled {
     double seconds = 0;  ///< wall time of the whole call
 };
 
-/// `name` only makes files in the cache recognizable; what is not a letter, digit, `-` or `_` in it becomes `_`.
+/// `name` only makes files in the cache recognizable; each of its characters that is not a letter, digit, `-` or
+/// `_` becomes `_`.
 Compiled compile(const std::string& source_text, const std::string& name, const CompileOptions& options);
 
 }  // namespace alembert

@@ -13,10 +13,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double rank_threshold = 1e-9;  // of rows of length 1
+constexpr double rank_threshold = 1e-9;  // for rows of length 1
 constexpr double negligible_rate = 1e-9, rounding = 1e-13;
 
-/// Rows of length 1 (or 0), and those lengths.
+/// Rows scaled to length 1 (or 0), and their lengths before.
 struct Unit {
     MatrixXd rows;
     VectorXd length;
@@ -34,7 +34,8 @@ Index rank(const MatrixXd& rows) {
     return qr.rank();
 }
 
-/// Moves load between dependent contacts until those that carry any are independent; the forces stay the same.
+/// Moves load between dependent contacts until the contacts that carry load are independent; the total forces stay
+/// the same.
 void concentrate(const Situation& here, std::vector<int>& carrying, std::vector<double>& load) {
     const Index m = here.bilateral.rows.rows();
     for (;;) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Unilateral contacts at one instant: which of the closed ones last.
+/// Unilateral contacts at one instant: which of the closed contacts stay closed.
 ///
 ///     const Situation here = …;                                   // a block on the ground: contacts 0 and 1
 ///     const Lasting mode = lasting_contacts(here, {0, 1});
@@ -13,8 +13,8 @@
 ///
 ///     gap'' ≥ 0,   π ≥ 0,   π·gap'' = 0      (Moreau; Glocker, Set-Valued Force Laws (2001), ch. 5)
 ///
-/// which is the law of impact without restitution for accelerations in place of rates (`press` of impact.hpp). For
-/// a definite M the q'' is the only one, and it exists unless the gaps contradict each other.
+/// This is the law of impact without restitution, with accelerations in place of rates (`press` of impact.hpp). If
+/// M is definite, q'' is unique, and it exists unless the conditions on the gaps contradict each other.
 
 #include <Eigen/Dense>
 #include <string>
@@ -25,7 +25,7 @@ namespace alembert {
 /// Everything about contacts that the state at one instant determines.
 struct Situation {
     struct Rows {
-        Eigen::MatrixXd rows;          ///< of q'
+        Eigen::MatrixXd rows;          ///< the coefficients of q'
         Eigen::VectorXd value;         ///< f(q,t), the gap; 0 for nonholonomic rows
         Eigen::VectorXd drift;         ///< value' = rows·q' + drift
         Eigen::VectorXd acceleration;  ///< value'' = rows·q'' − acceleration
@@ -33,7 +33,7 @@ struct Situation {
     Eigen::MatrixXd M;
     Eigen::VectorXd f;
     Rows bilateral, contacts;
-    /// Dry friction at a contact, with the sliding velocity v = slip·q' + drift.
+    /// Dry friction at a contact whose sliding velocity is v = slip·q' + drift.
     struct Rough {
         int contact;
         Eigen::RowVectorXd slip;
@@ -43,30 +43,35 @@ struct Situation {
 };
 
 struct Lasting {
-    std::string failure;           ///< empty, or why no choice is consistent; then the rest is empty
+    std::string
+        failure;  ///< if not empty, the reason why no choice is consistent; the other members are then empty
     Eigen::VectorXd acceleration;  ///< q''
-    std::vector<int> closed;       ///< contacts whose rows are independent of each other and of the bilateral ones
-    std::vector<int> resting;      ///< these, and those that lie on because the others do
+    std::vector<int>
+        closed;  ///< contacts that stay closed, their rows independent of each other and of the bilateral ones
+    std::vector<int> resting;  ///< these, and the contacts that stay closed because the others do
     explicit operator bool() const { return failure.empty(); }
 };
 
-/// `candidates`: closed contacts with gap' = 0, ascending. Redundant contacts (the fourth leg of a table) share
-/// the load in any way; here as few as possible carry it, each without pulling (Carathéodory).
+/// `candidates` are the closed contacts with gap' = 0, ascending. How redundant contacts (the four legs of a
+/// table) share the load is not determined; here as few as possible carry it, and none of them pulls
+/// (Carathéodory).
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates);
 
-/// Does contact k have no acceleration of its own where the bilateral rows and the contacts in `closed` hold?
+/// Do the bilateral rows and the contacts in `closed` determine the acceleration of contact k completely?
 bool is_carried(const Situation& here, const std::vector<int>& closed, int k);
 
-/// gap' of all contacts.
+/// The rates gap' of all contacts.
 Eigen::VectorXd gap_rates(const Situation& here, const Eigen::VectorXd& rates);
-/// Rates of gaps that count as zero: 1e-9 of the sum of the sizes of their terms, and 1e-13 for each rate in it.
+/// The rates of gaps below which they count as zero: 1e-9 of the sum of the sizes of their terms, and 1e-13 for
+/// each rate in them.
 Eigen::VectorXd negligible_rates(const Situation& here, const Eigen::VectorXd& rates);
-/// Gaps that count as closed: `tolerance` · max(1, |q|) in each coordinate.
+/// The sizes of gaps below which they count as closed: what errors of `tolerance` · max(1, |q|) in each coordinate
+/// make.
 Eigen::VectorXd negligible_gaps(const Situation& here, const Eigen::VectorXd& q, double tolerance);
 
-/// Rows, values, drifts and accelerations of these contacts alone.
+/// The rows, values, drifts and accelerations of these contacts only.
 Situation::Rows selected(const Situation::Rows& rows, const std::vector<int>& which);
-/// First `a`, then `b`.
+/// The rows of `a`, then those of `b`.
 Situation::Rows stacked(const Situation::Rows& a, const Situation::Rows& b);
 
 }  // namespace alembert

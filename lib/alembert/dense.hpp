@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Decompositions of small dense matrices, compiled once: Eigen's are dear in every file that instantiates them.
+/// Decompositions of small dense matrices, compiled once, because each file that instantiates Eigen's takes long
+/// to compile.
 ///
 ///     const Eigen::VectorXd x = least_norm(A, b).x;           // the shortest of those nearest to A x = b
 ///     const Eigen::MatrixXd y = solve_symmetric(M, b);        // M y = b
 ///     const Cholesky factors(M);                              // M = L Lᵀ
 ///     if (factors.exists()) x = factors.solve_upper(factors.solve_lower(b));
 ///
-/// Columns of b are right-hand sides. Nothing is thrown; where a matrix or b is not finite, neither is the answer.
+/// Columns of b are right-hand sides. The functions throw nothing; if a matrix or b is not finite, the result is
+/// not finite either.
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -20,13 +22,15 @@ struct LeastNorm {
     Eigen::MatrixXd x;
     Eigen::Index rank = 0;
 };
-/// By the complete orthogonal decomposition, with Eigen's threshold for the rank. A: m×n, b: m×k, x: n×k.
+/// The solution by the complete orthogonal decomposition, with Eigen's threshold for the rank. A: m×n, b: m×k, x:
+/// n×k.
 LeastNorm least_norm(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 
-/// By LDLᵀ with pivots. M: n×n, symmetric and semidefinite; b: n×k.
+/// The solution by LDLᵀ with pivots. M: n×n, symmetric and semidefinite; b: n×k.
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& M, const Eigen::MatrixXd& b);
 
-/// A's complete orthogonal decomposition, for several b. Pivots below `threshold` of the largest are zero.
+/// The complete orthogonal decomposition of A, for several b. Pivots smaller than `threshold` times the largest
+/// count as zero.
 class Orthogonal {
 public:
     Orthogonal() = default;
@@ -37,7 +41,7 @@ private:
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors_;
 };
 
-/// M = L Lᵀ. M: n×n, symmetric.
+/// The factorization M = L Lᵀ. M: n×n, symmetric.
 class Cholesky {
 public:
     explicit Cholesky(const Eigen::MatrixXd& M);
@@ -50,11 +54,11 @@ private:
     Eigen::LLT<Eigen::MatrixXd> factors_;
 };
 
-/// A by Gaussian elimination with row pivots. A: n×n.
+/// Gaussian elimination of A with row pivots. A: n×n.
 class Elimination {
 public:
     void factor(const Eigen::MatrixXd& A);
-    void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;  ///< x is not b
+    void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;  ///< x must not be b itself
 
 private:
     Eigen::PartialPivLU<Eigen::MatrixXd> factors_;

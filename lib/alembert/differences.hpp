@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Backward differences of a vector at equal distances, the memory of the multistep methods.
+/// Backward differences of a vector at equal distances in time: the past values that multistep methods keep.
 ///
 ///     Differences D(size, rows);          // D.row(j) is ∇^j of the newest value
 ///     D.stretch(3, 1.5);                  // the same polynomial of degree 3, seen at 1.5 times the distance
 ///
 /// With R_ij(r) = Π_{l=1…i} (l − 1 − r j)/l the polynomial's values at −j r are Σ_i R_ij ∇^i, and R(1) is its own
-/// inverse: ∇' = (R(r) R(1))ᵀ ∇ (Shampine & Reichelt, SIAM J. Sci. Comput. 18 (1997) 1-22, §2.1). Row 0 stays.
+/// inverse: ∇' = (R(r) R(1))ᵀ ∇ (Shampine & Reichelt, SIAM J. Sci. Comput. 18 (1997) 1-22, §2.1). Row 0 does not
+/// change.
 
 #include <array>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace alembert {
 
 class Differences {
 public:
-    static constexpr std::size_t most = 8;  ///< rows
+    static constexpr std::size_t most = 8;  ///< the most rows
 
     Differences(std::size_t size, std::size_t rows) : size_(size), values_(size * rows) {}
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The numbers of dop853, in the layout of tableau.hpp: order 8, an error estimate from embedded formulas of
-/// orders 5 and 3, dense output of order 7 by three more stages.
+/// The coefficients of dop853, in the layout of tableau.hpp. The method has order 8, an error estimate from
+/// embedded formulas of orders 5 and 3, and dense output of order 7 with three more stages.
 ///
-/// Sources: Prince & Dormand, J. Comp. Appl. Math. 7 (1981) 67-75, the family; Hairer, Nørsett, Wanner, Solving
-/// Ordinary Differential Equations I, 2nd ed. 1993, §II.5 and §II.10 (Dormand-Prince 8(5,3)) and §II.6 (dense
-/// output), which give the numbers with 30 digits; here they stand rounded to double, as shortest decimals that
-/// read back. A test holds them against the order conditions.
+/// Sources: Prince & Dormand, J. Comp. Appl. Math. 7 (1981) 67-75, for the family of methods; Hairer, Nørsett,
+/// Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §II.5 and §II.10 (Dormand-Prince 8(5,3)) and
+/// §II.6 (dense output), who give the coefficients with 30 digits. Here they are rounded to double and written as
+/// the shortest decimals that give the same double. A test checks them against the order conditions.
 
 #include "alembert/tableau.hpp"
 
@@ -48,7 +48,7 @@ inline constexpr Tableau<12, 3, 2, 4> dop853_tableau{
             -0.00034046500868740456, 0.1413124436746325},
            {-0.42889630158379194, 0, 0, 0, 0, -4.697621415361164, 7.683421196062599, 4.06898981839711,
             0.3567271874552811, 0, 0, 0, -0.0013990241651590145, 2.9475147891527724, -9.15095847217987}}},
-    // Solution minus the formula of order 5, then of order 3.
+    // The solution minus the formula of order 5, then minus that of order 3.
     .e = {{{0.01312004499419488, 0, 0, 0, 0, -1.2251564463762044, -0.4957589496572502, 1.6643771824549864,
             -0.35032884874997366, 0.3341791187130175, 0.08192320648511571, -0.022355307863886294},
            {-0.18980075407240762, 0, 0, 0, 0, 4.450312892752409, 1.8915178993145003, -5.801203960010585,

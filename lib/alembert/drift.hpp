@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// How far E, E − W and T₂ − T₀ + V stray from their values at the start, over all accepted steps of a run.
+/// How far E, E − W and T₂ − T₀ + V depart from their values at the start, over all accepted steps of a run.
 ///
 ///     Drift drift(n, s, with_work);
 ///     drift(table, par, t, state, rate);       // at the start and after each step
 ///     drift.add({.kinetic = T, .total = E, .jacobi = h}, work);        // the same with the energies in hand
 ///     drift.balance();
 ///
-/// Where rates jump, E changes by the work of the impulses, and by the jump of T₁ + 2T₀ = E − h that a moving
-/// frame takes (energy.hpp); both count as work.
+/// Where rates jump, E changes by the work of the impulses, and by the jump of T₁ + 2T₀ = E − h that is due to a
+/// moving frame (energy.hpp); both count as work.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace alembert {
 
 class Drift {
 public:
-    /// n coordinates, s speeds; with work, the state has ∫ power dt after these.
+    /// The state has n coordinates and s speeds; with `with_work`, ∫ power dt follows them.
     Drift(int n, int s, bool with_work) : size_(n + s), with_work_(with_work) {}
 
     void operator()(const alembert_solver_table& table, const std::vector<double>& par, double t,
@@ -49,11 +49,11 @@ public:
         jacobi_ = std::max(jacobi_, std::abs(e.jacobi - jacobi_start_));
     }
 
-    /// Rates have jumped.
+    /// To be called when rates have jumped.
     void jump(const alembert_solver_table& table, const std::vector<double>& par, double t, const double* before,
               const double* after, double work) {
         const std::vector<double> still(static_cast<std::size_t>(size_),
-                                        0.0);  // the rate matters to the power alone
+                                        0.0);  // only the power depends on the rate
         const Energies a = energies(table, par, t, before, still.data()),
                        b = energies(table, par, t, after, still.data());
         if (first_) {
@@ -65,9 +65,9 @@ public:
         jumps_ += work + (b.total - b.jacobi) - (a.total - a.jacobi);
     }
 
-    /// These in units of the energy that moves, for a motion so small that E is nearly all at rest: of the largest
-    /// kinetic energy, as far as E is known to so many digits (1e-10), and for the balance as far as the work is
-    /// (1e-4).
+    /// The same departures relative to the largest kinetic energy, for motions so small that E is nearly all
+    /// potential energy. The divisor is at least 1e-10 of E, since rounding limits how well E is known, and for
+    /// the balance at least 1e-4 of the work.
     double energy_of_motion() const { return of_motion(energy_, largest_energy_, 0); }
     double balance_of_motion() const { return of_motion(balance_, largest_energy_, largest_work_); }
     double jacobi_of_motion() const {
@@ -96,7 +96,7 @@ private:
         return size > nothing ? size : 1;
     }
 
-    static constexpr double nothing = 1e-26;  // what rounding leaves of a body at rest, squared
+    static constexpr double nothing = 1e-26;  // the square of what rounding leaves of the speed of a body at rest
     int size_;
     bool with_work_, first_ = true;
     double energy_start_ = 0, jacobi_start_ = 0, largest_kinetic_ = 0, largest_energy_ = 0, largest_work_ = 0;

@@ -26,7 +26,7 @@ void run_packed(const Ensemble& ensemble, const Options& options, const MemberSo
     PackRun<tableau>(ensemble, options, source).go(width);
 }
 
-/// Null for methods that are no explicit Runge-Kutta methods.
+/// The function that runs members side by side; null if the method is no explicit Runge-Kutta method.
 Packed packed_method(Method method) {
     switch (method) {
         case Method::euler:
@@ -83,7 +83,7 @@ void check(const Ensemble& e, const Options& options) {
                   {e.states.begin(), e.states.begin() + static_cast<std::ptrdiff_t>(width)}, longest);
 }
 
-/// One ensemble being worked on, by several threads.
+/// The threads that integrate one ensemble.
 class Crew {
 public:
     Crew(const Ensemble& ensemble, const Options& options, Outcomes& outcomes)
@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    /// One thread's share. What is thrown ends the work of all.
+    /// The work of one thread. An exception in one thread ends the work of all.
     void work(bool tells) {
         try {
             const MemberSource source{
@@ -162,7 +162,7 @@ private:
         done_.fetch_add(1, std::memory_order_relaxed);
     }
 
-    /// One member by the ordinary integrator.
+    /// Integrates one member with the ordinary integrator.
     void alone(const Member& member) {
         const alembert_solver_table& table = e_.module.table();
         const bool works = e_.work == Work::integrated;
@@ -175,7 +175,7 @@ private:
         options.start = member.start;
         options.duration = member.duration;
         if (!e_.quick_times.empty()) options.quick_times = e_.quick_times[member.index];
-        options.sample = member.duration;  // the end alone
+        options.sample = member.duration;  // no rows but the end
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             drift(table, par, t, y, rate);
         };

@@ -9,15 +9,15 @@
 ///     ends.state(3)[0]; ends.members[3].steps;
 ///
 /// Explicit Runge-Kutta methods take eight members side by side (pack_run.hpp), each with its own time, step and
-/// end; who is done makes room for the next. Everything else goes through `integrate` one member at a time: other
-/// methods, a module emitted without `batch`, systems with constraints (each step is projected) or with events
-/// that stop. All cores work. A member's result depends on nothing but the member: not on its neighbours, nor on
-/// the number of threads, by any bit.
+/// end; a member that has ended makes room for the next. Other methods, a module emitted without `batch`, and
+/// systems with constraints (each step is projected) or with events that stop go through `integrate`, one member
+/// at a time. All cores are used. A member's result does not depend on its neighbours or on the number of threads,
+/// not even in the last bit.
 ///
-/// The step control is that of `integrate`, so that a member and a run by itself differ by what rounding differs.
-/// A member that fails says why in its own Outcome and disturbs no other; its state is the last good one. Events
-/// that do not stop, rows and Options::on_step have no place here. Throws std::invalid_argument for sizes that do
-/// not fit and for options that make no sense.
+/// The step control is that of `integrate`, so that a member differs from a single run only by rounding. If a
+/// member fails, its own Outcome says why and holds its last good state; the others are not affected. Events that
+/// do not stop, rows and Options::on_step are not supported. Throws std::invalid_argument for sizes that do not
+/// fit and for options that make no sense.
 
 #include <cstddef>
 #include <functional>
@@ -32,17 +32,21 @@ namespace alembert {
 
 struct Ensemble {
     Module module;
-    std::vector<double> states = {};      ///< count × (n + s), member by member
-    std::vector<double> parameters = {};  ///< count × p; or p, for all the same; or none, the scene's own
-    std::vector<double> starts = {};      ///< a time for each; empty: Options::start
-    std::vector<double> durations = {};   ///< likewise
-    Work work = Work::left_out;           ///< integrated: for the work balance, where energy is not conserved
-    std::vector<bool> stops = {};         ///< which of the module's events end a motion; empty: none
-    std::vector<std::vector<QuickTime>> quick_times = {};  ///< for each; empty: Options::quick_times
-    std::vector<int> directions = {};                      ///< in which their zeros count (Event); empty: both
-    int threads = 0;                                       ///< 0: as many as there are cores
+    std::vector<double> states = {};  ///< count × (n + s), member by member
+    /// count × p; or p, the same for all; or empty for the scene's own values.
+    std::vector<double> parameters = {};
+    std::vector<double> starts = {};     ///< one time for each member; if empty, Options::start
+    std::vector<double> durations = {};  ///< one for each member; if empty, Options::duration
+    /// `integrated` gives the work balance, for systems whose energy is not conserved.
+    Work work = Work::left_out;
+    std::vector<bool> stops = {};  ///< which of the module's events end a motion; if empty, none does
+    /// One list for each member; if empty, Options::quick_times.
+    std::vector<std::vector<QuickTime>> quick_times = {};
+    /// The directions in which zeros of the events count (Event); if empty, both.
+    std::vector<int> directions = {};
+    int threads = 0;  ///< 0 means as many as there are cores
     std::function<void(double fraction)> progress =
-        {};  ///< told now and then how much is done, on the calling thread
+        {};  ///< called now and then on the calling thread with the share that is done
 
     std::size_t count() const;
 };
@@ -50,8 +54,8 @@ struct Ensemble {
 struct Outcome {
     double time = 0;  ///< the end, the event that stopped it, or the last good time
     long steps = 0, rejected = 0, evaluations = 0;
-    double energy_drift = 0, work_balance = 0;  ///< drift.hpp; the second only with Work::integrated
-    bool stopped = false;                       ///< by an event
+    double energy_drift = 0, work_balance = 0;  ///< see drift.hpp; the balance is given only with Work::integrated
+    bool stopped = false;                       ///< whether an event stopped the motion
     std::string failure = {};                   ///< empty: none
 };
 
@@ -60,8 +64,8 @@ struct Outcomes {
     std::vector<double> states;  ///< at the end, member by member
     std::vector<Outcome> members;
     std::string method;
-    bool packed = false;  ///< eight side by side
-    int threads = 0;      ///< that worked
+    bool packed = false;  ///< whether eight members ran side by side
+    int threads = 0;      ///< the number of threads that were used
 
     std::span<const double> state(std::size_t member) const {
         const auto width = static_cast<std::size_t>(dimension);

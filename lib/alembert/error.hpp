@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The four ways in which work can fail. Each message says where, what was found, what was expected, what to do.
-/// The library throws and never prints or exits; the commands map the type to an exit code:
-/// SceneError, ModelError 3; IntegrationError 4; CompileError 5.
+/// The four types of errors. Each message says where the error is, what was found, what was expected and what to
+/// do. The library throws and never prints or exits; the commands map the type to an exit code: SceneError,
+/// ModelError 3; IntegrationError 4; CompileError 5.
 
 #include <stdexcept>
 #include <string>
@@ -11,7 +11,8 @@
 
 namespace alembert {
 
-/// A place in a text file: line and column count from 1, column in characters (not bytes). Line 0: no place.
+/// A place in a text file. Line and column count from 1, the column in characters (not bytes). Line 0 means no
+/// place.
 struct Place {
     int line = 0;
     int column = 0;
@@ -35,17 +36,19 @@ struct SceneError : std::runtime_error {
     std::vector<Diagnostic> diagnostics;
 };
 
-/// The scene reads well but describes no system that the asked-for formalism can treat.
+/// The scene was read without errors, but it describes no system that the requested formalism can treat.
 struct ModelError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The environment failed: no compiler, compiler error, disk full, an object that does not load.
+/// The environment failed: there is no compiler, the compiler reported errors, the disk is full or an object does
+/// not load.
 struct CompileError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The numbers failed: singular system, step size underflow, not a number, budget used up.
+/// The computation failed: a singular system, underflow of the step size, a value that is not a number, or a
+/// budget that is used up.
 struct IntegrationError : std::runtime_error {
     IntegrationError(const std::string& text, double at, std::vector<double> where)
         : std::runtime_error(text), time(at), state(std::move(where)) {}

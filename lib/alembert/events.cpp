@@ -14,10 +14,10 @@
 namespace alembert {
 namespace {
 
-constexpr int points = 5;      ///< where a step is looked at, ends included
-constexpr int most_looks = 8;  ///< of looking again before an event that stops
+constexpr int points = 5;      ///< number of points at which a step is examined, ends included
+constexpr int most_looks = 8;  ///< the most repetitions of the search before an event that stops
 constexpr std::array<double, points> places = {0, 0.25, 0.5, 0.75, 1};
-constexpr double bend = 2;  ///< a function that heads for zero may fall this many times as steeply further on
+constexpr double bend = 2;  ///< a function that approaches zero may later fall this many times as steeply
 
 constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
 
@@ -34,7 +34,7 @@ double simultaneous(const Stretch& step) {
     return alembert::simultaneous(step.start, step.end);
 }
 
-/// By time; simultaneous ones as declared.
+/// Orders zeros by time, simultaneous ones as their events are declared.
 void order(std::vector<Crossing>& found, const Stretch& step) {
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
     for (std::size_t i = 1; i < found.size(); ++i)
@@ -92,11 +92,12 @@ void EventWatch::begin(double t, const double* state, const double* rate) {
     if (last_.empty()) return;
     events_(t, state, rate, last_.data());
     std::transform(last_.begin(), last_.end(), sign_.begin(), sign);
-    std::fill(slope_.begin(), slope_.end(), no_place);  // until the length of the first step is known
+    std::fill(slope_.begin(), slope_.end(), no_place);  // unknown until the length of the first step is known
 }
 
-/// By a difference along the tangent of the motion, y' as it is there: the price of one look at the events. An
-/// event that contains accelerations has the part of its slope that these leave.
+/// The slopes follow from a difference along the tangent of the motion with y' held constant, which costs one
+/// evaluation of the events. For an event that contains accelerations this is only the part of the slope that does
+/// not come from their change.
 void EventWatch::slopes_at(double t, const double* state, const double* rate, const std::vector<double>& values,
                            double length) {
     const double ahead = std::max(1e-6 * length, 64 * tolerance::epsilon * std::abs(t));
@@ -114,13 +115,13 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
     for (int round = 0; is_stopped && round < most_looks; ++round) {
         last_ = value_before;
         slope_ = slope_before;
-        sign_ = sign_before;  // those at the end of the step matter no more: the run ends here
+        sign_ = sign_before;  // the signs at the end of the step do not matter any more, because the run ends here
         if (!look_again(step, found)) break;
     }
     return found;
 }
 
-/// What there is before the first crossing that stops; true if that has become another.
+/// Searches again before the first crossing that stops the run; true if that finds an earlier one that stops.
 bool EventWatch::look_again(const Stretch& step, std::vector<Crossing>& found) {
     const auto stop = std::find_if(found.begin(), found.end(), [&](const Crossing& c) { return stops(c); });
     const Crossing first = *stop;
@@ -166,7 +167,7 @@ std::vector<Crossing> EventWatch::scan(const Stretch& step) {
     events_(step.end, step.end_state, step.end_rate, last_.data());
     std::copy(last_.begin(), last_.end(), grid_.end() - static_cast<std::ptrdiff_t>(count));
     const double* const before =
-        grid_.data() + (points - 2) * count;  // who moves away from zero has nothing to hide here
+        grid_.data() + (points - 2) * count;  // a function that moves away from zero has no zero here
     if (std::equal(last_.begin(), last_.end(), before,
                    [](double now, double then) { return std::abs(now) > std::abs(then); }))
         std::fill(slope_.begin(), slope_.end(), 0.0);
@@ -187,8 +188,8 @@ double EventWatch::value(const Stretch& step, int index, double theta) {
     return out_[static_cast<std::size_t>(index)];
 }
 
-/// Walks over the points of the step and the turning points between them, and records where the sign changes.
-/// Points where the event is not a number are passed over.
+/// Goes through the points of the step and the turning points between them and records where the sign changes.
+/// Points where the event is not a number are skipped.
 void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossing>& found) {
     const auto k = static_cast<std::size_t>(index);
     theta_.assign(places.begin(), places.end());
@@ -225,7 +226,7 @@ void EventWatch::record(const Stretch& step, int index, double theta, int direct
                          .counts = event.direction == 0 || event.direction == direction});
 }
 
-/// Where g has the other sign between points that have the same.
+/// The places between points of the same sign at which g has the other sign.
 std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
     const auto k = static_cast<std::size_t>(index);
     const double length = step.end - step.start;
@@ -233,7 +234,7 @@ std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
     const auto add = [&](double theta) {
         if (!std::isnan(theta)) found.push_back(theta);
     };
-    // Between the two ends of a quarter, `from` being an end of the step: does g leave it towards zero, steeply
+    // Between the two ends of a quarter, `from` being an end of the step: does g approach zero from there steeply
     // enough, and come back?
     const auto at_the_end = [&](std::size_t from, std::size_t to, double slope) {
         const int side = sign(g_[from]);
@@ -255,9 +256,9 @@ std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
     return found;
 }
 
-/// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at
-/// all, or a line through two of them meets zero before the third, and the search then finds the other sign. Not a
-/// number otherwise.
+/// For three neighbouring points of the same sign: a place between them where g has the other sign. It is searched
+/// for where g is nearest to zero, and only if a parabola through the points comes near zero or a line through two
+/// of them meets zero before the third. Not a number if there is none.
 double EventWatch::between(const Stretch& step, int index, const double* theta, const double* g) {
     const int side = sign(g[1]);
     if (side == 0 || sign(g[0]) * side < 0 || sign(g[2]) != side) return no_place;
@@ -275,8 +276,9 @@ double EventWatch::between(const Stretch& step, int index, const double* theta, 
     return lowest(step, index, theta[0], g[0], vertex, theta[2], g[2]);
 }
 
-/// Golden section for the place where g is nearest to zero, until it has the other sign; not a number where it has
-/// not, or where no function convex towards zero with the values found can have it.
+/// Golden-section search for the place where g is nearest to zero, until g has the other sign there. The result is
+/// not a number if no such place is found, or as soon as the values show that no function convex towards zero can
+/// have one.
 double EventWatch::lowest(const Stretch& step, int index, double left, double g_left, double middle, double right,
                           double g_right) {
     constexpr double golden = 0.6180339887498949;
@@ -298,7 +300,7 @@ double EventWatch::lowest(const Stretch& step, int index, double left, double g_
     return g_a <= 0 ? a : no_place;
 }
 
-/// The zero between two points of different signs, as θ; not a number for a pole.
+/// The zero between two points of different signs, as θ; not a number if it is a pole.
 double EventWatch::locate(const Stretch& step, int index, double left, double g_left, double right,
                           double g_right) {
     double b = left, g_b = g_left;    // the newest point

@@ -7,22 +7,22 @@
 ///                                        [](double, const double* y, const double*, double* g) { g[0] = y[0]; });
 ///     const Events from_scene = make_events(module, {}, {true, false});     // stop flags in the scene's order
 ///
-/// What counts: g changes its sign, other than through a pole, or is exactly zero after it was not. A zero at the
-/// very start (closer than 1e-12 of the step, or of the time) is none. Every step is looked at in its interior
-/// too, so that two zeros in one step are found: at three points; at the turning point of a parabola through three
-/// neighbours if that comes near zero; and wherever g turns back between two points, by their values or by its
-/// slopes at the ends of the step, after having headed for zero steeply enough to reach it. A g that is convex
-/// towards zero (a smooth minimum, or a kink like that of |x - a| - b) is so searched to the end. What goes
-/// unseen: two zeros in a dip that is narrower than a quarter of the step and has flat shoulders, so that neither
-/// values nor slopes tell of it, and a touch that rounding keeps off zero. Steps that are shorter
-/// (Options::longest_step, max_step of a scene) see these too. Before an event that stops the run the step is
-/// looked at again, up to that event: a long step may have passed over an earlier one.
+/// An event occurs where g changes its sign, other than through a pole, or becomes exactly zero. A zero at the
+/// very start (closer to it than 1e-12 of the step, or of the time) does not count. The interior of every step is
+/// searched too, so that two zeros in one step are found. The search looks at three points; at the turning point
+/// of a parabola through three neighbouring points if that comes near zero; and wherever the values, or the slopes
+/// at the ends of the step, show that g turns back between two points after it approached zero steeply enough to
+/// reach it. If g is convex towards zero (a smooth minimum, or a kink like that of |x - a| - b), this search is
+/// complete. Two cases are not found: two zeros in a dip that is narrower than a quarter of the step and has flat
+/// shoulders, so that neither values nor slopes show it, and a touch that rounding keeps away from zero. Shorter
+/// steps (Options::longest_step, max_step of a scene) find these too. Before an event that stops the run, the step
+/// is searched again up to that event, because a long step may have passed over an earlier one.
 ///
 /// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
 /// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
 /// Events of one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration. All
-/// that are simultaneous with one that stops the run are told. `direction` makes zeros count where the value
-/// grows, or falls; a touch from below grows.
+/// events that are simultaneous with one that stops the run are reported. `direction` restricts the zeros to those
+/// where the value grows, or falls; a touch from below counts as growing.
 
 #include <concepts>
 #include <functional>
@@ -37,9 +37,10 @@ namespace alembert {
 
 struct Event {
     std::string name;
-    bool stop = false;     ///< the run ends there
-    bool at_once = false;  ///< counts however soon after the start: its value there is no rounding
-    int direction = 0;     ///< +1: only zeros where the value grows count, −1: falls, 0: both
+    bool stop = false;     ///< whether the run ends there
+    bool at_once = false;  ///< a zero counts however soon after the start it comes, because the value at the start
+                           ///< is more than rounding
+    int direction = 0;  ///< +1: only zeros where the value grows count; −1: only those where it falls; 0: both
 };
 
 struct Events {
@@ -53,12 +54,12 @@ struct Events {
     }
 };
 
-/// The emitted events. `stop` and `direction` have one flag for each, or are empty; throws std::invalid_argument
-/// otherwise.
+/// The emitted events. `stop` and `direction` have one entry for each event or are empty; otherwise
+/// std::invalid_argument is thrown.
 Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop,
                    const std::vector<int>& direction = {});
 
-/// Any function (t, state, rate, out), `out` having a place for each of the list.
+/// Events from any function (t, state, rate, out); `out` has a place for each event in the list.
 template <std::invocable<double, const double*, const double*, double*> Function>
 Events make_events(std::vector<Event> list, Function function) {
     const Events::Call call = [](const void* context, double t, const double* state, const double* rate,
@@ -67,7 +68,7 @@ Events make_events(std::vector<Event> list, Function function) {
         .list = std::move(list), .context = std::make_shared<const Function>(std::move(function)), .call = call};
 }
 
-/// A finished step, as the search sees it.
+/// A finished step, with what the search needs to know about it.
 struct Stretch {
     double start = 0;
     double end = 0;
@@ -81,11 +82,11 @@ struct Crossing {
     int index = 0;
     double time = 0;
     double theta = 0;    ///< (time − start) / (end − start) of the stretch
-    int direction = 0;   ///< +1: the value grows through it, −1: falls
-    bool counts = true;  ///< in its event's direction
+    int direction = 0;   ///< +1: the value grows through zero; −1: it falls
+    bool counts = true;  ///< whether the zero has the direction of its event
 };
 
-/// Events whose zeros are nearer to each other than this are simultaneous, in a step from `start` to `end`.
+/// In a step from `start` to `end`, events are simultaneous if their zeros are nearer to each other than this.
 double simultaneous(double start, double end);
 
 /// Follows the signs of all events along a run. Call `begin` once, then `look` for each step.
@@ -93,9 +94,11 @@ class EventWatch {
 public:
     EventWatch(const Events& events, const Rhs& rhs);
     void begin(double t, const double* state, const double* rate);
-    /// In order; also those that do not count.
+    /// The zeros of the step in order, including those that do not count.
     std::vector<Crossing> look(const Stretch& step);
-    long evaluations() const { return evaluations_; }  ///< right-hand sides needed by the search
+    long evaluations() const {
+        return evaluations_;
+    }  ///< evaluations of the right-hand side that the search needed
 
 private:
     std::vector<Crossing> scan(const Stretch& step);
@@ -120,10 +123,12 @@ private:
     long evaluations_ = 0;
     std::vector<double> state_, rate_, out_;
     std::vector<double> last_;                  ///< values at the start of the step
-    std::vector<double> slope_, first_slope_;   ///< dg/dt there; at both ends of the step that is looked at
-    std::vector<double> ahead_, ahead_values_;  ///< a state a little later, and the values there
-    std::vector<int> sign_;     ///< the last sign that was not 0; 0: none, or an event has just been exactly 0
-    std::vector<double> grid_;  ///< values at the points of the step, by point
+    std::vector<double> slope_, first_slope_;   ///< dg/dt at the end of the last step; dg/dt at the start of the
+                                                ///< step that is being searched
+    std::vector<double> ahead_, ahead_values_;  ///< a state a little later, and the values at it
+    std::vector<int> sign_;  ///< the last sign that was not 0; it is 0 if there was none, or if an event has just
+                             ///< been exactly 0
+    std::vector<double> grid_;       ///< values at the points of the step, by point
     std::vector<double> theta_, g_;  ///< points and values of the event looked at
 };
 

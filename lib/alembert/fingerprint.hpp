@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A 128-bit fingerprint of bytes: it names entries of the compile cache and shows whether one is intact.
+/// A 128-bit fingerprint of bytes. It names the entries of the compile cache and shows whether an entry is intact.
 ///
 ///     Fingerprint print;
 ///     print.add("first part");
 ///     print.add("second part");        // other boundaries, other fingerprint: lengths are mixed in
 ///     std::string key = print.hex();   // 32 digits
 ///
-/// Method: FNV-1a with 128 bits (Fowler, Noll, Vo; IETF draft-eastlake-fnv-17, §2 and §5). Not cryptographic: it
-/// guards against accidents, not against somebody who may write into the user's cache. Throws nothing.
+/// Method: FNV-1a with 128 bits (Fowler, Noll, Vo; IETF draft-eastlake-fnv-17, §2 and §5). The method is not
+/// cryptographic: it protects against accidents, not against somebody who may write into the user's cache. It
+/// throws nothing.
 
 #include <cstdint>
 #include <string>

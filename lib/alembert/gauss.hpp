@@ -5,11 +5,12 @@
 ///
 ///     Z_i = h Σ_j a_ij f(t + c_j h, y + Z_j),   y₁ = y + h Σ_j b_j f(t + c_j h, y + Z_j)
 ///
-/// by fixed-point iteration until the changes no longer shrink, which is at rounding: a tolerance left in the
-/// equations would be a drift of the energy (Hairer, Lubich, Wanner, Geometric Numerical Integration, §VIII.6).
-/// The iteration contracts for h‖∂f/∂y‖ below about 2. Where it contracts by less than a half, or not at all,
-/// simplified Newton takes its place for good, (I − h A ⊗ J) ΔZ = h (A ⊗ I) F − Z with J = ∂f/∂y at the start of
-/// the step (newton.hpp), as one dense system of 3n. It starts from the polynomial of the step before (§VIII.6.1).
+/// solved by fixed-point iteration until the changes no longer shrink, that is, to rounding: an error left in the
+/// equations would make the energy drift (Hairer, Lubich, Wanner, Geometric Numerical Integration, §VIII.6). The
+/// iteration contracts for h‖∂f/∂y‖ below about 2. Where it contracts by less than a half, or not at all, the
+/// simplified Newton method replaces it for the rest of the run, (I − h A ⊗ J) ΔZ = h (A ⊗ I) F − Z with J = ∂f/∂y
+/// at the start of the step (newton.hpp), as one dense system of size 3n. The iteration starts from the polynomial
+/// of the step before (§VIII.6.1).
 ///
 /// Source: Hairer, Lubich, Wanner, §II.1.3, table 1.2 (Kuntzmann & Butcher, order 6).
 
@@ -53,7 +54,7 @@ public:
         return solved;
     }
 
-    /// Keeps the polynomial of the step, which looking into it would overwrite.
+    /// Keeps the polynomial of the step, because dense output would overwrite it.
     void finished(const Ends&) { std::copy(rates_.begin(), rates_.end(), kept_.begin()); }
     void advance(const Ends& ends) {
         increment_of_ = ends.h;
@@ -133,7 +134,7 @@ private:
             if (!(largest < HUGE_VAL)) return false;
             for (std::size_t k = 0; k < z_.size(); ++k) z_[k] += delta[static_cast<Eigen::Index>(k)];
             if (largest == 0 || (largest >= before && largest < rounding)) {
-                // h k_i = Σ_j (A⁻¹)_ij Z_j: of a stiff system without the rounding of f.
+                // h k_i = Σ_j (A⁻¹)_ij Z_j, which for a stiff system is free of the rounding errors of f.
                 const Eigen::Matrix3d inverse = matrix_of_a().inverse();
                 for (std::size_t k = 0; k < size_; ++k) {
                     const Eigen::Vector3d z(z_[k], z_[size_ + k], z_[2 * size_ + k]), rates = inverse * z / h;
@@ -155,8 +156,8 @@ private:
         return A;
     }
 
-    /// Z from the rates that the polynomial of the last step has there; from the rate at the start in the first
-    /// step.
+    /// Z from the rates that the polynomial of the last step predicts; in the first step, from the rate at the
+    /// start.
     void forecast(const Ends& ends, double h) {
         for (std::size_t i = 0; i < stages; ++i)
             for (std::size_t k = 0; k < size_; ++k) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// With M = L Lᵀ and x = Lᵀ q' the metric is the plain one; Â and Ĝ are the rows in it. Bilateral rows: the nearest
-// x with Â x = −b. Contacts: x moves by y with Â y = 0 and the least |y| such that Ĝ y ≥ h, a least-distance
-// problem, solved through non-negative least squares: min |E u − f|, u ≥ 0, E = [Ĝᵀ; hᵀ], f = (0 … 0 1)ᵀ (Lawson &
-// Hanson, Solving Least Squares Problems (1974), ch. 23, algorithms NNLS and LDP). Its remainder vanishes if and
-// only if no y exists.
+// With M = L Lᵀ and x = Lᵀ q' the metric is Euclidean; Â and Ĝ are the rows in terms of x. Bilateral rows: the
+// nearest x with Â x = −b. Contacts: x changes by y with Â y = 0 and the least |y| such that Ĝ y ≥ h. This is a
+// least-distance problem, solved by non-negative least squares: min |E u − f|, u ≥ 0, E = [Ĝᵀ; hᵀ], f = (0 … 0 1)ᵀ
+// (Lawson & Hanson, Solving Least Squares Problems (1974), ch. 23, algorithms NNLS and LDP). Its remainder
+// vanishes if and only if no y exists.
 #include "alembert/impact.hpp"
 
 #include <algorithm>
@@ -21,11 +21,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double dependent = 1e-10;           // of rows of length 1
-constexpr double grain_of_sum = 1e-12;        // of the size of what is added up
-constexpr double rest = 1e-9;                 // of the same: what counts as nothing
-constexpr double slow = rest / grain_of_sum;  // approaches that do not bounce, in grains
-constexpr int most_elastic = 1000;            // collisions in one instant; a thin wedge takes π over its angle
+constexpr double dependent = 1e-10;           // for rows of length 1
+constexpr double grain_of_sum = 1e-12;        // rounding of a sum, relative to the size of its terms
+constexpr double rest = 1e-9;                 // relative to the same size: speeds below it count as zero
+constexpr double slow = rest / grain_of_sum;  // in units of that rounding: slower approaches do not bounce
+// The most collisions in one instant; in a thin wedge there are π divided by its angle.
+constexpr int most_elastic = 1000;
 constexpr int most_collisions = 2 * most_elastic;
 
 Orthogonal decomposed(const MatrixXd& matrix) {
@@ -40,8 +41,8 @@ bool is_definite(const MatrixXd& mass) {
     return values.minCoeff() > 1e-13 * values.maxCoeff();
 }
 
-/// M + s AᵀA where M alone is not definite: it moves only what the constraints fix anyhow. Λ changes by s A (q'⁺ −
-/// q'⁻), the rates do not.
+/// M + s AᵀA, used if M itself is not definite. The addition affects only directions that the constraints fix
+/// anyway: Λ changes by s A (q'⁺ − q'⁻), and the rates stay the same.
 struct Stiffened {
     MatrixXd M;
     double stiffening = 0;
@@ -77,7 +78,7 @@ VectorXd non_negative_least_squares(const MatrixXd& E, const VectorXd& f) {
             for (std::size_t i = 0; i < passive.size(); ++i)
                 if (const double w = wish[static_cast<Index>(i)]; w <= 0)
                     part = std::min(part, u[passive[i]] / (u[passive[i]] - w));
-            if (std::isnan(part)) part = 0;  // 0/0: it was and stays at zero
+            if (std::isnan(part)) part = 0;  // 0/0: the value was zero and stays zero
             std::vector<Index> kept;
             for (std::size_t i = 0; i < passive.size(); ++i) {
                 const double w = wish[static_cast<Index>(i)], moved = u[passive[i]] + part * (w - u[passive[i]]);
@@ -93,8 +94,8 @@ VectorXd non_negative_least_squares(const MatrixXd& E, const VectorXd& f) {
     return u;
 }
 
-/// The least |Gᵀ u| such that G Gᵀ u ≥ h, u ≥ 0, complementary; nothing where there is none. Rows of G have length
-/// 1 or 0.
+/// The least |Gᵀ u| such that G Gᵀ u ≥ h, u ≥ 0, complementary; or nothing if there is no such u. The rows of G
+/// have length 1 or 0.
 struct Push {
     bool exists = false;
     VectorXd u;
@@ -110,7 +111,7 @@ Push least_push(const MatrixXd& G, const VectorXd& h) {
     if (!(left > 1e-9)) return {};
     push.u = u * (scale / left);
 
-    // All contacts that just touch their bound share the load; least impulses, where these push and do not pull.
+    // All contacts at their bound share the load: the impulses are those of least norm, if none of these pulls.
     const VectorXd y = G.transpose() * push.u, slack = G * y - h;
     std::vector<Index> touching;
     for (Index k = 0; k < h.size(); ++k)
@@ -128,13 +129,14 @@ Push least_push(const MatrixXd& G, const VectorXd& h) {
     return push;
 }
 
-/// Rows in the metric of M; those of the contacts without what the bilateral ones forbid.
+/// The rows in the metric of M; from those of the contacts, the directions that the bilateral rows forbid have
+/// been removed.
 struct Setting {
     Cholesky mass;
     Orthogonal bilateral;
     VectorXd bilateral_size;
     MatrixXd A, A_unit, G, G_free;
-    VectorXd length;  ///< of the rows of G_free before they were given length 1
+    VectorXd length;  ///< lengths of the rows of G_free before these were scaled to length 1
 
     Setting(const MatrixXd& M, const MatrixXd& rows, const MatrixXd& contacts) : mass(M) {
         const auto in_metric = [this](const MatrixXd& list) -> MatrixXd {
@@ -159,7 +161,7 @@ struct Setting {
         }
     }
 
-    /// What of a vector the bilateral rows take.
+    /// The part of a vector that lies in the span of the bilateral rows.
     VectorXd bilateral_part(const VectorXd& x) const {
         return A.rows() == 0 ? VectorXd(VectorXd::Zero(x.size())) : VectorXd(bilateral.solve(A_unit * x));
     }
@@ -221,7 +223,7 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
     VectorXd next = x + push - s.bilateral_part(push);
     const double largest = std::max(x.norm(), next.norm());
     const auto size = [&](Index i) { return s.G.row(i).norm() * largest + std::abs(contact_drift[i]); };
-    double grain = 0;  // what rounding may be, in the unit of |x|
+    double grain = 0;  // how large rounding may be, in the unit of |x|
     for (Index i = 0; i < k; ++i)
         if (s.length[i] > 0) grain = std::max(grain, grain_of_sum * size(i) / s.length[i]);
     for (bool again = true; again;) {
@@ -242,7 +244,8 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
         }
         const MatrixXd met = columns(s.G_free.transpose(), meeting).transpose();
         Push given = least_push(met, h(meeting));
-        if (!given.exists) {  // between two walls at rest rounding decides; give it room
+        if (!given.exists) {  // between two walls at rest rounding decides whether a solution exists, so bounds
+                              // are relaxed
             for (const Index i : meeting) h[i] -= 2 * grain;
             given = least_push(met, h(meeting));
         }
@@ -264,7 +267,7 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
     }
     result.after = back(x);
 
-    // Λ from what the momenta lack, least norm.
+    // Λ of least norm from the change of momentum that is still unexplained.
     if (m > 0) {
         const VectorXd lacking = x - x_before - push - s.G.transpose() * result.contact;
         result.bilateral = s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) -

@@ -9,7 +9,7 @@
 ///     const Matrix3<> I_A = turned(I_C, R_AB);                     // along the axes of A
 ///     const PrincipalAxes<> own = principal_axes(I_C);             // moments A ≤ B ≤ C and their axes
 ///
-/// Elements are those of the tensor: xy = −∫ x y dm. Any units that agree.
+/// Elements are those of the tensor: xy = −∫ x y dm. Any consistent units may be used.
 
 #include "alembert/rotation.hpp"
 
@@ -30,20 +30,20 @@ Matrix3<Real> inertia_matrix(const InertiaElements<Real>& I) {
     return m;
 }
 
-/// Steiner, Huygens: from the mass centre to a point P of the body, d from P to the mass centre (or back):
-/// I_P = I_C + m (d·d E − d dᵀ).
+/// Theorem of Steiner and Huygens, from the mass centre to a point P of the body, with d the vector from P to the
+/// mass centre (or its negative): I_P = I_C + m (d·d E − d dᵀ).
 template <typename Real>
 Matrix3<Real> moved_from_centre(const Matrix3<Real>& I_C, const Real& mass, const Vector3r<Real>& d) {
     return I_C + mass * (d.dot(d) * Matrix3<Real>::Identity() - d * d.transpose());
 }
 
-/// The way back: I_C = I_P − m (d·d E − d dᵀ). Between two other points go by the mass centre.
+/// The inverse: I_C = I_P − m (d·d E − d dᵀ). To move between two other points, move to the mass centre first.
 template <typename Real>
 Matrix3<Real> moved_to_centre(const Matrix3<Real>& I_P, const Real& mass, const Vector3r<Real>& d) {
     return moved_from_centre<Real>(I_P, -mass, d);
 }
 
-/// I along the axes of A, from I along B: R I Rᵀ, about the same point.
+/// I along the axes of A from I along those of B, about the same point: R I Rᵀ.
 template <typename Real>
 Matrix3<Real> turned(const Matrix3<Real>& I_B, const Matrix3<Real>& R_AB) {
     return R_AB * I_B * R_AB.transpose();
@@ -63,11 +63,12 @@ PrincipalAxes<Real> principal_axes(const Matrix3<Real>& I) {
     return result;
 }
 
-/// As much of the largest moment is rounding.
+/// A difference of moments below this part of the largest one counts as rounding.
 inline constexpr double rounded_moment = 1e-9;
 
-/// What no distribution of mass has: a negative principal moment; a largest one beyond the sum of the others,
-/// C = ∫ (x² + y²) dm ≤ A + B. `scale`: moments that these are the difference of (about another point), if larger.
+/// Two tests for moments that no distribution of mass has: one of them is negative, or the largest exceeds the sum
+/// of the others, although C = ∫ (x² + y²) dm ≤ A + B. If the moments are differences of larger ones (about
+/// another point), `scale` is the size of those.
 template <typename Real>
 bool has_negative_moment(const PrincipalAxes<Real>& I, const Real& scale = 0) {
     return I.moments[0] < -Real(rounded_moment) * std::max<Real>(scale, I.moments.cwiseAbs().maxCoeff());

@@ -4,8 +4,8 @@
 #include <ctime>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -100,93 +100,59 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     append(first, std::move(second), *rest.grid, interval);
     if (first.failure && first.failure->kind == FailureKind::budget_used_up)
         first.failure->message = fmt::format(
-            "{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen "
-            "the "
+            "{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen the "
             "tolerance or shorten the duration",
             options.budget, first.failure->time);
 }
 
-struct MethodEntry {
+using Integration = Trajectory (*)(const Rhs&, const std::vector<double>&, const Options&, const Events&);
+
+struct Steps {
     Method method;
-    std::string_view name;
     bool fixed_step;
-    Trajectory (*run)(const Rhs&, const std::vector<double>&, const Options&, const Events&);
+    Integration run;
 };
 
-/// In the order of Method.
-constexpr MethodEntry methods[] = {{Method::euler, "euler", true, run<Step<euler_tableau>>},
-                                   {Method::rk2, "rk2", true, run<Step<rk2_tableau>>},
-                                   {Method::rk4, "rk4", true, run<Step<rk4_tableau>>},
-                                   {Method::dopri5, "dopri5", false, run<Step<dopri5_tableau>>},
-                                   {Method::dop853, "dop853", false, run<Step<dop853_tableau>>},
-                                   {Method::verner76, "verner76", false, run<Step<verner76_tableau>>},
-                                   {Method::verner98, "verner98", false, run<Step<verner98_tableau>>},
-                                   {Method::verlet, "verlet", true, run<Stepper<Verlet>>},
-                                   {Method::kahanli8, "kahanli8", true, run<Stepper<KahanLi8>>},
-                                   {Method::gauss, "gauss", true, run<Stepper<Gauss>>},
-                                   {Method::rattle, "rattle", true, run<Stepper<Rattle>>},
-                                   {Method::rattle8, "rattle8", true, run<Stepper<Rattle8>>},
-                                   {Method::abm, "abm", false, run<Stepper<Abm>>},
-                                   {Method::bdf, "bdf", false, run<Stepper<Bdf>>},
-                                   {Method::radau, "radau", false, run<Stepper<RadauOfAnyOrder>>},
-                                   {Method::radau5, "radau5", false, run<Stepper<Radau5>>},
-                                   {Method::radau9, "radau9", false, run<Stepper<Radau9>>},
-                                   {Method::radau13, "radau13", false, run<Stepper<Radau13>>},
-                                   {Method::taylor, "taylor", false, run<Stepper<Taylor>>}};
-
-const MethodEntry& entry(Method method) {
-    return methods[static_cast<std::size_t>(method)];
+template <class AnyStep>
+constexpr Steps steps(Method method) {
+    return {method, AnyStep::has_fixed_step, run<AnyStep>};
 }
+
+/// In the order of Method.
+constexpr std::array by_method = {
+    steps<Step<euler_tableau>>(Method::euler),
+    steps<Step<rk2_tableau>>(Method::rk2),
+    steps<Step<rk4_tableau>>(Method::rk4),
+    steps<Step<dopri5_tableau>>(Method::dopri5),
+    steps<Step<dop853_tableau>>(Method::dop853),
+    steps<Step<verner76_tableau>>(Method::verner76),
+    steps<Step<verner98_tableau>>(Method::verner98),
+    steps<Stepper<Verlet>>(Method::verlet),
+    steps<Stepper<KahanLi8>>(Method::kahanli8),
+    steps<Stepper<Gauss>>(Method::gauss),
+    steps<Stepper<Rattle>>(Method::rattle),
+    steps<Stepper<Rattle8>>(Method::rattle8),
+    steps<Stepper<Abm>>(Method::abm),
+    steps<Stepper<Bdf>>(Method::bdf),
+    steps<Stepper<RadauOfAnyOrder>>(Method::radau),
+    steps<Stepper<Radau5>>(Method::radau5),
+    steps<Stepper<Radau9>>(Method::radau9),
+    steps<Stepper<Radau13>>(Method::radau13),
+    steps<Stepper<Taylor>>(Method::taylor),
+};
+
+/// Both tables are in the order of Method and say the same about it.
+constexpr bool tables_agree() {
+    if (by_method.size() != method_table.size()) return false;
+    for (std::size_t i = 0; i < by_method.size(); ++i)
+        if (by_method[i].method != static_cast<Method>(i) || method_table[i].method != static_cast<Method>(i) ||
+            by_method[i].fixed_step != method_table[i].fixed_step)
+            return false;
+    return true;
+}
+static_assert(tables_agree());
 
 }  // namespace
-
-std::string_view name(Method method) {
-    return entry(method).name;
-}
-
-std::optional<Method> method_named(std::string_view name) {
-    const auto found =
-        std::find_if(std::begin(methods), std::end(methods), [&](const auto& one) { return one.name == name; });
-    return found != std::end(methods) ? std::optional(found->method) : std::nullopt;
-}
-
-bool has_fixed_step(Method method) {
-    return entry(method).fixed_step;
-}
-
-std::vector<Method> all_methods() {
-    std::vector<Method> list;
-    for (const MethodEntry& one : methods) list.push_back(one.method);
-    return list;
-}
-
-std::string method_names() {
-    std::string names;
-    for (const MethodEntry& one : methods)
-        names += fmt::format("{}{}",
-                             &one == std::begin(methods)     ? ""
-                             : &one + 1 == std::end(methods) ? " or "
-                                                             : ", ",
-                             one.name);
-    return names;
-}
-
-bool uses_jacobian(Method method) {
-    return (method >= Method::radau && method <= Method::radau13) || method == Method::bdf ||
-           method == Method::gauss;
-}
-
-bool needs_series(Method method) {
-    return method == Method::taylor;
-}
-
-bool needs_canonical(Method method) {
-    return method == Method::rattle || method == Method::rattle8;
-}
-
-bool needs_separable(Method method) {
-    return method == Method::verlet || method == Method::kahanli8;
-}
 
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
                      const Events& events) {
@@ -195,7 +161,8 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
     if (options.by && !events.list.empty())
         throw std::invalid_argument("an integrator from elsewhere does not look for events");
     Trajectory result =
-        options.by ? options.by(rhs, initial, options) : entry(options.method).run(rhs, initial, options, events);
+        options.by ? options.by(rhs, initial, options)
+                   : by_method[static_cast<std::size_t>(options.method)].run(rhs, initial, options, events);
     if (result.statistics.switched && result.ending == Ending::completed) go_on(result, rhs, options, events);
     result.statistics.seconds = thread_seconds() - start;
     return result;

@@ -43,54 +43,15 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "alembert/events.hpp"
+#include "alembert/methods.hpp"
 #include "alembert/quick_times.hpp"
 #include "alembert/rhs.hpp"
 #include "alembert/trajectory.hpp"
 
 namespace alembert {
-
-enum class Method {
-    euler,
-    rk2,
-    rk4,
-    dopri5,
-    dop853,
-    verner76,
-    verner98,
-    verlet,
-    kahanli8,
-    gauss,
-    rattle,
-    rattle8,
-    abm,
-    bdf,
-    radau,
-    radau5,
-    radau9,
-    radau13,
-    taylor
-};
-
-/// "dop853" and so on.
-std::string_view name(Method method);
-std::optional<Method> method_named(std::string_view name);
-bool has_fixed_step(Method method);
-/// Implicit methods that solve their equations with ∂f/∂y.
-bool uses_jacobian(Method method);
-/// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
-bool needs_separable(Method method);
-/// Only for right-hand sides with Rhs::series.
-bool needs_series(Method method);
-/// Only for right-hand sides with Rhs::canonical.
-bool needs_canonical(Method method);
-/// In the order above.
-std::vector<Method> all_methods();
-/// "euler, rk2, ... or verner98", for messages.
-std::string method_names();
 
 /// Called with the start, then with the end of each accepted step (or the event that cuts it short).
 using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;

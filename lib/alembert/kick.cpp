@@ -10,11 +10,12 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t most_kicks = 100;  // kicks of an event, in a moment
-constexpr double moment = 1e-5;          // of the duration: at that rate no budget would do
-constexpr double short_flight = 1e-3;    // between two kicks, beside the longest
+constexpr std::size_t most_kicks = 100;  // kicks of one event within `moment`
+constexpr double moment = 1e-5;  // as a part of the duration: with kicks at that rate no budget would be enough
+constexpr double short_flight = 1e-3;  // a time between two kicks is short if it is below this part of the longest
 constexpr double lost_in_time = 1e-11;
-constexpr double finest_way = 1e-12, coarsest_way = 1e-6;  // of an event's value, beside its size
+constexpr double finest_way = 1e-12,
+                 coarsest_way = 1e-6;  // bounds on the way of an event's value between kicks, relative to its size
 constexpr std::size_t most_shown = 10;
 
 }  // namespace
@@ -64,7 +65,7 @@ std::optional<std::string> KickSeries::add(const std::string& name, double t, co
         flight < short_flight * longest_ &&
         (std::abs(passed.slope) * flight < way * passed.size || flight < lost_in_time * std::abs(t));
     lost_ = is_lost ? lost_ + 1 : 0;
-    const bool is_wrong = is_lost && passed.slope * zero.direction < 0;  // rounding has the word
+    const bool is_wrong = is_lost && passed.slope * zero.direction < 0;  // rounding decides the sign
     const bool is_crowd =
         times_.size() > most_kicks && t - times_[times_.size() - 1 - most_kicks] <= moment * duration;
     if (!is_wrong && !is_crowd && lost_ < 2) return std::nullopt;

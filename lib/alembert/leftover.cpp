@@ -38,7 +38,7 @@ int enter(const std::filesystem::path& path) {
     return -1;
 }
 
-/// A file, or a folder and the files in it.
+/// Removes a file, or a folder and the files in it.
 void remove_now(const char* path) noexcept {
     if (unlink(path) == 0) return;
     const int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What a process must not leave behind, however it ends: temporary files, temporary folders, child processes.
+/// Removes what a process must not leave behind, however it ends: temporary files, temporary folders, child
+/// processes.
 ///
 ///     const Leftover part(folder / ".result.part");     // from now on it is removed when the block ends,
 ///     ... write it, rename it ...                        // (nothing is left under that name after the rename)
@@ -17,8 +18,8 @@
 
 namespace alembert {
 
-/// A file, or a folder with the files in it, that is removed when this goes out of scope in the process that made
-/// it. Nothing has to be there under the name.
+/// A file, or a folder with the files in it, that is removed when this object goes out of scope in the process
+/// that made it. It need not exist.
 class Leftover {
 public:
     explicit Leftover(std::filesystem::path path);
@@ -31,10 +32,10 @@ public:
 private:
     std::filesystem::path path_;
     pid_t owner_;
-    int slot_;  ///< in the list for signals; negative: it is full
+    int slot_;  ///< the place in the list for signals; negative if the list is full
 };
 
-/// A process group that is ended with this process if a signal ends it.
+/// A process group that is ended too if a signal ends this process.
 class RunningGroup {
 public:
     explicit RunningGroup(pid_t leader);

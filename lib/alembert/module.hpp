@@ -7,7 +7,7 @@
 ///     const int n = module.table().coordinates;
 ///
 /// `load` throws CompileError if the file does not load, has no `alembert_solver`, or was emitted for another
-/// version of the ABI (both numbers are said).
+/// version of the ABI (the message gives both numbers).
 
 #include <filesystem>
 #include <memory>
@@ -17,11 +17,11 @@
 
 namespace alembert {
 
-/// An emitted and compiled file; it leaves the process with the last copy. Opening throws CompileError.
+/// An emitted and compiled file. It is unloaded with its last copy. The constructor throws CompileError.
 class ObjectFile {
 public:
     explicit ObjectFile(const std::filesystem::path& path);
-    /// What the file exports as `name`, an `extern "C"` function; null where it has none.
+    /// The `extern "C"` function that the file exports as `name`; null if it has none.
     void* find(const char* name) const;
     const std::shared_ptr<void>& handle() const { return handle_; }
 
@@ -32,11 +32,11 @@ private:
 class Module {
 public:
     const alembert_solver_table& table() const { return *table_; }
-    /// Null where the file was emitted without.
+    /// Null if the file was emitted without derivatives.
     const alembert_derivative_table* derivatives() const { return derivatives_; }
-    /// Null where the system has no constraints.
+    /// Null if the system has no constraints.
     const alembert_projection_table* projection() const { return projection_; }
-    /// Null where the file was emitted without `--batch`.
+    /// Null if the file was emitted without `--batch`.
     const alembert_pack_table* pack() const { return pack_; }
 
 private:
@@ -52,8 +52,8 @@ private:
 
 Module load(const std::filesystem::path& object);
 
-/// The array `par` of the ABI: `values` (the scene's own where empty) and what `prepare` makes of them. Throws
-/// std::invalid_argument if there are too many or too few.
+/// The array `par` of the ABI: `values` (the scene's own if empty) followed by the constants that `prepare`
+/// computes from them. Throws std::invalid_argument if there are too many or too few values.
 std::vector<double> prepared(const Module& module, const std::vector<double>& values = {});
 
 }  // namespace alembert

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What implicit methods share: ∂f/∂y, and the iteration x ← x + δ with its forecast of the end.
+/// What implicit methods share: ∂f/∂y, and the iteration x ← x + δ with a forecast of its convergence.
 ///
 ///     Jacobian jacobian(n);
 ///     jacobian.evaluate(ends);                  // at the start of the step
@@ -9,10 +9,10 @@
 ///     for (...) if (contraction.after(ends.norm(delta)) != Contraction::more) break;
 ///
 /// ∂f/∂y is the right-hand side's own where it has one (Rhs::jacobian; it counts as one evaluation), else by
-/// differences, n evaluations. Differences are of √ε max(|y_i|, |h f_i|, 1e-3): half the digits, which costs a
-/// simplified Newton method some speed of convergence and no accuracy. The forecast is that of Hairer & Wanner,
-/// Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8: with Θ the ratio of two changes, Θ/(1−Θ) of
-/// the last one is left.
+/// differences, n evaluations. The differences are taken over √ε max(|y_i|, |h f_i|, 1e-3). They have half the
+/// digits, which costs the simplified Newton method some speed of convergence but no accuracy. The forecast is
+/// that of Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8: if Θ is the ratio of
+/// two successive changes, the error that remains is Θ/(1−Θ) of the last change.
 
 #include <Eigen/Dense>
 
@@ -48,7 +48,7 @@ struct Jacobian {
     std::vector<double> moved, rate;
 };
 
-/// Whether an iteration is over, from the sizes of its changes.
+/// Decides from the sizes of the changes whether an iteration has ended.
 class Contraction {
 public:
     enum Verdict { more, done, hopeless };

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Eight members of an ensemble side by side, from their starts to their ends; who is done makes room for the
-/// next. This is the inside of `integrate` for ensembles (ensemble.hpp): call that.
+/// Eight members of an ensemble side by side, from their starts to their ends; a member that has ended makes room
+/// for the next. `integrate` for ensembles (ensemble.hpp) is made of this; call that function.
 ///
 ///     PackRun<dop853_tableau>(ensemble, options, source).go();
 ///
 /// Each lane has the step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that
-/// is not finite, a step that underflows, the budget) is given back with `again`: run by itself, it will say what
-/// it was.
+/// is not finite, a step that underflows, the budget) is handed back with `again`: the member is then run by
+/// itself, and that run reports what went wrong.
 
 #include <algorithm>
 #include <cmath>
@@ -25,19 +25,19 @@
 
 namespace alembert {
 
-/// One member, as both ways of running it see it.
+/// One member, as both ways of running it need it.
 struct Member {
     std::size_t index = 0;
     std::vector<double> state, parameters;
     double start = 0, duration = 0;
 };
 
-/// Where members come from and go to; called by several threads at once.
+/// Gives members to run and takes their results; several threads call it at once.
 struct MemberSource {
     std::function<std::optional<Member>()> next;
     std::function<void(const Member&, const Outcome&, const std::vector<double>& state)> done;
     std::function<void(const Member&)> again;
-    std::function<void()> breathe;  ///< after each round of steps
+    std::function<void()> breathe;  ///< called after each round of steps
 };
 
 template <const auto& tableau>
@@ -47,7 +47,7 @@ class PackRun {
     struct Lane {
         Member member;
         double h = 0, end = 0;
-        long count = 0;  ///< of fixed steps
+        long count = 0;  ///< the number of fixed steps
         StepSize control{1};
         Drift drift{0, 0, false};
         Outcome outcome;
@@ -94,7 +94,7 @@ private:
         return good;
     }
 
-    /// The end of the lane's next step; false where it may not take one.
+    /// Sets the end of the lane's next step; false if the lane may not take one.
     bool aim(int i) {
         Lane& lane = lane_[i];
         const double t = step_.time[i];
@@ -128,7 +128,7 @@ private:
         return options_.longest_step > 0 ? options_.longest_step : member.duration;
     }
 
-    /// What was learnt from an attempted step, lane by lane.
+    /// Accepts or rejects the attempted step, lane by lane.
     void settle(unsigned good) {
         double length[lanes];
         for (int i = 0; i < lanes; ++i) length[i] = step_.end[i] - step_.time[i];
@@ -140,7 +140,8 @@ private:
             if (!is_busy(i)) continue;
             Lane& lane = lane_[i];
             const bool is_good = (good >> i & 1U) != 0;
-            // As step.hpp counts: the last stage only where a step is finished, unless the estimate needs it.
+            // Evaluations are counted as in step.hpp: the last stage counts only if the step is finished, unless
+            // the estimate needs it.
             lane.outcome.evaluations += tableau.stages - (is_good || needs_last_stage() ? 0 : 1);
             if (!is_good && Step::has_fixed_step) {
                 give_back(i);
@@ -149,7 +150,7 @@ private:
             if constexpr (!Step::has_fixed_step) {
                 const double ratio = step_.misfit[i] / options_.tolerance;
                 const double wish =
-                    quick_times(lane.member).empty() ? 0 : lane.h;  // what was held short is no forecast
+                    quick_times(lane.member).empty() ? 0 : lane.h;  // a step that had to be short is no forecast
                 if (is_good)
                     lane.h = std::max(lane.control.after_accepted(length[i], ratio), length[i] < wish ? wish : 0);
                 else
@@ -189,7 +190,7 @@ private:
         refill(i);
     }
 
-    /// The next member that can begin; none: the lane stands still.
+    /// Puts the next member that can begin into the lane; if there is none, the lane stands still.
     void refill(int i) {
         busy_ &= ~(1U << i);
         step_.end[i] = step_.time[i];

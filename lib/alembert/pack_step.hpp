@@ -14,7 +14,7 @@
 ///     step.advance(accepted);                  // bit i: the end of lane i becomes its start
 ///
 /// The arithmetic and its order are those of step.hpp, sums of two doubles included. It is compiled for AVX-512,
-/// for AVX2 and for any x86-64, and what the processor can do is chosen when a PackStep is made.
+/// for AVX2 and for any x86-64, and the version that suits the processor is chosen when a PackStep is made.
 
 #include <algorithm>
 #include <cmath>
@@ -181,7 +181,7 @@ private:
         if constexpr (!has_fixed_step) measure(h);
     }
 
-    /// Component by component as in step.hpp; infinite where something is not finite.
+    /// The error is measured component by component as in step.hpp; it is infinite if something is not finite.
     [[gnu::always_inline]] void measure(const Wide& h) {
         const Wide *const k = wide(arrays), *const y = wide(y_), *const next = wide(next_);
         const Wide none{}, one = none + 1;

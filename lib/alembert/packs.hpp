@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Numbers of eight systems side by side, as alembert_pack_table (abi.hpp) takes them.
+/// Numbers of eight systems side by side, in the layout of alembert_pack_table (abi.hpp).
 ///
 ///     std::vector<Lanes> par = prepared_packs(module);         // the scene's own parameters in every lane
 ///     std::vector<Lanes> state(4), rate(4);
@@ -24,7 +24,7 @@ struct alignas(lanes * sizeof(double)) Lanes {
     double operator[](int lane) const { return value[lane]; }
 };
 
-/// The numbers of consecutive Lanes; null for null, which an empty list of them gives.
+/// The numbers of consecutive Lanes; null for a null pointer, which an empty list gives.
 inline double* reals(Lanes* first) {
     return first != nullptr ? first->value : nullptr;
 }
@@ -32,7 +32,7 @@ inline const double* reals(const Lanes* first) {
     return first != nullptr ? first->value : nullptr;
 }
 
-/// `prepared` (module.hpp) in every lane.
+/// The result of `prepared` (module.hpp) in every lane.
 inline std::vector<Lanes> prepared_packs(const Module& module, const std::vector<double>& values = {}) {
     const std::vector<double> par = prepared(module, values);
     std::vector<Lanes> packs(par.size());

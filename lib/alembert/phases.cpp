@@ -22,11 +22,11 @@ constexpr int most_events_at_once = 100;
 
 /// How one contact is watched in a phase.
 struct Watch {
-    double bound = 0;               ///< the event is where the value comes down to −bound
-    double open_until = -HUGE_VAL;  ///< before, the gap is open, whatever rounding says
+    double bound = 0;               ///< the event occurs where the value falls to −bound
+    double open_until = -HUGE_VAL;  ///< before this time the gap counts as open, whatever rounding says
 };
 
-/// The size of a reaction beside the other forces of the system.
+/// The size of a reaction that would balance the other forces of the system.
 double reaction_scale(const Situation& here, const VectorXd& acceleration, int k) {
     const VectorXd row = here.contacts.rows.row(k).cwiseAbs();
     const VectorXd force = here.f.cwiseAbs() + here.M.cwiseAbs() * acceleration.cwiseAbs();
@@ -71,7 +71,8 @@ public:
             result_.ending = Ending::failed;
             if (result_.phases.empty()) result_.phases.push_back({.closed = {}, .motion = one_row()});
         }
-        // Bounces laid down before their time end after what came next, or after the run.
+        // A contact is brought to rest before its bounces would have ended, so its record may come after later
+        // ones or after the end of the run.
         std::erase_if(result_.contacts, [&](const ContactEvent& e) { return e.time > result_.final_time(); });
         std::stable_sort(result_.contacts.begin(), result_.contacts.end(),
                          [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });
@@ -79,17 +80,17 @@ public:
     }
 
 private:
-    /// What has ended a phase.
+    /// The reason why a phase has ended.
     struct Halt {
-        int contact = -1;                   ///< one that has closed or let go
+        int contact = -1;                   ///< a contact that has closed or opened
         std::vector<int> kicks = {};        ///< events whose impulses act
-        std::vector<LastZero> passed = {};  ///< all events of the scene that are zero, once each
-        bool stops = false;                 ///< and that is the end
+        std::vector<LastZero> passed = {};  ///< all events of the scene that are zero, each listed once
+        bool stops = false;                 ///< whether the run ends here
     };
 
     bool is_first() const { return result_.phases.empty(); }
 
-    /// All that act, added; each is kept in its record.
+    /// The sum of all impulses that act; each is also kept in the record of its event.
     VectorXd impulse_of(const std::vector<int>& kicks, const std::vector<double>& state) {
         VectorXd sum;
         for (const int k : kicks) {
@@ -106,7 +107,7 @@ private:
             if (EventRecord* const record = last_record(k))
                 record->energy_gain =
                     Eigen::Map<const VectorXd>(record->impulse.data(), struck.size()).dot(u + struck) / 2 +
-                    0.0;  // no −0
+                    0.0;  // avoids −0
     }
 
     EventRecord* last_record(int event) {
@@ -115,7 +116,7 @@ private:
         return found == result_.events.rend() ? nullptr : &*found;
     }
 
-    /// Zeros that have just been passed are followed from the side to which they go.
+    /// Events whose zeros have just been passed are followed from the side to which they move.
     void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after,
                  const VectorXd& acceleration) {
         passed_.clear();
@@ -154,7 +155,7 @@ private:
             };
             if (is_first() && event.kind == ContactEvent::Kind::rest &&
                 std::none_of(settled.events.begin(), settled.events.end(), struck))
-                continue;  // it has been lying
+                continue;  // the contact was at rest already
             result_.contacts.push_back(event);
         }
         closed_ = std::move(settled.closed);
@@ -178,7 +179,7 @@ private:
             here.duration = end - t_ > 16 * tolerance::epsilon * std::abs(end) ? end - t_ : 0;
             here.sample = sample_interval(options_);
             here.grid = options_.start;
-            if (count_ > 0) {  // so that no short contact is passed over
+            if (count_ > 0) {  // so that no short contact is missed
                 const double short_enough = options_.duration / 200;
                 here.longest_step =
                     here.longest_step > 0 ? std::min(here.longest_step, short_enough) : short_enough;
@@ -211,14 +212,14 @@ private:
         const auto last = motion.final_state();
         state_.assign(last.begin(), last.end());
         if ((halt.contact >= 0 || !halt.kicks.empty()) && mode.project)
-            mode.project(t_, state_.data());  // dense output has left the constraints a little
+            mode.project(t_, state_.data());  // dense output obeys the constraints only approximately
         motion.times.shrink_to_fit();
         motion.states.shrink_to_fit();
         result_.phases.push_back({.closed = closed_, .motion = std::move(motion)});
         return halt;
     }
 
-    /// A contact gives way to an event that stops in the same instant.
+    /// An event that stops the run takes precedence over a contact at the same instant.
     Halt halt_of(const Trajectory& motion, const ContactMode& mode) const {
         Halt halt;
         if (motion.ending != Ending::stopped_by_event) return halt;
@@ -253,8 +254,8 @@ private:
         if (!sum.switched) sum.switched = s.switched;
     }
 
-    /// The mode's events, those of the contacts held against their bounds and stopping the phase, as do those that
-    /// kick.
+    /// The mode's events, prepared for a phase. The events of contacts are compared with their bounds and stop the
+    /// phase; events that kick stop it too.
     Events watched(const ContactMode& mode) const {
         const std::size_t scene = mode.events.list.size() - contacts_.names.size();
         std::vector<Event> list = mode.events.list;
@@ -306,15 +307,14 @@ private:
         });
     }
 
-    /// Contacts that open and close without the time moving on.
+    /// Whether contacts open and close again and again at the same time.
     bool is_stuck(int k) {
         events_at_once_ = t_ - last_event_ > 1e-12 * std::abs(t_) ? 0 : events_at_once_ + 1;
         last_event_ = t_;
         if (events_at_once_ < most_events_at_once * (1 + count_)) return false;
         fail(FailureKind::no_contact_mode,
              fmt::format("no contact mode is consistent at t = {}: contact '{}' and others open and close "
-                         "without the time "
-                         "moving on; loosen the tolerance, or look at the gaps there",
+                         "without the time moving on; loosen the tolerance, or look at the gaps there",
                          t_, contacts_.names[k]));
         return true;
     }
@@ -336,13 +336,13 @@ private:
     const Options& options_;
     double tolerance_;
     int count_;
-    bool in_phases_;  ///< there is something that makes rates jump
+    bool in_phases_;  ///< whether anything makes rates jump
     double t_;
     std::vector<double> state_;
     std::vector<int> closed_, resting_;
-    const ContactMode* mode_ = nullptr;  ///< of the last phase
-    std::vector<PassedZero> passed_;     ///< of the scene's events, at the start of the next phase
-    std::map<int, KickSeries> series_;   ///< by event
+    const ContactMode* mode_ = nullptr;  ///< the mode of the last phase
+    std::vector<PassedZero> passed_;     ///< for the scene's events, at the start of the next phase
+    std::map<int, KickSeries> series_;   ///< the kicks of each event
     long kicks_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A motion with unilateral contacts and kicks: smooth phases, strung together by impacts, releases, the coming to
+/// A motion with unilateral contacts and kicks: smooth phases, joined by impacts, releases, contacts that come to
 /// rest, and impulses.
 ///
 ///     const PhasedMotion motion = follow(contacts, mode_of, {1.0, 0.0}, {.duration = 3});
 ///     motion.contacts[0].time;                 // the first impact
 ///     motion.phases.back().closed;             // {0}: the ball lies
 ///
-/// In a phase the closed contacts are constraints like any other and the open ones are watched. It ends where a
-/// gap comes down to zero, or a reaction from above, located on the dense output (events.hpp); settle.hpp says how
-/// the next begins. A gap or a reaction that is zero when a phase begins is watched so that rounding does not end
-/// it at once: a gap that has just been struck open after the time in which it rises above rounding, one without
-/// speed, or a reaction without size, against a bound as far below zero as it may be uncertain.
+/// In a phase the closed contacts are constraints like any other and the open ones are watched. A phase ends where
+/// a gap or a reaction falls to zero, which is located on the dense output (events.hpp); settle.hpp says how the
+/// next phase begins. If a gap or a reaction is zero when a phase begins, rounding must not end the phase at once.
+/// A gap that opens with a speed after an impact is watched only after the time that it needs to rise above
+/// rounding. A gap with zero speed, or a reaction that is zero, is compared with a small negative threshold,
+/// because its sign is uncertain.
 ///
 /// An event of the scene with impulses (Contacts::kicks) ends a phase too. The impulses of all events that are
 /// zero at the instant are added and make one impact, in which closed contacts take part; then the motion goes on,
-/// or ends where one of them stops it. The zero has been passed: until it rises above rounding, the event's value
-/// is on the side to which it goes by its rate after the kick. So no rounding brings the event back, and a return
-/// through zero is seen however soon it comes. Kicks that come without end are a failure.
+/// or ends if one of the events stops it. The zero then counts as passed: until the event's value rises above
+/// rounding, it is held on the side to which its rate after the kick takes it. So rounding does not repeat the
+/// event, and a return through zero is found however soon it comes. Infinitely many kicks in a finite time are a
+/// failure.
 
 #include "alembert/integrate.hpp"
 #include "alembert/settle.hpp"
@@ -26,27 +28,29 @@
 
 namespace alembert {
 
-/// One choice of closed contacts, ready to run.
+/// The equations for one choice of closed contacts, ready to run.
 struct ContactMode {
     Rhs rhs = {};
-    Events events = {};  ///< the scene's; then one for each contact: its reaction where closed, its gap where open
-    std::function<Rhs()> rhs_when_stiff = {};                   ///< with the Jacobian (Options); may be empty
-    std::function<void(double t, double* state)> project = {};  ///< to the constraints of the mode; may be empty
-    OnStep on_step = {};                                        ///< may be empty
-    Integrator by = {};                                         ///< Options::by; may be empty
-    std::shared_ptr<const Switching> switching = {};            ///< where the right-hand side has jumps or kinks
+    Events events = {};  ///< the scene's events, then one for each contact: its reaction if it is closed, its gap
+                         ///< if it is open
+    std::function<Rhs()> rhs_when_stiff = {};  ///< with the Jacobian (Options); may be empty
+    /// Moves a state onto the constraints of the mode; may be empty.
+    std::function<void(double t, double* state)> project = {};
+    OnStep on_step = {};                              ///< may be empty
+    Integrator by = {};                               ///< Options::by; may be empty
+    std::shared_ptr<const Switching> switching = {};  ///< set if the right-hand side has jumps or kinks
 };
 
-/// Asked once for each phase. The reference stays good.
+/// Called once for each phase. The reference must stay valid.
 using ContactModes = std::function<const ContactMode&(const std::vector<int>& closed)>;
 
 struct Phase {
     std::vector<int> closed = {};
-    Trajectory motion = {};  ///< its events are the scene's alone
+    Trajectory motion = {};  ///< with the scene's events only
 };
 
 struct PhasedMotion {
-    std::vector<Phase> phases = {};  ///< one at least
+    std::vector<Phase> phases = {};  ///< at least one
     std::vector<ContactEvent> contacts = {};
     std::vector<EventRecord> events = {};
     Statistics statistics = {};
@@ -57,10 +61,10 @@ struct PhasedMotion {
     std::span<const double> final_state() const { return phases.back().motion.final_state(); }
 };
 
-/// `initial`: q, q' and what the right-hand sides have beyond. Without contacts this is `integrate` in the mode
-/// {}. Rows of all phases fall on one grid; each phase has its first and last instant besides. What fails while it
-/// runs is in `failure`, with the phases until then; FailureKind::no_contact_mode names the contacts,
-/// endless_kicks the event.
+/// `initial` holds q, q' and the quadratures of the right-hand sides. Without contacts this is `integrate` in the
+/// mode {}. The rows of all phases fall on one grid; each phase also has a row at its first and at its last
+/// instant. If something fails during the run, `failure` says what, and the phases until then are kept. The
+/// message of FailureKind::no_contact_mode names the contacts, that of endless_kicks the event.
 PhasedMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
                     const Options& options);
 

@@ -40,7 +40,7 @@ std::vector<std::string> english_environment() {
     return list;
 }
 
-/// Everything until the last writer closes its end.
+/// Reads until the last process that writes has closed its end.
 std::string read_all(int descriptor) {
     std::string text;
     std::array<char, 4096> block;
@@ -58,7 +58,7 @@ int wait_for(pid_t child) {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-/// Keeps signals away while a child has been started and not yet been noted.
+/// Holds signals back between the start of a child and its entry into the list of children.
 class SignalsHeld {
 public:
     SignalsHeld() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Running another program without a shell: no character of an argument has a meaning.
+/// Runs another program without a shell, so that no character of an argument has a special meaning.
 ///
 ///     const Finished gcc = run({"/usr/bin/g++", "--version"});
 ///     if (gcc.status != 0) … gcc.output …

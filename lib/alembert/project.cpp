@@ -10,9 +10,9 @@ namespace alembert {
 
 namespace {
 
-constexpr int most_corrections = 8;       // Newton's method from the end of an accepted step needs one or two
+constexpr int most_corrections = 8;       // from the end of an accepted step, Newton's method needs one or two
 constexpr double small_change = 1e-8;     // its square is rounding
-constexpr double one_rounding = 0x1p-53;  // of a number of size 1
+constexpr double one_rounding = 0x1p-53;  // rounding of a number of size 1
 constexpr double singular_pivot = 1e-5;
 constexpr double held = 5e-5;
 
@@ -56,7 +56,7 @@ std::function<void(double t, double* state)> Projection::after_steps() {
     return std::ref(*this);
 }
 
-/// Of those that the emitted step has met; 0 where there is nothing to divide by.
+/// The pivots that the emitted step has found; a pivot is 0 if the step does not divide by one.
 bool Projection::pivots_are_small() {
     bool small = false;
     for (std::size_t k = 0; k < pivots_.size(); ++k) {
@@ -66,8 +66,9 @@ bool Projection::pivots_are_small() {
     return small;
 }
 
-/// x of least norm with B x = r; near a singular pose x = Bᵀ (B Bᵀ + τ²)⁻¹ r (Tikhonov), rows measured with the
-/// largest that they have been: with a direction held by σ it changes by σ²/(σ² + τ²), smoothly.
+/// x of least norm with B x = r. Near a singular pose it is x = Bᵀ (B Bᵀ + τ²)⁻¹ r (Tikhonov), with each row
+/// divided by its largest length so far; x along a direction with singular value σ is then smaller by the factor
+/// σ²/(σ² + τ²), which varies smoothly.
 Eigen::VectorXd Projection::least(Eigen::MatrixXd B, Eigen::VectorXd r) const {
     if (!is_near_singular_) return least_norm(B, r).x;
     for (Eigen::Index k = 0; k < B.rows(); ++k) {
@@ -81,7 +82,7 @@ Eigen::VectorXd Projection::least(Eigen::MatrixXd B, Eigen::VectorXd r) const {
     return B.transpose() * G.llt().solve(r);
 }
 
-/// By the emitted step; false where that is not to be trusted.
+/// Projects by the emitted step; false if its result is not to be trusted.
 bool Projection::unrolled(double t, double* state) {
     if (module_.projection() == nullptr) return false;
     const auto project = module_.projection()->project;
@@ -121,8 +122,8 @@ Eigen::VectorXd Projection::along_speeds(const Eigen::VectorXd& misfit) const {
     return factors.solve_upper(least(factors.solve_lower(B.transpose()).transpose(), misfit));
 }
 
-/// S M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ f, S from differences of the file's q', which is linear in u; Aₑ⁺ f where the speeds leave B
-/// no row.
+/// S M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ f, with S from differences of the file's q', which is linear in u; or Aₑ⁺ f if the speeds
+/// have eliminated all rows of B.
 Eigen::VectorXd Projection::in_positions(double t, const double* state) const {
     if (!own_speeds()) return along_speeds(position_);
     if (in_speeds().isZero(0)) {
@@ -165,7 +166,7 @@ void Projection::operator()(double t, double* state) {
         q -= change;
     }
     evaluate(t, state);
-    for (int round = 0; round < 2; ++round) {  // the second takes what rounding left of the first
+    for (int round = 0; round < 2; ++round) {  // the second round removes what rounding left in the first
         const Eigen::VectorXd change = along_speeds(velocity_);
         if (!change.allFinite()) return;
         u -= change;

@@ -5,18 +5,18 @@
 ///
 ///     Z_i = h Σ_j a_ij f(t + c_j h, y + Z_j),   y₁ = y + Z_s
 ///
-/// Simplified Newton with one ∂f/∂y, the emitted one where there is one (newton.hpp): with the eigenvectors of A⁻¹
-/// the s n equations fall apart into one real and (s − 1)/2 complex systems of n, (λ_k/h − J) ΔW_k = …
-/// (collocation.hpp).
+/// The equations are solved by the simplified Newton method with one ∂f/∂y, the emitted one if there is one
+/// (newton.hpp). In the basis of the eigenvectors of A⁻¹ the s n equations decouple into one real and (s − 1)/2
+/// complex systems of n, (λ_k/h − J) ΔW_k = … (collocation.hpp).
 ///
-/// Error: (I − hγ₀J)⁻¹ (γ₀ h f(t, y) + Σ e_i Z_i), of order h^{s+1}; after a first step or a rejection filtered
-/// once more. Dense output is the collocation polynomial, whose error is of order h^{s+1} too, so that the
-/// tolerance holds within a step as it does at the ends, where the error is smaller. The factorizations serve
-/// again while h grows by less than a fifth and ∂f/∂y while the iteration contracts well.
+/// The error estimate is (I − hγ₀J)⁻¹ (γ₀ h f(t, y) + Σ e_i Z_i), of order h^{s+1}; in the first step and after a
+/// rejection it is filtered once more. Dense output is the collocation polynomial, whose error is of order h^{s+1}
+/// too, so that the tolerance also holds within a step; at its ends the error is smaller. The factorizations are
+/// used again while h grows by less than a fifth, and ∂f/∂y while the iteration contracts well.
 ///
-/// `Radau<3, 7>` changes between 3, 5 and 7 stages: up where Newton's iteration contracts so well (Θ < 0.002) that
-/// steps are short for it and the length is steady, down where it hardly does (Θ > 0.8) or has failed; ten steps
-/// at least with each.
+/// `Radau<3, 7>` changes between 3, 5 and 7 stages: to more stages where Newton's iteration contracts so well (Θ <
+/// 0.002) that longer steps could be solved and the step length is steady, to fewer where it hardly contracts (Θ >
+/// 0.8) or has failed. Each number of stages is kept for at least ten steps.
 ///
 /// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8; the same, Stiff
 /// differential equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111, §4.
@@ -78,7 +78,7 @@ public:
     }
 
     void finished(const Ends& ends) {
-        // Its end is where a projection has moved it.
+        // The end of the step is where a projection has moved it.
         for (int i = 0; i < n_; ++i) {
             const auto k = static_cast<std::size_t>(i);
             z_(i, s_ - 1) = (ends.next[k] - ends.y[k]) + (ends.next_rest[k] - ends.rest[k]);
@@ -150,7 +150,7 @@ private:
         return sum;
     }
 
-    /// The polynomial of the last step goes on; zero before there is one.
+    /// Extrapolates the polynomial of the last step; zero in the first step.
     void forecast(double h) {
         z_.setZero();
         if (step_of_poly_ == 0) return;
@@ -178,7 +178,7 @@ private:
         }
     }
 
-    /// One change of all stages; its size.
+    /// Changes all stages once and returns the size of the change.
     double correct(const Ends& ends, double h) {
         side_.noalias() = z_ * table_->inverse.transpose();
         side_ = f_ - side_ / h;

@@ -31,7 +31,7 @@ RattleStep::RattleStep(const Canonical& system)
     }
 }
 
-/// M with its factors, p, p₀ and F; false where M is not positive definite.
+/// Computes M and its factors, p, p₀ and F; false if M is not positive definite.
 bool RattleStep::evaluate(Side& side, double t, const Vector& q, const Vector& v) {
     std::copy_n(q.data(), n_, state_.data());
     std::copy_n(v.data(), n_, state_.data() + n_);
@@ -58,16 +58,16 @@ bool RattleStep::operator()(double t, double h, double* state) {
     u_ = Eigen::Map<const Vector>(state + n_, n_);
     if (!evaluate(here_, t, q_, u_)) return false;
     const Vector p = here_.p;
-    Eigen::MatrixXd across, there;  // M⁻¹A(q)ᵀ at either end
+    Eigen::MatrixXd across, there;  // M⁻¹A(q)ᵀ, with M at either end
     if (m_ > 0) {
         hold(here_, t, q_, u_);
         across = here_.factors.solve(here_.A.transpose());
     }
     v_ = w_ = u_;
     end_ = q_;
-    impulse_ = h / 2 * lambda_;  // of the step before
+    impulse_ = h / 2 * lambda_;  // the impulse of the step before
     Vector P;
-    double former = HUGE_VAL, pulled = 0;  // by the constraints, in the last round
+    double former = HUGE_VAL, pulled = 0;  // how far the constraints moved the end in the last round
     for (int round = 0;; ++round) {
         if (round == most_iterations) return false;
         P = p + h / 2 * here_.F;
@@ -88,7 +88,7 @@ bool RattleStep::operator()(double t, double h, double* state) {
         if (round > patience && change >= former) return false;
         former = change;
         if (m_ > 0) {
-            end_ += h / 2 * (w_ - before_);  // f where the new rates lead
+            end_ += h / 2 * (w_ - before_);  // then f is taken at the end to which the new rates lead
             hold(there_, t + h, end_, w_);
             there = there_.factors.solve(here_.A.transpose());
             const Vector pull = (h / 2 * (there_.A * (across + there))).partialPivLu().solve(there_.position);
@@ -103,7 +103,7 @@ bool RattleStep::operator()(double t, double h, double* state) {
     }
     longest_ = std::max(longest_, std::abs(h));
     if (m_ > 0 && std::abs(h) > 0.01 * longest_)
-        lambda_ = 2 / h * impulse_;  // that of a step to a row close by is rounding / h²
+        lambda_ = 2 / h * impulse_;  // a very short step, to a row close by, would give λ errors of rounding / h²
     if (!evaluate(there_, t + h, end_, w_)) return false;
     u_ = there_.factors.solve(P + h / 2 * there_.F - there_.free);
     if (m_ > 0) {
@@ -112,7 +112,7 @@ bool RattleStep::operator()(double t, double h, double* state) {
         const Eigen::PartialPivLU<Eigen::MatrixXd> square(there_.A * there);
         u_ -= there * square.solve(there_.velocity);
         hold(there_, t + h, end_, u_);
-        u_ -= there * square.solve(there_.velocity);  // what rounding left
+        u_ -= there * square.solve(there_.velocity);  // removes what rounding left
     }
     std::copy_n(end_.data(), n_, state);
     std::copy_n(u_.data(), n_, state + n_);

@@ -8,18 +8,17 @@
 ///     q₁ = q + h/2 (v + w),                 M(q₁) w + p₀(q₁) = P         w: of (q₁, P); f(q₁) = 0 determines λ
 ///     p₁ = P + h/2 (F(q₁, w) + A(q₁)ᵀμ),    M(q₁) u₁ + p₀(q₁) = p₁       A(q₁) u₁ + ∂f/∂t = 0 determines μ
 ///
-/// with p, F and A of canonical.hpp at t (first line) and t + h. That is the two-stage Lobatto IIIA-IIIB pair for
-/// q' = H_p(p, q), p' = −H_q(p, q) − Aᵀλ, of order 2 (Jay); for constant M and forces without rates it is
-/// Andersen's RATTLE, without constraints Störmer's and Verlet's method. Loads outside V go along as in a forced
-/// discrete Lagrangian. The equations of a step are solved until the changes no longer shrink: Newton's method for
-/// λ, with A(q₁) (M(q)⁻¹ + M(q₁)⁻¹) A(q)ᵀ h²/4, together with a fixed-point iteration for what depends on rates
-/// through M and F, which contracts as long as these change little in a step.
+/// with p, F and A of canonical.hpp at t (first line) and t + h. This is the two-stage Lobatto IIIA-IIIB pair for
+/// q' = H_p(p, q), p' = −H_q(p, q) − Aᵀλ, of order 2 (Jay); for constant M and forces that do not depend on rates
+/// it is Andersen's RATTLE; without constraints it is the Störmer-Verlet method. Loads outside V enter as in a
+/// forced discrete Lagrangian. The equations of a step are solved until the changes no longer shrink: Newton's
+/// method for λ, with A(q₁) (M(q)⁻¹ + M(q₁)⁻¹) A(q)ᵀ h²/4, together with a fixed-point iteration for what depends
+/// on rates through M and F, which contracts as long as M and F change little in a step.
 ///
-/// `rattle8` takes 17 such steps of the lengths of Kahan and Li (symplectic.hpp): a symmetric method of order 2
-/// composed to order 8.
+/// `rattle8` composes 17 such steps, with the lengths of Kahan and Li (symplectic.hpp), to a method of order 8.
 ///
-/// Quadratures take the trapezoidal rule, one evaluation of the right-hand side for each substep. A point on the
-/// way is the end of a shorter step, on its constraints too.
+/// Quadratures are integrated by the trapezoidal rule, with one evaluation of the right-hand side for each
+/// substep. A state within a step is the end of a shorter step, so that it too obeys the constraints.
 ///
 /// Sources: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, §VII.1.4, (1.26)-(1.27); L.
 /// Jay, SIAM J. Numer. Anal. 33 (1996) 368-387; H. C. Andersen, J. Comput. Phys. 52 (1983) 24-34.
@@ -32,7 +31,7 @@
 
 namespace alembert {
 
-/// One step of length h from (q, q') in `state`, which it replaces; false where its equations were not solved.
+/// One step of length h from (q, q') in `state`, which it replaces; false if its equations were not solved.
 class RattleStep {
 public:
     explicit RattleStep(const Canonical& system);
@@ -44,7 +43,7 @@ private:
     using Vector = Eigen::VectorXd;
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    /// Of one end of the step.
+    /// The values at one end of the step.
     struct Side {
         Eigen::MatrixXd M;
         Eigen::LLT<Eigen::MatrixXd> factors;

@@ -28,7 +28,8 @@ void rate_and_power(const void* context, double t, const double* state, double* 
     rate[table.coordinates + table.speeds] = energy[3];
 }
 
-/// With a quadrature the dimension is one more, and the row of the power is its; else that row is left out.
+/// With a quadrature the dimension is larger by one, and the row of the power belongs to it; without, that row is
+/// left out.
 template <int quadratures>
 void derivative_of(const void* context, double t, const double* state, double* values) {
     const auto& solver = *static_cast<const Emitted*>(context);

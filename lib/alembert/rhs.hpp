@@ -8,12 +8,12 @@
 ///     const Rhs driven = make_rhs(module, {}, Work::integrated);        // the scene's own values, one more
 ///     component
 ///
-/// The last `extra` components are quadratures: integrated with the same stages, but left out of error control,
-/// and nothing may depend on them. `Work::integrated` adds one, W(t) = ∫ power dt, named "work", for the work
-/// balance. A copy is cheap and shares the context, which keeps the module loaded. Calls are thread-safe if the
-/// function is. Where the file has derivatives, `jacobian` fills the dense ∂rate/∂state, column by column,
-/// quadratures included; elsewhere it is null, and those who need it take differences (newton.hpp). `make_rhs`
-/// throws std::invalid_argument if the number of parameters is wrong or a count makes no sense.
+/// The last `extra` components are quadratures. They are integrated with the same stages but left out of error
+/// control, and nothing may depend on them. `Work::integrated` adds one, W(t) = ∫ power dt, named "work", for the
+/// work balance. A copy is cheap and shares the context, which keeps the module loaded. Calls are thread-safe if
+/// the function is. If the file has derivatives, `jacobian` writes the dense matrix ∂rate/∂state, column by
+/// column, quadratures included; otherwise it is null, and methods that need it use differences (newton.hpp).
+/// `make_rhs` throws std::invalid_argument if the number of parameters is wrong or a count makes no sense.
 
 #include <concepts>
 #include <memory>
@@ -44,7 +44,7 @@ struct Rhs {
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 
-    /// "theta1' (component 2)": for messages, the first component is 0.
+    /// "theta1' (component 2)": the name of a component for messages; the first component is 0.
     std::string describe(int component) const;
 };
 
@@ -53,7 +53,7 @@ enum class Work { left_out, integrated };
 /// The emitted right-hand side with `values` for parameters (empty: the scene's own).
 Rhs make_rhs(const Module& module, const std::vector<double>& values = {}, Work work = Work::left_out);
 
-/// Any function f(t, const double* state, double* rate), with a Jacobian of the same form.
+/// A right-hand side from any function f(t, const double* state, double* rate) and a Jacobian of the same form.
 template <std::invocable<double, const double*, double*> Function,
           std::invocable<double, const double*, double*> Jacobian>
 Rhs make_rhs(int dimension, Function function, Jacobian jacobian) {

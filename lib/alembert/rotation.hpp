@@ -14,10 +14,10 @@
 ///     const Quaternion<> e = quaternion_of(R_NB);
 ///
 /// R_AB takes components along B to components along A; its columns are B's unit axes in A, its elements the
-/// direction cosines. w_AB_B is the angular velocity of B in A along B. Angles in radians, lengths and times in
-/// any units that agree. All functions are templates over the scalar, so that dual or complex numbers give
-/// derivatives; those that choose by size (turn_of, quaternion_of, angles_of) take real numbers.
-/// std::invalid_argument is thrown for a sequence that is no sequence.
+/// direction cosines. w_AB_B is the angular velocity of B in A along B. Angles are in radians, lengths and times
+/// in any consistent units. All functions are templates over the scalar, so that dual or complex numbers give
+/// derivatives; those that compare sizes (turn_of, quaternion_of, angles_of) take real numbers.
+/// std::invalid_argument is thrown for letters that are no sequence of axes.
 
 #include <Eigen/Dense>
 #include <array>
@@ -36,7 +36,7 @@ using Vector3r = Eigen::Matrix<Real, 3, 1>;
 template <typename Real = double>
 using Quaternion = std::array<Real, 4>;  ///< scalar first
 
-/// ã with ã b = a × b.
+/// The matrix ã with ã b = a × b.
 template <typename Real>
 Matrix3<Real> skew(const Vector3r<Real>& a) {
     Matrix3<Real> m;
@@ -44,13 +44,13 @@ Matrix3<Real> skew(const Vector3r<Real>& a) {
     return m;
 }
 
-/// a × b, without the conjugation that Eigen's own has for complex numbers.
+/// a × b, without the conjugation that Eigen's cross product has for complex numbers.
 template <typename Real>
 Vector3r<Real> cross_product(const Vector3r<Real>& a, const Vector3r<Real>& b) {
     return skew<Real>(a) * b;
 }
 
-/// a with ã = the skew part of m.
+/// The vector a whose ã is the skew part of m.
 template <typename Real>
 Vector3r<Real> unskew(const Matrix3<Real>& m) {
     return Vector3r<Real>(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)) / Real(2);
@@ -60,7 +60,7 @@ Vector3r<Real> unskew(const Matrix3<Real>& m) {
 
 template <typename Real = double>
 struct Turn {
-    Vector3r<Real> axis;  ///< a unit vector, along either frame
+    Vector3r<Real> axis;  ///< a unit vector with the same components in both frames
     Real angle;           ///< 0 to π
 };
 
@@ -94,7 +94,7 @@ Quaternion<Real> product(const Quaternion<Real>& e, const Quaternion<Real>& f) {
             e[0] * f[3] + e[3] * f[0] + e[1] * f[2] - e[2] * f[1]};
 }
 
-/// The rotation back, for e·e = 1.
+/// The inverse rotation, for e·e = 1.
 template <typename Real>
 Quaternion<Real> conjugate(const Quaternion<Real>& e) {
     return {e[0], -e[1], -e[2], -e[3]};
@@ -121,8 +121,8 @@ Quaternion<Real> quaternion_about(const Vector3r<Real>& axis, const Real& angle)
     return {cos(half), axis[0] * s, axis[1] * s, axis[2] * s};
 }
 
-/// By the largest of the four, so that no digits are lost (Shepperd, J. Guidance and Control 1 (1978) 223); e₀ ≥
-/// 0.
+/// The largest of the four is computed first, so that no digits are lost (Shepperd, J. Guidance and Control 1
+/// (1978) 223); e₀ ≥ 0.
 template <typename Real>
 Quaternion<Real> quaternion_of(const Matrix3<Real>& R) {
     const Real trace = R.trace();
@@ -150,7 +150,7 @@ Quaternion<Real> quaternion_of(const Matrix3<Real>& R) {
     return e;
 }
 
-/// Axis and angle of R; the axis of no turn at all is z.
+/// Axis and angle of R; if R is the identity, the axis is z.
 template <typename Real>
 Turn<Real> turn_of(const Matrix3<Real>& R) {
     const Quaternion<Real> e = quaternion_of<Real>(R);
@@ -176,12 +176,12 @@ Quaternion<Real> quaternion_rate(const Quaternion<Real>& e, const Vector3r<Real>
 }
 
 // Euler angles: three turns about axes x, y, z in a sequence such as "zxz" (Euler's) or "xyz" (Cardan's, Bryan's).
-// About the body's axes each turn takes the next axes along, R = R₁ R₂ R₃; about the space's axes they stay, R =
-// R₃ R₂ R₁.
+// If the turns are about the body's axes, each turn carries the axes of the next ones along, R = R₁ R₂ R₃; if they
+// are about the space's axes, these stay fixed, R = R₃ R₂ R₁.
 
 enum class Axes { body, space };
 
-/// 0, 1, 2 for each letter. Throws for a sequence that is none of the twelve.
+/// The axis of each letter as 0, 1 or 2. Throws if the sequence is none of the twelve.
 inline std::array<int, 3> letters_of(std::string_view sequence) {
     const bool is_one = sequence.size() == 3 && sequence.find_first_not_of("xyz") == std::string_view::npos &&
                         sequence[0] != sequence[1] && sequence[1] != sequence[2];
@@ -207,11 +207,12 @@ Matrix3<Real> rotation_by_angles(std::string_view sequence, const std::array<Rea
 template <typename Real = double>
 struct Angles {
     std::array<Real, 3> value;  ///< the second from 0 to π ("zxz"), or from −π/2 to π/2 ("xyz")
-    bool locked;                ///< gimbal lock: first and third turn about one line; the third is set to 0 then
+    bool locked;  ///< gimbal lock: the first and the third turn are about the same line; the third angle is then
+                  ///< set to 0
 };
 
-/// The angles of a rotation. Near the lock (within 1e-8 of it) first and third are lost one by one, and `locked`
-/// says so.
+/// The angles of a rotation. Near gimbal lock (within 1e-8 of it) the first and the third angle are not determined
+/// separately, and `locked` is true.
 template <typename Real = double>
 Angles<Real> angles_of(const Matrix3<Real>& R, std::string_view sequence, Axes axes = Axes::body) {
     if (axes == Axes::space) {  // about the space's axes in reverse order it is the same rotation
@@ -232,15 +233,15 @@ Angles<Real> angles_of(const Matrix3<Real>& R, std::string_view sequence, Axes a
     return {{std::atan2(-sign * R(j, k), R(k, k)), middle, std::atan2(-sign * R(i, j), R(i, i))}, false};
 }
 
-/// The matrix B of ω = B (θ₁', θ₂', θ₃'): along the body's axes, or along the space's. Its determinant, ± sin θ₂
-/// or ± cos θ₂, vanishes at gimbal lock.
+/// The matrix B of ω = B (θ₁', θ₂', θ₃'): ω is along the body's axes or along the space's. The determinant of B, ±
+/// sin θ₂ or ± cos θ₂, vanishes at gimbal lock.
 template <typename Real = double>
 Matrix3<Real> rates_matrix(std::string_view sequence, const std::array<Real, 3>& angles, Axes axes, Axes along) {
     const std::array<int, 3> k = letters_of(sequence);
     Matrix3<Real> B, before = Matrix3<Real>::Identity();  // the turns that carry the axis of the next one, along N
     const bool body = axes == Axes::body;
     for (int step = 0; step < 3; ++step) {
-        const int i = body ? step : 2 - step;  // about the space's axes the last turn stands outside
+        const int i = body ? step : 2 - step;  // about the space's axes the last turn is the leftmost factor
         const Vector3r<Real> axis = Vector3r<Real>::Unit(k[i]);
         B.col(i) = before * axis;
         before = before * rotation_about<Real>(axis, angles[i]);
@@ -255,7 +256,8 @@ Vector3r<Real> angular_velocity(std::string_view sequence, const std::array<Real
     return rates_matrix<Real>(sequence, angles, axes, along) * Vector3r<Real>(rates[0], rates[1], rates[2]);
 }
 
-// Composition: C moves against B, which moves against A; all vectors along A but those that end in _B.
+// Composition: C moves relative to B, which moves relative to A. All vectors are along A, except those whose names
+// end in _B.
 
 /// ω_AC = ω_AB + R_AB ω_BC
 template <typename Real>
@@ -280,10 +282,10 @@ Vector3r<Real> absolute_derivative(const Vector3r<Real>& relative, const Vector3
 }
 
 /// A point at r from O_B, moving in B: v = v_B + ω × r + v_r; a = a_B + α × r + ω × (ω × r) + 2 ω × v_r + a_r, the
-/// last two being Coriolis's and the relative acceleration. Everything along one frame.
+/// last two being Coriolis's and the relative acceleration. All components are along the same frame.
 template <typename Real = double>
 struct FrameMotion {
-    Vector3r<Real> velocity, acceleration;  ///< of its origin
+    Vector3r<Real> velocity, acceleration;  ///< of the origin of B
     Vector3r<Real> w, alpha;
 };
 template <typename Real>

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_pieces = 6;     // sliding, sticking or sliding back, in compression and in restitution
-constexpr double no_slip = 1e-13;  // of a sliding velocity, relative to its terms
+constexpr double no_slip = 1e-13;  // a sliding velocity below this, relative to its terms, is zero
 
 /// M⁻¹ rowᵀ with the bilateral rows at rest.
 VectorXd response(const MatrixXd& mass, const MatrixXd& rows, const VectorXd& row) {
@@ -56,7 +56,8 @@ private:
     double gap() const { return contact_.normal.dot(u_) + contact_.normal_drift; }
     double slip() const { return contact_.slip.dot(u_) + contact_.slip_drift; }
 
-    /// Rounding does not count as sliding.
+    /// Decides whether the contact slides, and to which side; a velocity within rounding does not count as
+    /// sliding.
     void settle_slip() {
         const double size = contact_.slip.cwiseAbs().dot(u_.cwiseAbs()) + std::abs(contact_.slip_drift);
         side_ = std::abs(slip()) <= no_slip * size ? 0 : slip() > 0 ? 1 : -1;
@@ -66,8 +67,8 @@ private:
         if (!sticks_) side_ = across > 0 ? 1 : -1;
     }
 
-    /// Piece by piece until the impulse that is left, by the rate of the gap in the piece, is none. False where
-    /// that never comes.
+    /// Goes on piece by piece until no impulse is left; `left` computes from the rate of the gap how much is left
+    /// in a piece. False if that never happens.
     template <typename Left>
     bool run_to(const Left& left, RoughImpact& hit) {
         for (int piece = 0; piece < most_pieces; ++piece) {
@@ -89,7 +90,7 @@ private:
             hit.work += step * (mean_normal - contact_.normal_drift + tau * (mean_slip - contact_.slip_drift));
             hit.loss -= step * (mean_normal + tau * mean_slip);
             if (ends) return true;
-            u_ -= slip() / along * by_slip_;  // what rounding has left of it
+            u_ -= slip() / along * by_slip_;  // removes what rounding has left of it
             settle_slip();
         }
         return false;

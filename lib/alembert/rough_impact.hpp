@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Rates after one contact with dry friction has been struck.
+/// Rates after the impact of a single contact with dry friction.
 ///
 ///     const RoughImpact hit = strike_rough(M, u, bilateral, {.normal = g, .slip = w, .coefficient = 0.3}, e);
 ///     hit.after;       // the rates
@@ -11,9 +11,10 @@
 ///
 ///     M du/dπ = gᵀ + τ wᵀ + Aᵀ dΛ/dπ,   A du/dπ = 0
 ///
-/// with τ = −μ sign v while the contact slides, v = w u + d; where v comes to zero, it sticks if some |τ| ≤ μₛ
-/// keeps v = 0, else it slides the other way. All rates are linear in π between these points. The compression ends
-/// where gap' = 0, at π_c; the whole impulse is (1 + e) π_c (Poisson), with which no energy is gained.
+/// with τ = −μ sign v while the contact slides, v = w u + d; where v comes to zero, the contact sticks if some |τ|
+/// ≤ μₛ keeps v = 0; otherwise it slides the other way. All rates are linear in π between these points. The
+/// compression ends where gap' = 0, at π_c; the whole impulse is (1 + e) π_c (Poisson), with which no energy is
+/// gained.
 
 #include <Eigen/Dense>
 #include <string>
@@ -27,11 +28,12 @@ struct RoughContact {
 };
 
 struct RoughImpact {
-    std::string failure;  ///< empty, or why there are no rates after; then the rest is empty
+    std::string failure;  ///< if not empty, the reason why there are no rates after the impact; the other members
+                          ///< are then empty
     Eigen::VectorXd after;
     double impulse = 0;     ///< π at the end
     double tangential = 0;  ///< ∫ τ dπ
-    double work = 0;        ///< of both along the rates that they act on, drifts left out
+    double work = 0;        ///< the work of both impulses along the rates, without the drifts
     double loss = 0;        ///< T before − T after, seen from the moving floor; never negative
     explicit operator bool() const { return failure.empty(); }
 };

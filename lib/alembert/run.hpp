@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One integration by steps of one kind, from options that have been checked to a trajectory. This is the inside
-/// of `integrate`: call that.
+/// One integration by steps of one kind, from options that have been checked to a trajectory. `integrate` is made
+/// of this; call that function.
 ///
 ///     Trajectory motion = StepLoop<Step<dop853_tableau>>(rhs, initial, options, events).go();
 ///     Trajectory motion = StepLoop<Stepper<Gauss>>(rhs, initial, options, events).go();
 ///
-/// A step is what has the members of Step (step.hpp). One that has `next_length(ratio)` chooses the length of the
-/// next step itself, because it chooses more with it (an order, or whether to keep a factorization).
+/// A step is any class with the members of Step (step.hpp). One that has `next_length(ratio)` chooses the length
+/// of the next step itself, together with other things (an order, or whether to keep a factorization).
 ///
-/// The order of things in an accepted step: events in it are found and told with the rows before them, an event
-/// that stops ends the run; then the other rows; then the end of the step becomes the start of the next. Throws
-/// nothing of its own; what fails goes into the trajectory.
+/// In an accepted step, events are found first and recorded with the rows before them; an event that stops ends
+/// the run. Then the other rows are recorded, and the end of the step becomes the start of the next. This class
+/// throws nothing itself; failures are recorded in the trajectory.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ inline double sample_interval(const Options& options) {
     return options.sample > 0 ? options.sample : options.duration / 200;
 }
 
-/// A run with one method: its step, and what is collected on the way.
+/// A run with one method: its step and the trajectory that it collects.
 template <class AnyStep>
 class StepLoop {
 public:
@@ -93,7 +93,8 @@ private:
             adaptive_steps();
     }
 
-    /// An estimate that is rounding alone does not get smaller with the step. A series has no such estimate.
+    /// An error estimate that consists of rounding does not get smaller with the step. A Taylor series has no such
+    /// estimate.
     static double tolerance_within_rounding(double tolerance) {
         if constexpr (requires(AnyStep s) { s.first_length(); }) return tolerance;
         return std::max(tolerance, 2 * std::numeric_limits<double>::epsilon());
@@ -150,14 +151,14 @@ private:
                 ++result_.statistics.rejected;
             if (step_.time() < end_) h = next_length(control, good, misfit / tolerance_);
             if constexpr (!requires { step_.next_length(good, misfit); })
-                if (is_held && good) h = std::max(h, wish);  // a short step that was asked for is no forecast
+                if (is_held && good) h = std::max(h, wish);  // a step that was shortened on request is no forecast
         }
     }
 
-    /// h, or what is left of it where an input changes fast.
+    /// h, or less where an input changes fast.
     double within_quick_times(double h) {
         const double t = step_.time();
-        if (t + h <= latest_end_) return h;  // it only grows with t
+        if (t + h <= latest_end_) return h;  // the latest end only grows with t
         latest_end_ = latest_end(options_.quick_times, t);
         return std::min(h, std::max(latest_end_ - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
     }
@@ -175,7 +176,7 @@ private:
         return step_.finish();
     }
 
-    /// Rows and events of the step that has just been finished; then its end is the new start.
+    /// Records rows and events of the step that has just been finished; then its end becomes the new start.
     void accept() {
         ++result_.statistics.steps;
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
@@ -240,7 +241,8 @@ private:
         result_.ending = Ending::stopped_by_event;
     }
 
-    /// Rows of the grid up to `time`, the end of a step included; the very last row is not one of them.
+    /// Records the rows of the grid up to `time`, including one at the end of a step, but not the last row of the
+    /// run.
     void add_rows_before(double time) {
         const double interval = sample_interval(options_);
         for (;;) {
@@ -325,7 +327,7 @@ private:
 
     const Options& options_;
     const double end_;
-    const double grid_;  ///< where rows are counted from
+    const double grid_;  ///< the time from which rows are counted
     const Events& events_;
     const double tolerance_;
     AnyStep step_;
@@ -334,9 +336,9 @@ private:
     Trajectory result_;
     std::vector<double> row_;
     std::vector<double> event_rate_;
-    long rows_on_grid_ = 1;  ///< the next one; the start is there
+    long rows_on_grid_ = 1;  ///< the number of the next row; the row at the start exists already
     long further_evaluations_ = 0;
-    double latest_end_ = -HUGE_VAL;  ///< of a step, as it was last looked for
+    double latest_end_ = -HUGE_VAL;  ///< the latest end of a step, as it was last computed
 };
 
 }  // namespace alembert

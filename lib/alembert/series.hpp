@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The Taylor coefficients of a motion at a state, from an emitted file of their own (generator/emit/taylor.hpp).
+/// The Taylor coefficients of a motion at a state, computed by a separate emitted file
+/// (generator/emit/taylor.hpp).
 ///
 ///     const Series series = make_series(load_series(object));     // the scene's own parameters
 ///     std::vector<double> out((order + 1) * series.width), work(series.workspace);
@@ -23,7 +24,7 @@ using Quad = long double;
 #endif
 
 inline constexpr int series_abi_version = 2;
-inline constexpr int most_order = 32;  ///< of coefficients in double
+inline constexpr int most_order = 32;  ///< the highest order of coefficients in double
 inline constexpr int most_order_quad = 40;
 
 }  // namespace alembert
@@ -31,19 +32,19 @@ inline constexpr int most_order_quad = 40;
 extern "C" {
 
 /// What `alembert_series()` of an emitted file returns; it lives as long as the loaded file. `par` holds p
-/// parameters, then k constants that `prepare` makes; `state` is (q, u), and the work of loads where `extra` is 1;
-/// `work` is `workspace` numbers.
+/// parameters, then k constants that `prepare` makes; `state` is (q, u), followed by the work of loads if `extra`
+/// is 1; `work` is an array of `workspace` numbers.
 struct alembert_series_table {
     int abi;  ///< alembert::series_abi_version of the emitter
     int coordinates, speeds, extra, parameters, constants;
     int workspace, workspace_quad;
-    double order_cost, product_cost;  ///< a series of order p takes order_cost p + product_cost p², a step's own
-                                      ///< work taking about 1
+    double order_cost, product_cost;  ///< a series of order p takes the time order_cost p + product_cost p², in
+                                      ///< units of about the other work of a step
     const char* scene;
     const double* parameter_values;
     void (*prepare)(double* par);
     void (*series)(double t, const double* state, const double* par, int order, double* out, double* work);
-    /// Null unless compiled with ALEMBERT_QUAD.
+    /// Null unless the file is compiled with ALEMBERT_QUAD.
     void (*prepare_quad)(alembert::Quad* par);
     void (*series_quad)(alembert::Quad t, const alembert::Quad* state, const alembert::Quad* par, int order,
                         alembert::Quad* out, alembert::Quad* work);
@@ -60,8 +61,8 @@ SeriesModule load_series(const std::filesystem::path& object);
 struct Series {
     SeriesModule module = {};
     std::shared_ptr<const std::vector<double>> par = {};
-    int width = 0;      ///< of the state
-    int workspace = 0;  ///< doubles, 0 at first
+    int width = 0;      ///< components of the state
+    int workspace = 0;  ///< number of doubles in `work`, which must be 0 at first
 
     explicit operator bool() const { return module != nullptr; }
     void operator()(double t, const double* state, int order, double* out, double* work) const {
@@ -69,7 +70,7 @@ struct Series {
     }
 };
 
-/// `values`: the parameters; empty: the scene's own.
+/// `values` are the parameters; if empty, the scene's own.
 Series make_series(const SeriesModule& module, const std::vector<double>& values = {});
 
 }  // namespace alembert

@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double clock_grain = 1e-12;  // of the time; shorter flights cannot be told apart
+constexpr double clock_grain = 1e-12;  // relative to the time; flights shorter than this cannot be resolved
 constexpr int most_rounds = 4;         // Newton's method from within the tolerance needs one or two
 
 class Settling {
@@ -48,7 +48,7 @@ private:
     bool approaches(int k) { return gap_rates(here_, u())[k] < -negligible_rates(here_, u())[k]; }
     bool parts(int k) { return gap_rates(here_, u())[k] > negligible_rates(here_, u())[k]; }
 
-    /// Positions to the gaps that touch and do not open.
+    /// Moves the positions so that the gaps that touch and do not open are zero.
     void place() {
         const VectorXd slack = negligible_gaps(here_, q(), at_.tolerance);
         std::vector<int> touching;
@@ -78,8 +78,8 @@ private:
                 near_.push_back(k);
     }
 
-    /// New rates; tells the work of generalized impulses and of impulses Λ along rows: Σ Λ·(mean of value' −
-    /// drift).
+    /// Sets new rates and reports the work of generalized impulses and of impulses Λ along rows: Σ Λ·(mean of
+    /// value' − drift).
     void jump_to(const VectorXd& after, const Situation::Rows& rows, const VectorXd& impulse,
                  const VectorXd& generalized) {
         const VectorXd mean = (u() + after) / 2;
@@ -167,7 +167,7 @@ private:
         return result;
     }
 
-    /// Takes its speed from the first contact whose bounces have become too low to follow.
+    /// Brings to rest the first contact whose bounces have become too low to follow.
     bool lay_one_down() {
         for (const int k : bounced_) {
             if (!parts(k)) continue;
@@ -194,7 +194,7 @@ private:
                          .time = last,
                          .speed_before = speed,
                          .energy_loss = loss};
-            for (const int other : bounced_)  // which may come to rest with it
+            for (const int other : bounced_)  // another bouncing contact may come to rest with it
                 if (other != k && parts(other))
                     rests_.emplace(other,
                                    ContactEvent{.kind = ContactEvent::Kind::rest, .contact = other, .time = last});
@@ -234,7 +234,7 @@ private:
             fail(all, lasting.failure);
     }
 
-    /// The size of gap'' beside what the contacts have to hold.
+    /// The size that gap'' has with or without the contact forces; its errors are measured relative to it.
     double acceleration_scale(int k, const VectorXd& acceleration) const {
         const Lasting free = lasting_contacts(here_, {});
         VectorXd size = acceleration.cwiseAbs();

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// (σ − J) x = b for real and complex shifts σ, what implicit Runge-Kutta methods solve at each step.
+/// The linear systems (σ − J) x = b with real and complex shifts σ that implicit Runge-Kutta methods solve at each
+/// step.
 ///
 ///     Shifted<std::complex<double>> shifted(size);
 ///     shifted.factor(J, second_order(J), mu / h);
 ///     shifted.solve(b, x);
 ///
-/// Equations of motion are of second order, y = (q, u) or (q, u, W) with q' = u and nothing that depends on W.
-/// Then q and W are eliminated and Gaussian elimination with row pivots is of half the size:
+/// Equations of motion are of second order, y = (q, u) or (q, u, W) with q' = u and nothing depends on W. Then q
+/// and W are eliminated, and Gaussian elimination with row pivots is done on a system of half the size:
 ///
 ///     (σ − J_u − J_q/σ) u = b_u + J_q b_q/σ,    q = (b_q + u)/σ,    W = (b_W + J_Wq q + J_Wu u)/σ.
 ///
-/// J must live as long as it is solved with. Nothing is thrown; a singular system gives values that are not
-/// finite.
+/// J must live as long as systems with it are solved. Nothing is thrown; a singular system gives values that are
+/// not finite.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -23,7 +24,7 @@
 
 namespace alembert {
 
-/// The number of coordinates if J is that of a system of second order, exactly; else 0.
+/// The number of coordinates if J has exactly the form of a system of second order; otherwise 0.
 inline int second_order(const Eigen::MatrixXd& J) {
     const Eigen::Index n = J.rows() / 2;
     for (Eigen::Index j = 0; j < J.cols(); ++j) {
@@ -75,7 +76,7 @@ public:
         }
     }
 
-    /// x is not b.
+    /// x must not be b itself.
     void solve(const Vector& b, Vector& x) {
         for (int i = 0; i < m_; ++i) side_[i] = b[n_ + i];
         for (int j = 0; j < n_; ++j) {
@@ -106,7 +107,7 @@ private:
     static double size_of(double a) { return std::abs(a); }
     static double size_of(const std::complex<double>& a) { return std::abs(a.real()) + std::abs(a.imag()); }
     static double product(double a, double b) { return a * b; }
-    /// Without the detour of operator* for infinite factors.
+    /// The product without the special treatment of infinite factors in operator*.
     static std::complex<double> product(const std::complex<double>& a, const std::complex<double>& b) {
         return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
     }

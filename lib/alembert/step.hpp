@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One step of an explicit Runge-Kutta method, from a tableau: stages, new state, error estimate, dense output.
+/// One step of an explicit Runge-Kutta method given by a tableau: stages, new state, error estimate, dense output.
 ///
 ///     Step<dop853_tableau> step(rhs, t, state);
 ///     step.attempt(t + h);                     // stages and y₁
@@ -10,18 +10,19 @@
 ///         step.interpolate(0.5, middle);       // anywhere in the step, θ = 0…1
 ///     step.advance();                          // the end becomes the start
 ///
-/// After a misfit or a `finish` that is not to one's taste, `worst_component` says who is to blame.
+/// If the misfit is too large or `finish` fails, `worst_component` gives the component responsible.
 ///
-/// Arrays are padded to whole lanes of two (what every x86-64 has; four without AVX cost 10 % more); the weights
-/// are compile-time constants, zeros cost nothing. Nothing is allocated after construction. The state is kept as a
-/// sum of two doubles, y + rest (Kahan 1965; Hairer, Lubich, Wanner, Geometric Numerical Integration, §VIII.5): a
-/// small step then loses nothing of what it adds to a large state, and it is the two that the stages start from.
+/// Arrays are padded to whole lanes of two numbers, which every x86-64 has (lanes of four cost 10 % more without
+/// AVX). The weights are compile-time constants, so that zeros cost nothing. Nothing is allocated after
+/// construction. The state is kept as a sum of two doubles, y + rest (Kahan 1965; Hairer, Lubich, Wanner,
+/// Geometric Numerical Integration, §VIII.5): a small step then loses nothing of what it adds to a large state,
+/// and the stages start from both numbers.
 ///
-/// Error, component by component: |error_i| / max(1, |y_i|), the largest of which is the misfit; it is held
-/// against the tolerance as it is. With two rows of error weights (dop853) the error is that of Hairer, Nørsett,
-/// Wanner I, §II.10, e₅² / √(e₅² + 0.01 e₃²), of order h⁸; they take e₅ and e₃ as norms of the whole vector, here
-/// each component has its own, as the convention wants (on the problems of step_size.hpp that needs up to 15 %
-/// fewer evaluations for the same error). Quadratures (Rhs::extra) do not take part.
+/// The error is measured component by component as |error_i| / max(1, |y_i|). The largest value is the misfit,
+/// which is compared with the tolerance. With two rows of error weights (dop853) the error is that of Hairer,
+/// Nørsett, Wanner I, §II.10, e₅² / √(e₅² + 0.01 e₃²), of order h⁸; they take e₅ and e₃ as norms of the whole
+/// vector, while here each component has its own (on the problems of step_size.hpp this needs up to 15 % fewer
+/// evaluations for the same error). Quadratures (Rhs::extra) are left out.
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +56,7 @@ public:
     static constexpr int estimate_order = tableau.estimate_order;
     static constexpr int most_evaluations() { return tableau.all_stages; }
 
-    /// The tolerance is for steps that solve equations; here there are none.
+    /// The tolerance is for methods that solve equations in a step; this one does not.
     Step(const Rhs& rhs, double t, std::span<const double> state, double /*tolerance*/ = 0)
         : rhs_(rhs),
           controlled_(rhs.dimension - rhs.extra),
@@ -101,8 +102,8 @@ public:
         return zero == 0 ? std::sqrt(largest) : HUGE_VAL;
     }
 
-    /// Moves the end of an attempt back to where it belongs (to its constraints), and makes the rate anew. What is
-    /// there already stays, with what rounding has left of it.
+    /// Moves the end of an attempted step onto its constraints and evaluates the rate again. A component that does
+    /// not move keeps its compensation of rounding.
     void correct(const std::function<void(double t, double* state)>& project) {
         std::copy_n(real(next_), rhs_.dimension, real(trial_));
         project(end_, real(next_));
@@ -116,7 +117,7 @@ public:
         if constexpr (last_stage_in_estimate()) rate_into(stages, end_, real(next_));
     }
 
-    /// The rate at the end, if the estimate did not need it already; false if it is not finite.
+    /// Evaluates the rate at the end, unless the estimate has needed it already; false if it is not finite.
     bool finish() {
         if constexpr (!last_stage_in_estimate()) rate_into(stages, end_, real(next_));
         return is_finite(end_rate()) && is_finite(end_state());
@@ -124,8 +125,8 @@ public:
 
     bool starts_finite() const { return is_finite(rate()); }
 
-    /// To blame: the first component that is not finite at the start or the attempted end, else the one of the
-    /// largest error.
+    /// The component responsible for a failure: the first that is not finite at the start or the attempted end,
+    /// else the one with the largest error.
     int worst_component() const {
         int worst = 0;
         for (int i = 0; i < controlled_; ++i) {
@@ -159,7 +160,7 @@ public:
     }
 
 private:
-    static constexpr int short_stride = 8;  ///< lanes: up to 16 components
+    static constexpr int short_stride = 8;  ///< in lanes; enough for up to 16 components
     static constexpr int arrays = 7;        ///< y, rest, next, next_rest, and the three below
 
     static constexpr bool last_stage_in_estimate() {
@@ -182,8 +183,9 @@ private:
         ++evaluations_;
     }
 
-    /// Calls function(lanes from one array to the next), for short states a constant: the distances of all stages
-    /// from the first are constants then, which saves 5 % of the time of a free body.
+    /// Calls `function` with the number of lanes from one array to the next. For short states that is a constant,
+    /// so that the distances of all stages from the first are constants, which saves 5 % of the time of a free
+    /// body.
     template <class Function>
     void with_stride(Function function) const {
         if (stride_ == short_stride)
@@ -216,8 +218,9 @@ private:
         return j;
     }
 
-    /// rest + h Σ_j weight_j k_j. Stage `fresh` has just been written and is what everything waits for: it enters
-    /// last, and is loaded number by number, as a load of two would wait until these have left for the cache.
+    /// rest + h Σ_j weight_j k_j. Stage `fresh` has just been written, and everything else waits for it. Therefore
+    /// it enters last and is loaded number by number: a load of two numbers would wait until both have reached the
+    /// cache.
     template <class Row, int fresh>
     static Lane change(const Lane* k, auto stride, double h, const Lane& rest) {
         const Lane known = h * weighted_sum<Without<Row, fresh>>(k, stride) + rest;
@@ -282,7 +285,7 @@ private:
         return a > b ? a : b;
     }
 
-    /// Of block b, in units of max(1, |y_i|).
+    /// The squared errors of block b, in units of max(1, |y_i|).
     Lane squared_error(auto stride, int b) const {
         const Lane y = lanes(y_)[b], next = lanes(next_)[b];
         const Lane scale = h_ / larger(larger(larger(y, -y), larger(next, -next)), Lane{} + 1);
@@ -303,7 +306,7 @@ private:
         return zero == 0;
     }
 
-    /// The additional stages of dense output and its rows.
+    /// Computes the additional stages and the rows of dense output.
     void look_into() {
         repeat<tableau.all_stages - stages - 1>([&]<int i>() { this->template evaluate<stages + 1 + i>(); });
         for (int b = 0; b < blocks_; ++b) {
@@ -319,11 +322,12 @@ private:
     }
 
     const Rhs& rhs_;
-    int controlled_;  ///< components under error control
+    int controlled_;  ///< number of components under error control
     int blocks_;
-    int stride_;  ///< lanes from one array to the next
+    int stride_;  ///< number of lanes from one array to the next
     std::vector<Lane> memory_;
-    int y_ = 0, rest_ = 1, next_ = 2, next_rest_ = 3;  ///< places in memory; y and next change theirs
+    int y_ = 0, rest_ = 1, next_ = 2,
+        next_rest_ = 3;  ///< places of the arrays in memory; those of y and next are exchanged after a step
     static constexpr int trial_ = 4, difference_ = 5, error_ = 6;
     double t_, end_ = 0, h_ = 0;
     long evaluations_ = 0;

@@ -12,10 +12,11 @@
 ///
 ///     h_{n+1} = h_n · 0.8 · ε_n^(−α) · ε_{n−1}^β,   ε = misfit / tolerance,   β = 0.2/k,   α = 1/k − 0.75 β
 ///
-/// between 0.2 and 6 times h; at most h after a rejection. k is the order of the estimate: β = 0.04 for dopri5, as
-/// there. The factors 0.8 (there 0.9) and 0.2 (there 0 for dop853) were chosen by the product of evaluations and
-/// error^(1/k) on the double pendulum, Kepler's orbits of eccentricity 0.6 and 0.95 and van der Pol's oscillator,
-/// over tolerances from 1e-6 to 1e-12: they reject 7 % of dop853's steps instead of 29 %. Throws nothing.
+/// limited to between 0.2 and 6 times h, and to at most h after a rejection. k is the order of the estimate: β =
+/// 0.04 for dopri5, as in these books. The factors 0.8 (there 0.9) and 0.2 (there 0 for dop853) were chosen by the
+/// product of evaluations and error^(1/k) on the double pendulum, Kepler's orbits of eccentricity 0.6 and 0.95 and
+/// van der Pol's oscillator, over tolerances from 1e-6 to 1e-12: they reject 7 % of dop853's steps instead of 29
+/// %. Throws nothing.
 
 #include <algorithm>
 #include <cmath>
@@ -50,16 +51,17 @@ public:
 private:
     static constexpr double smallest_factor = 0.2, largest_factor = 6;
     static constexpr double log_safety = -0.22314355131420976;  ///< ln 0.8
-    static constexpr double log_floor = -9.210340371976182;     ///< ln 1e-4: a very small error is no forecast
+    /// ln 1e-4: a very small error does not predict the next one.
+    static constexpr double log_floor = -9.210340371976182;
     int order_;
     double beta_, alpha_;
     double previous_ = log_floor;
     bool rejected_ = false;
 };
 
-/// A first step such that an Euler step of that length is short against the change of the rate: the algorithm of
-/// Hairer, Nørsett, Wanner I, §II.4, "Starting step size", with the maximum norm of step.hpp. One evaluation.
-/// `order` as above.
+/// A first step so short that the rate changes little over an Euler step of that length: the algorithm of Hairer,
+/// Nørsett, Wanner I, §II.4, "Starting step size", with the maximum norm of step.hpp. It takes one evaluation.
+/// `order` is as above.
 inline double starting_step(const Rhs& rhs, double t, const double* state, const double* rate, double tolerance,
                             int order, double longest) {
     const int controlled = rhs.dimension - rhs.extra;
@@ -84,7 +86,7 @@ inline double starting_step(const Rhs& rhs, double t, const double* state, const
         steepest <= 1e-15 ? std::max(1e-6, first * 1e-3) : std::pow(0.01 / steepest, 1.0 / order);
     const double step = std::min({100 * first, second, longest});
     const double told_apart = 64 * std::numeric_limits<double>::epsilon() *
-                              std::abs(t);  // a state that is zero to rounding asks for less
+                              std::abs(t);  // a state that is zero to rounding would suggest less
     return std::min(longest, std::max(std::isfinite(step) && step > 0 ? step : first, told_apart));
 }
 

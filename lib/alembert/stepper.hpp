@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One step of a method that is no tableau: what run.hpp asks of a step, around a formula that gives the change.
+/// One step of a method without a tableau: the members that run.hpp needs, around a formula that gives the change
+/// of the state.
 ///
 ///     Stepper<Gauss> step(rhs, t, state, tolerance);      // the members are those of Step (step.hpp)
 ///
@@ -13,15 +14,15 @@
 ///     int most_evaluations() const;                       // of an increment
 ///     bool increment(Ends& ends, double h, double* change, double* end_rate);
 ///
-/// `increment` writes y(t + h) − y(t) without what is lost in y + change, and false if its equations were not
-/// solved. A formula that gets the rate at the end for nothing writes it to `end_rate` and says so in
-/// Ends::knows_end_rate. Adaptive formulas write the error of each component to Ends::error and have
-/// `estimate_order`; those that find the rate at the end by a way of their own, after projection, have
-/// `evaluate_end(ends)`; those with a memory have `finished(ends)` and `advance(ends)`, those with a polynomial
-/// `interpolate(ends, theta, out)`. One whose steps end on the constraints of their own says so by `static
-/// constexpr bool keeps_constraints = true`: it is not projected.
+/// `increment` writes y(t + h) − y(t), free of the rounding of the sum y + change, and returns false if its
+/// equations were not solved. A formula that obtains the rate at the end without further cost writes it to
+/// `end_rate` and sets Ends::knows_end_rate. Adaptive formulas write the error of each component to Ends::error
+/// and have `estimate_order`; those that find the rate at the end, after projection, in their own way have
+/// `evaluate_end(ends)`; those that remember past steps have `finished(ends)` and `advance(ends)`; those with a
+/// polynomial have `interpolate(ends, theta, out)`. If the steps of a formula obey the constraints by themselves,
+/// it declares `static constexpr bool keeps_constraints = true` and is not projected.
 ///
-/// The state is the sum of two doubles as in step.hpp, and errors are measured as there.
+/// The state is the sum of two doubles as in step.hpp, and errors are measured as in that file.
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +34,8 @@
 
 namespace alembert {
 
-/// The cubic Hermite polynomial; a step of the method to there (its full order, for its price); its own
-/// polynomial.
+/// How states within a step are found: by the cubic Hermite polynomial; by a shorter step of the method to that
+/// time (with its full order, at its full cost); or by the method's own polynomial.
 enum class Between { hermite, shorter_step, own };
 
 /// The two ends of a step.
@@ -59,7 +60,7 @@ struct Ends {
         ++evaluations;
     }
 
-    /// What an error of component i is measured with.
+    /// The size relative to which an error of component i is measured.
     double scale(int i) const {
         const auto k = static_cast<std::size_t>(i);
         return std::max({1.0, std::abs(y[k]), std::abs(next[k])});

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Whether an explicit method's steps are held down by stability rather than by accuracy.
+/// Finds out whether stability rather than accuracy limits the steps of an explicit method.
 ///
 ///     StiffnessWatch watch(Method::dop853);
 ///     if (watch.finds_stiff(rhs, t, y, rate, h)) ...          // after each accepted step
 ///
-/// At every fourth step ρ = ‖f(t, y + δv) − f(t, y)‖/δ, ‖v‖ = 1, one evaluation; the difference is the next v, so
-/// that the power method finds the size of the largest eigenvalue of ∂f/∂y on the way (as RKC does: Sommeijer,
-/// Shampine, Verwer, J. Comput. Appl. Math. 88 (1998) 315-326, §3). A step that accuracy chose is well inside the
-/// region of stability; one that hρ has come near its border fifteen times in a row, with at most five exceptions,
-/// is not chosen by accuracy (Hairer & Wanner, Solving ODEs II, §IV.2).
+/// At every fourth step one evaluation gives ρ = ‖f(t, y + δv) − f(t, y)‖/δ with ‖v‖ = 1. The difference is the
+/// next v, so that in the course of the run the power method finds the modulus of the largest eigenvalue of ∂f/∂y
+/// (as RKC does: Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88 (1998) 315-326, §3). A step that accuracy
+/// chose is well inside the region of stability. If hρ has been near the border of that region fifteen times in a
+/// row, with at most five exceptions, stability limits the step (Hairer & Wanner, Solving ODEs II, §IV.2).
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ public:
     explicit StiffnessWatch(Method method) : StiffnessWatch(stable_interval(method)) {}
     explicit StiffnessWatch(double stable_interval) : border_(0.7 * stable_interval) {}
 
-    /// −hλ up to which the method is stable; 0: not known.
+    /// The value of −hλ up to which the method is stable; 0 if it is not known.
     static double stable_interval(Method method) {
         switch (method) {
             case Method::dopri5:

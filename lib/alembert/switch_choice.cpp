@@ -15,7 +15,8 @@ public:
     SideJudge(const Switching& system, double t, const std::vector<double>& state)
         : system_(system), t_(t), state_(state) {}
 
-    /// How consistent a choice is: every g moves to the side that it has, every α lies between −1 and 1.
+    /// How consistent a choice is. In a consistent one every g moves to its chosen side and every α lies between
+    /// −1 and 1.
     SideChoice judged(const std::vector<int>& sides, const std::vector<int>& open) const {
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
@@ -33,7 +34,7 @@ public:
             if (sides[k] != 0)
                 margin = size > 0 ? sides[k] * at.slope(k) / size : 0;
             else if (!jump || up > down)
-                margin = -HUGE_VAL;  // nothing to slide along, or it repels
+                margin = -HUGE_VAL;  // there is nothing to slide along, or the motion is repelled from it
             else
                 margin = 1 - std::abs(at.sigma()[k]) / at.bound(k);
             if (sides[k] != 0 && jump && up < down && can_stick(sides, k)) margin = -HUGE_VAL;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Which sides functions that are on their zeros may go to (switching.hpp).
+/// The sides to which functions at their zeros may move (switching.hpp).
 
 #include <vector>
 
@@ -11,12 +11,12 @@ namespace alembert {
 
 struct SideChoice {
     std::vector<int> sides;
-    double margin;  ///< above 0: consistent
-    bool jumps;     ///< f differs on the sides of those that are open
+    double margin;  ///< the choice is consistent if this is positive
+    bool jumps;     ///< whether f differs on the two sides of the open functions
 };
 
-/// All choices of sides for those that are `open`, the others as in `sides`, the most consistent first: 3 to the
-/// power of their number.
+/// All choices of sides for the `open` functions, the most consistent first; the other functions have their sides
+/// as in `sides`. There are 3 to the power of the number of open functions.
 std::vector<SideChoice> side_choices(const Switching& system, std::vector<int> sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state);
 

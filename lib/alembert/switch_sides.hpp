@@ -16,7 +16,7 @@
 
 namespace alembert {
 
-/// f and σ for given sides; σ of those that slide follows from ġ = 0.
+/// f and σ for given sides. The σ of functions that slide follow from ġ = 0.
 class SwitchSides {
 public:
     SwitchSides(const Switching& system, std::vector<int> sides, int dimension)
@@ -38,15 +38,15 @@ public:
     double value(int k) const { return g_[k]; }
     double slope(int k) const { return g_[system_.count() + k]; }
     const std::vector<double>& rate() const { return f_; }
-    /// How far |α_k| may go, and what must not be negative, after `find_bounds`.
+    /// The bound of |α_k|, and the numbers that must not be negative; both are known after `find_bounds`.
     double bound(int k) const { return bounds_[k]; }
     double normal(int k) const { return bounds_[system_.count() + k]; }
-    /// ∂ġ_k/∂σ_k by the last evaluation, for one that slides.
+    /// ∂ġ_k/∂σ_k at the last evaluation, for a function that slides.
     double steepness(std::size_t position) const {
         return B_(static_cast<Eigen::Index>(position), static_cast<Eigen::Index>(position));
     }
 
-    /// f, g, ġ at a state, and σ of those that slide; NaN where nothing keeps ġ = 0.
+    /// Computes f, g and ġ at a state, and the σ of functions that slide; NaN where no σ keeps ġ = 0.
     void evaluate(double t, const double* y) {
         const auto s = static_cast<Eigen::Index>(sliding_.size());
         for (const int k : sliding_) sigma_[k] = 0;
@@ -78,16 +78,17 @@ public:
             if (go_to(alpha + step)) return;
             secant += slope * step.transpose() / step.squaredNorm();
         }
-        if (slope.cwiseAbs().maxCoeff() > negligible * B_.cwiseAbs().maxCoeff())  // nothing holds it there
+        if (slope.cwiseAbs().maxCoeff() > negligible * B_.cwiseAbs().maxCoeff())  // no σ can keep g at zero
             for (const int k : sliding_) sigma_[k] = std::numeric_limits<double>::quiet_NaN();
     }
 
-    /// After `evaluate` at the same state.
+    /// To be called after `evaluate` at the same state.
     void find_bounds(double t, const double* y) {
         if (system_.bounds) system_.bounds(t, y, sigma_.data(), f_.data(), bounds_.data());
     }
 
-    /// To where the g of those that slide are zero, along what their σ do to the motion.
+    /// Moves the state to where the g of sliding functions are zero, along the directions in which their σ change
+    /// the motion.
     void bring_back(double t, double* y) {
         const auto s = static_cast<Eigen::Index>(sliding_.size());
         evaluate(t, y);
@@ -103,14 +104,15 @@ public:
     }
 
 private:
-    static constexpr double negligible = 1e-9;  // a rate of g, relative to what its σ changes
+    // A rate of g below this, relative to the change that its σ makes, is zero.
+    static constexpr double negligible = 1e-9;
 
     static Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(const Eigen::MatrixXd& matrix) {
         return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(matrix);
     }
 
-    /// The zero of ġ(α) = (a + b α)/(1 + c α), which goes through the values at 0 and 1: of friction that changes
-    /// the force that presses it.
+    /// The zero of ġ(α) = (a + b α)/(1 + c α), with a, b and c such that it has the values found at 0 and 1.
+    /// Friction that changes its own normal force has this form.
     Eigen::VectorXd by_quotient(double t, const double* y, double at_none, double at_one) {
         sigma_[sliding_[0]] = -1;
         rates(t, y);

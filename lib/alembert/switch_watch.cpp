@@ -10,7 +10,8 @@ namespace alembert {
 
 namespace {
 
-constexpr double negligible_normal = 1e-9;  // a negative normal force, relative to the largest
+// A negative normal force smaller than this, relative to the largest, is zero.
+constexpr double negligible_normal = 1e-9;
 
 }  // namespace
 

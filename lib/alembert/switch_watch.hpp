@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What is watched during a piece of a motion with held signs (switching.hpp): where one of it comes to zero, the
-/// piece ends.
+/// The values that are watched during a piece of a motion with held signs (switching.hpp). The piece ends when one
+/// of them reaches zero.
 
 #include <cmath>
 #include <vector>
@@ -17,19 +17,19 @@ struct Watched {
     int index;
     double sign = 1;  ///< the event's value is sign·(g or α) + offset, for α with r·offset
     double offset = 0;
-    double open_until = -HUGE_VAL;  ///< before, it counts as positive, whatever rounding says
+    double open_until = -HUGE_VAL;  ///< before this time the value counts as positive, whatever rounding says
 };
 
-/// From when to when a piece may last at most.
+/// The start of a piece, and its latest possible end.
 struct PieceSpan {
     double begin, end;
 };
 
-/// Each g on its side, each α between its bounds, and each normal force. `now`: evaluated, with its bounds, where
-/// the piece begins; `sizes`: the largest |g_k| so far.
+/// One value for each g on its side, for each α between its bounds, and for each normal force. `now` has been
+/// evaluated, with its bounds, at the start of the piece; `sizes` are the largest |g_k| so far.
 std::vector<Watched> watches(const SwitchSides& now, PieceSpan span, const std::vector<double>& sizes);
 
-/// Positive as long as the piece goes on. `normals`: the largest normal forces so far.
+/// The watched value, positive as long as the piece goes on. `normals` are the largest normal forces so far.
 double watched_value(const Watched& watched, const SwitchSides& at, const std::vector<double>& normals);
 
 }  // namespace alembert

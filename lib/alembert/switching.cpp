@@ -18,11 +18,14 @@ namespace alembert {
 
 namespace {
 
-constexpr int most_undecided = 6;      // signs that are undecided together: 3⁶ choices are tried
-constexpr int most_in_one_place = 50;  // changes without the time moving on
-constexpr double slack = 1e-9;         // of a consistent choice, relative to the rates of g on both sides
-constexpr double small_normal = 1e-3;  // below, what is negative where a piece begins may be rounding of the time
-constexpr double clear_margin = 1e-6;  // from here a second consistent choice makes the motion ambiguous
+constexpr int most_undecided = 6;  // the most signs that may be undecided together, for which 3⁶ choices are tried
+constexpr int most_in_one_place = 50;  // the most changes without an advance of time
+// Margin within which a choice still counts as consistent, relative to the rates of g on both sides.
+constexpr double slack = 1e-9;
+constexpr double small_normal = 1e-3;  // the least size relative to which a normal force is judged: near zero its
+                                       // sign may be due to rounding of the time
+// A second consistent choice with at least this margin makes the motion ambiguous.
+constexpr double clear_margin = 1e-6;
 
 class SwitchedRun {
 public:
@@ -47,7 +50,7 @@ public:
 private:
     int dimension() const { return static_cast<int>(state_.size()); }
 
-    /// The sides at the start.
+    /// Determines the sides at the start.
     bool begin() {
         sides_.assign(system_.count(), 1);
         std::vector<int> open;
@@ -73,7 +76,7 @@ private:
         return here.value(k);
     }
 
-    /// After some signs have changed: the signs of functions that contain them.
+    /// Updates the signs of functions that contain other signs, after some of these have changed.
     void follow_others(const std::vector<int>& decided) {
         for (int k = 0; k < system_.count(); ++k) {
             if (sides_[k] == 0 || std::find(decided.begin(), decided.end(), k) != decided.end()) continue;
@@ -90,7 +93,7 @@ private:
 
     bool fail_negative(int k) { return fail(system_.refusal(k, t_, state_.data())); }
 
-    /// Integrates until a sign changes; is there more to come?
+    /// Integrates until a sign changes; true if the motion goes on after that.
     bool piece() {
         SwitchSides now(system_, sides_, dimension());
         now.evaluate(t_, state_.data());
@@ -179,14 +182,14 @@ private:
                 value = watched_value(w, *sides, *normals);
                 if (t <= w.open_until) value = std::max(value, std::numeric_limits<double>::min());
                 if (!std::isnan(value)) continue;
-                *undefined = true;  // the run ends where it begins to be so
+                *undefined = true;  // the run ends where the value becomes undefined
                 value = -1;
             }
         };
         return make_events(std::move(list), values);
     }
 
-    /// What follows where the functions watched at `hit` have come to zero.
+    /// Decides how the motion goes on where the functions watched at `hit` have reached zero.
     bool pass(const std::vector<Watched>& watched, const std::vector<int>& hit) {
         if (*undefined_) return fail_undefined();
         in_one_place_ =
@@ -200,7 +203,7 @@ private:
         for (const int i : hit) {
             const Watched& w = watched[i];
             if (w.what == Watched::What::normal) return fail_negative(w.index);
-            if (w.what == Watched::What::bound) {  // α has come to a bound: the motion leaves to that side
+            if (w.what == Watched::What::bound) {  // α has reached a bound: the motion leaves to that side
                 sides_[w.index] = w.sign < 0 ? 1 : -1;
                 tell(w.index, SideChange::Kind::leaving);
                 gone = true;
@@ -208,7 +211,8 @@ private:
                 open.push_back(w.index);
             }
         }
-        if (!open.empty() || (gone && system_.bounds)) {  // what has gone may press on others less
+        if (!open.empty() ||
+            (gone && system_.bounds)) {  // a contact that has opened may change the normal forces of others
             for (int k = 0; k < system_.count(); ++k)
                 if (sides_[k] == 0) open.push_back(k);
             if (!choose(open)) return false;
@@ -219,7 +223,7 @@ private:
         return true;
     }
 
-    /// SwitchSides for those that are open, the others as they are.
+    /// Chooses sides for the open functions; the others keep theirs.
     bool choose(const std::vector<int>& open) {
         if (open.empty()) return true;
         if (open.size() > most_undecided)
@@ -243,7 +247,7 @@ private:
         sides_ = found[0].sides;
         for (const int k : open)
             if (before[k] != sides_[k] &&
-                (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side
+                (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side yet
                 tell(k, sides_[k] == 0   ? SideChange::Kind::sliding
                         : before[k] == 0 ? SideChange::Kind::leaving
                                          : SideChange::Kind::crossing);
@@ -282,7 +286,7 @@ private:
     std::vector<int> sides_;
     std::shared_ptr<std::vector<double>> sizes_;                       ///< the largest |g_k| so far
     std::shared_ptr<std::vector<double>> normals_;                     ///< the largest normal forces
-    std::shared_ptr<bool> undefined_ = std::make_shared<bool>(false);  ///< some g_k has been NaN
+    std::shared_ptr<bool> undefined_ = std::make_shared<bool>(false);  ///< whether some g_k has been NaN
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL;
     Trajectory result_;

@@ -5,13 +5,14 @@
 ///
 ///     v½ = v + h/2 a(t, q),   q₁ = q + h v½,   v₁ = v½ + h/2 a(t + h, q₁)
 ///
-/// for a state (q, v) with q' = v and accelerations a that no rate enters (M constant, forces of positions and
-/// time): the one that asks must know that, a right-hand side does not tell. std::invalid_argument is thrown for a
-/// state that is not (q, v). One evaluation for each substep, two where quadratures go with it: these need the
-/// rate at q₁, v₁, and take the trapezoidal rule, which makes the substep as symmetric as it was.
+/// for a state (q, v) with q' = v and accelerations a that do not depend on rates (M constant, forces that depend
+/// on positions and time only). The caller must know this, because a right-hand side does not show it.
+/// std::invalid_argument is thrown for a state that is not (q, v). Each substep takes one evaluation, or two if
+/// there are quadratures: these need the rate at q₁, v₁, and are integrated by the trapezoidal rule, which keeps
+/// the substep symmetric.
 ///
-/// Order 2, stable for the oscillator if hω < 2. The composition takes 17 such steps of lengths γ_i h; its order
-/// is 8.
+/// The method has order 2 and is stable for the oscillator if hω < 2. The composition takes 17 such steps with
+/// lengths γ_i h and has order 8.
 ///
 /// Sources: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, §I.3.1 and §V.3.2; W. Kahan and
 /// R.-C. Li, Composition constants for raising the orders of unconventional schemes for ordinary differential
@@ -48,8 +49,7 @@ public:
         if (!fits)
             throw std::invalid_argument(
                 "verlet and kahanli8 need a state of coordinates followed by their rates; this is another: take "
-                "gauss "
-                "or dop853");
+                "gauss or dop853");
     }
 
     int most_evaluations() const { return 2 * static_cast<int>(lengths.size()); }

@@ -6,10 +6,10 @@
 ///     k_i = f(t + c_i h, y + h Σ_{j<i} a_ij k_j),  i < s;     y₁ = y + h Σ_j a_sj k_j;     k_s = f(t + h, y₁)
 ///
 /// Row s of `a` holds the weights of the solution, so that k_s, the first stage of the next step, is a stage like
-/// the others. The rows after it belong to dense output and are evaluated only in a step that is looked into.
+/// the others. The rows after it belong to dense output and are evaluated only in steps whose interior is needed.
 ///
-/// Error: one row e gives the vector h Σ_{j≤s} e_j k_j. Two rows give a fifth- and a third-order estimate, which
-/// step.hpp combines.
+/// Error estimate: one row e gives the vector h Σ_{j≤s} e_j k_j. Two rows give a fifth- and a third-order
+/// estimate, which step.hpp combines.
 ///
 /// Dense output (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §II.6), θ =
 /// 0…1:
@@ -27,7 +27,8 @@
 
 namespace alembert {
 
-/// s stages, `beyond` more for dense output, `estimates` rows of error weights, `dense` rows d.
+/// A method with s stages, `beyond` further stages for dense output, `estimates` rows of error weights and `dense`
+/// rows d.
 template <int s, int beyond, int estimates, int dense>
 struct Tableau {
     static constexpr int stages = s;  ///< evaluations to get y₁, the first one included
@@ -36,7 +37,7 @@ struct Tableau {
     static constexpr int dense_rows = dense;
     using Row = std::array<double, all_stages>;
 
-    int order;           ///< of y₁
+    int order;           ///< the order of y₁
     int dense_order;     ///< of the continuous extension: its error is O(h^(dense_order+1)) within a step
     int estimate_order;  ///< the error estimate is O(h^estimate_order); 0 for a fixed step
     std::array<double, all_stages> c;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Taylor's method: the motion's own power series at the start of the step, from Rhs::series.
+/// Taylor's method: a step evaluates the power series of the motion at the start of the step, which Rhs::series
+/// computes.
 ///
 ///     y(t + h) = Σ_{k≤p} c_k h^k
 ///
@@ -10,11 +11,12 @@
 ///     h = min over j = p−1, p of (a tolerance / n_j)^(1/j)
 ///
 /// (Jorba & Zou, Experimental Math. 14 (2005) 99-117, §3.2: their ρ e^(−2 − 0.7/(p−1)) is that for p = ⌈1 − ½ ln
-/// tolerance⌉ and a = ½), so that the last terms are a times the tolerance and what is left out less. Here a =
-/// 1/20: the errors of the steps of a long run add up. Steps go with tolerance^(1/p) and the time that a series
-/// takes is about 1 + c p + d p² (c, d from the emitted file); p makes their quotient least. Where products of
-/// series take all the time that is Jorba & Zou's order (§3.1); where they do not, it is higher. The polynomial is
-/// kept: states within the step cost its evaluation. `error` is the last term.
+/// tolerance⌉ and a = ½), so that the last terms are a times the tolerance and the omitted terms are smaller. Here
+/// a = 1/20, because the errors of the steps of a long run add up. The step length is proportional to
+/// tolerance^(1/p), and the time of a step is about 1 + c p + d p² (c and d come from the emitted file); p is
+/// chosen so that the time per length is least. If products of series take all the time, this is Jorba & Zou's
+/// order (§3.1), otherwise it is higher. The polynomial is kept, so that a state within the step only costs its
+/// evaluation. `error` is the last term.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +28,7 @@
 
 namespace alembert {
 
-inline constexpr double taylor_share = 0.05;  ///< of the tolerance, for the last term
+inline constexpr double taylor_share = 0.05;  ///< a: the last term as a part of the tolerance
 
 /// The order that makes (1 + order_cost p + product_cost p²) tolerance^(−1/p) least, at least ⌈1 − ½ ln tolerance⌉
 /// and 4.
@@ -41,7 +43,7 @@ inline int taylor_order(double tolerance, double order_cost = 0, double product_
 class Taylor {
 public:
     static constexpr bool has_fixed_step = false;
-    static constexpr int estimate_order = 8;  // never asked: the length comes from the series
+    static constexpr int estimate_order = 8;  // never used, because the step length comes from the series
     static constexpr Between between = Between::own;
 
     Taylor(const Ends& ends, double tolerance)
@@ -58,7 +60,8 @@ public:
     }
 
     int most_evaluations() const { return 1; }
-    /// −hλ up to which the polynomial of this order is below 1 (to 2 %, for orders from 4 to 30).
+    /// The value of −hλ up to which the polynomial of this order is smaller than 1 (to 2 %, for orders from 4 to
+    /// 30).
     double stable_interval() const { return 1.3 + 0.37 * order_; }
 
     bool increment(Ends& ends, double h, double* change, double*) {
@@ -72,7 +75,7 @@ public:
         return true;
     }
 
-    /// The series at the end of the step, whose second coefficient is the rate there.
+    /// Computes the series at the end of the step, whose second coefficient is the rate there.
     void evaluate_end(Ends& ends) {
         expand(ends, ends.end, ends.next, next_);
         std::copy_n(next_.data() + size_, size_, ends.end_rate.data());
@@ -105,8 +108,8 @@ private:
 
     const double* row(int k) const { return coefficients_.data() + static_cast<std::size_t>(k) * size_; }
 
-    /// Σ_{k≥1} c_k h^k, two components at a time, each as four polynomials in h⁴: a sum waits for its last term
-    /// alone.
+    /// Σ_{k≥1} c_k h^k, two components at a time, each as four polynomials in h⁴, so that fewer operations wait
+    /// for each other.
     void add_up(double h, double* change) const {
         const double h2 = h * h, h4 = h2 * h2;
         const auto part = [&](std::size_t i, auto sum) {
@@ -147,7 +150,7 @@ private:
     std::size_t size_;
     std::vector<double> coefficients_, next_, work_;
     double* aligned_ = nullptr;
-    bool expanded_ = false;  ///< once, at the start of the run
+    bool expanded_ = false;  ///< whether the series at the start of the run has been computed
 };
 
 }  // namespace alembert

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The numbers of verner76 and verner98, in the layout of tableau.hpp: orders 7 and 9, an error estimate by the
-/// embedded formulas of orders 6 and 8, dense output of orders 6 and 8 by two and four more stages.
+/// The coefficients of verner76 and verner98, in the layout of tableau.hpp. The methods have orders 7 and 9, an
+/// error estimate from embedded formulas of orders 6 and 8, and dense output of orders 6 and 8 with two and four
+/// more stages.
 ///
 /// Sources: J. H. Verner, Numerically optimal Runge-Kutta pairs with interpolants, Numerical Algorithms 53 (2010)
 /// 383-396; the "most efficient" pairs of his page of coefficients, RKV76.IIa.Efficient.00001675585.081206 and
-/// RKV98 efficient, which give 40 digits; here they stand rounded to double. The rows d are not his polynomials
-/// written anew but the solution of the order conditions (all rooted trees up to the dense order) for the weights
-/// of the stages used, which is unique. With 40 digits all conditions hold to 1e-35; a test repeats that for the
-/// doubles, tree by tree.
+/// RKV98 efficient, which give 40 digits; here they are rounded to double. The rows d do not restate his
+/// polynomials; they are the solution of the order conditions (all rooted trees up to the dense order) for the
+/// weights of the stages used, which is unique. With 40 digits all conditions hold to 1e-35; a test repeats that
+/// for the doubles, tree by tree.
 ///
 /// Both have bounded regions of stability: along the negative axis the first leaves |R(z)| ≤ 1 at about z = -4.64,
 /// the second at -4.48.

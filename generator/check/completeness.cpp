@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/completeness.hpp"
+
+#include "check/open_rows.hpp"
+#include "exact/exact_states.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+bool fix_accelerations(const Claims& claims, const std::vector<const ClaimForm*>& right) {
+    const Mechanism& m = claims.mechanism();
+    const Equations& e = claims.equations();
+    std::vector<GiNaC::symbol> unknowns = m.qddot;
+    unknowns.insert(unknowns.end(), e.lambda.begin(), e.lambda.end());
+    for (const Mechanism::Constraint& c : m.redundant) unknowns.push_back(c.multiplier);
+    for (const Open& o : claims.open()) unknowns.push_back(o.symbol);
+    std::vector<ex> list;
+    for (const ClaimForm* const form : right) {
+        const ex last = form->derivatives.empty() ? form->residual : form->derivatives.back();
+        const std::vector<ex> slopes = m.z->pull_back({{last, 1}}, unknowns);
+        list.insert(list.end(), slopes.begin(), slopes.end());
+    }
+    if (right.empty()) return false;
+    for (const auto& row : e.A) {
+        list.insert(list.end(), row.begin(), row.end());
+        list.insert(list.end(), unknowns.size() - row.size(), ex(0));
+    }
+    Program p;
+    const std::vector<int> nodes = claims.lower(p, list);
+    for (const int halves : {0, 1, 2}) {
+        ExactStates states(m, e, Motions::At::motion, halves, halvings(p, nodes));
+        for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
+            const auto at = evaluate_mod(p, states.get(s)->point, nodes);
+            if (!at) continue;
+            std::vector<std::vector<Prime>> all, others;
+            for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
+                all.emplace_back();
+                for (std::size_t j = 0; j < unknowns.size(); ++j)
+                    all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
+                others.emplace_back(all.back().begin() + m.size(), all.back().end());
+            }
+            return rank_of(all, unknowns.size()) == m.size() + rank_of(others, unknowns.size() - m.q.size());
+        }
+    }
+    return false;
+}
+
+}  // namespace alembert

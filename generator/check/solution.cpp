@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/solution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/zero.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+class Motion {
+public:
+    Motion(const Scene& scene, Claims& read, const std::vector<std::size_t>& which)
+        : m_(read.mechanism()), e_(read.equations()) {
+        for (const Mechanism::Input& input : m_.inputs) inputs_[input.derivative[0]] = m_.z->expand(input.value);
+        for (const Mechanism::Input& input : m_.inputs) {
+            const ex value = in_time(input.derivative[0]);
+            for (int order = 1; order < 3; ++order)
+                inputs_[input.derivative[static_cast<std::size_t>(order)]] =
+                    value.diff(m_.t, static_cast<unsigned>(order));
+        }
+        for (const std::size_t k : which) {
+            const std::string& name = scene.claims[k].equation.lhs.tree->text;
+            const ex value = in_time(m_.z->expand(read.read(scene.claims[k].equation.rhs)));
+            for (int i = 0; i < m_.size(); ++i)
+                if (m_.q[i].get_name() == name) give(i, value);
+            for (const auto* list : {&m_.constraints, &m_.redundant})
+                for (const Mechanism::Constraint& c : *list)
+                    if (c.multiplier.get_name() == name) at_[c.multiplier] = value;
+        }
+    }
+
+    /// The equations of motion, then the constraints, as what must vanish.
+    std::vector<ex> rows() const {
+        std::vector<ex> result;
+        for (int i = 0; i < e_.size(); ++i) {
+            GiNaC::exvector terms{-e_.forcing(i)};
+            for (int j = 0; j < e_.size(); ++j) terms.push_back(e_.M(i, j) * e_.udot[j]);
+            for (std::size_t k = 0; k < e_.A.size(); ++k) terms.push_back(-e_.A[k][i] * e_.lambda[k]);
+            result.push_back(GiNaC::add(std::move(terms)));
+        }
+        for (const Mechanism::Constraint& c : m_.constraints) {
+            GiNaC::exvector terms{c.drift};
+            for (int i = 0; i < m_.size(); ++i) terms.push_back(c.row[i] * m_.qdot[i]);
+            result.push_back(c.position ? *c.position : ex(GiNaC::add(std::move(terms))));
+        }
+        return result;
+    }
+
+    bool is_readable(const ex& row) const { return m_.z->tree_size(row) <= longest_tested; }
+
+    /// Along the motion that the claims give.
+    ex along(const ex& row) const { return in_time(m_.z->expand(row)).subs(at_, GiNaC::subs_options::no_pattern); }
+
+    /// What is not given and would be needed: coordinates and multipliers that are left.
+    std::vector<std::string> missing(const ex& along) const {
+        std::vector<std::string> names;
+        for (int i = 0; i < m_.size(); ++i)
+            if (along.has(m_.q[i]) || along.has(m_.qdot[i]) || along.has(m_.qddot[i]))
+                names.push_back(m_.q[i].get_name());
+        for (const GiNaC::symbol& multiplier : e_.lambda)
+            if (along.has(multiplier)) names.push_back(multiplier.get_name());
+        return names;
+    }
+
+    bool speaks_of(const ex& row, const std::string& name) const {
+        const ex whole = m_.z->expand(row);
+        for (int i = 0; i < m_.size(); ++i)
+            if (m_.q[i].get_name() == name)
+                return whole.has(m_.q[i]) || whole.has(m_.qdot[i]) || whole.has(m_.qddot[i]);
+        return std::any_of(e_.lambda.begin(), e_.lambda.end(), [&](const GiNaC::symbol& multiplier) {
+            return multiplier.get_name() == name && whole.has(multiplier);
+        });
+    }
+
+    std::string name_of(std::size_t row) const {
+        const auto n = static_cast<std::size_t>(e_.size());
+        return row < n ? "the equation of motion of " + m_.q[row].get_name()
+                       : "constraint '" + m_.constraints[row - n].name + "'";
+    }
+
+    const Mechanism& mechanism() const { return m_; }
+
+private:
+    /// With inputs written out; one may stand in another.
+    ex in_time(ex e) const {
+        for (std::size_t k = 0; k < m_.inputs.size(); ++k) e = e.subs(inputs_, GiNaC::subs_options::no_pattern);
+        return e;
+    }
+
+    void give(int i, const ex& value) {
+        at_[m_.q[i]] = value;
+        at_[m_.qdot[i]] = value.diff(m_.t);
+        at_[m_.qddot[i]] = value.diff(m_.t, 2);
+    }
+
+    const Mechanism& m_;
+    const Equations& e_;
+    GiNaC::exmap inputs_, at_;
+};
+
+}  // namespace
+
+void check_solution(const Scene& scene, Claims& read, const std::vector<std::size_t>& which,
+                    std::vector<CheckedClaim>& claims) {
+    const Motion motion(scene, read, which);
+    const std::vector<ex> rows = motion.rows();
+    std::vector<std::vector<ZeroTest>> tests(which.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        std::vector<std::size_t> spoken;
+        for (std::size_t i = 0; i < which.size(); ++i)
+            if (motion.is_readable(rows[r]) &&
+                motion.speaks_of(rows[r], scene.claims[which[i]].equation.lhs.tree->text))
+                spoken.push_back(i);
+        const auto tell = [&](const std::string& reason) {
+            for (const std::size_t i : spoken) {
+                tests[i].push_back({});
+                claims[which[i]].reason = reason;
+            }
+        };
+        if (!motion.is_readable(rows[r])) {
+            for (std::size_t i = 0; i < which.size(); ++i) spoken.push_back(i);
+            tell(motion.name_of(r) + " is too long to put a motion into");
+            continue;
+        }
+        if (spoken.empty()) continue;
+        const ex left = motion.along(rows[r]);
+        if (const auto missing = motion.missing(left); !missing.empty()) {
+            tell(fmt::format("{} holds {} too, of which no claim at \"solution\" gives the value",
+                             motion.name_of(r), fmt::join(missing, ", ")));
+            continue;
+        }
+        const ZeroTest test = zero_test(left, motion.mechanism());
+        for (const std::size_t i : spoken) {
+            tests[i].push_back(test);
+            if (test.zero == false && claims[which[i]].reason.empty())
+                claims[which[i]].reason = "put into " + motion.name_of(r) + ", it leaves what does not vanish";
+        }
+    }
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        CheckedClaim& claim = claims[which[i]];
+        const std::string reason = claim.reason;
+        if (tests[i].empty()) {
+            claim.reason = "no equation of motion and no constraint holds this coordinate or multiplier";
+            continue;
+        }
+        settle_by(tests[i], claim);
+        if (!reason.empty()) claim.reason = reason;
+    }
+}
+
+}  // namespace alembert

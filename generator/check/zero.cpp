@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/zero.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "check/verdict.hpp"
+#include "model/energy.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::is_a;
+using GiNaC::numeric;
+
+namespace {
+
+constexpr long digits = 40;
+constexpr double nothing = 1e-30;  // of the sum of the terms' sizes: a zero in 40 digits
+
+/// GiNaC's precision is one for the whole program.
+class InDigits {
+public:
+    InDigits() { GiNaC::Digits = digits; }
+    ~InDigits() { GiNaC::Digits = before_; }
+    InDigits(const InDigits&) = delete;
+    InDigits& operator=(const InDigits&) = delete;
+
+private:
+    const long before_ = GiNaC::Digits;
+};
+
+void gather(const ex& e, GiNaC::exset& symbols) {
+    if (is_a<GiNaC::symbol>(e)) symbols.insert(e);
+    for (const ex& part : e) gather(part, symbols);
+}
+
+/// Real and finite, or nothing.
+std::optional<numeric> real_value(const ex& e) {
+    const ex value = e.evalf();
+    if (!is_a<numeric>(value) || !GiNaC::ex_to<numeric>(value).is_real()) return std::nullopt;
+    return GiNaC::ex_to<numeric>(value);
+}
+
+/// |value| of each term of the outermost sum, added.
+std::optional<numeric> size_of(const ex& e, const GiNaC::exmap& at) {
+    numeric sum = 0;
+    const auto add = [&](const ex& term) {
+        const auto value = real_value(term.subs(at, GiNaC::subs_options::no_pattern));
+        if (value) sum += GiNaC::abs(*value);
+        return value.has_value();
+    };
+    if (!is_a<GiNaC::add>(e)) return add(e) ? std::optional(sum) : std::nullopt;
+    for (const ex& term : e)
+        if (!add(term)) return std::nullopt;
+    return sum;
+}
+
+}  // namespace
+
+ZeroTest zero_test(const ex& given, const Mechanism& m) {
+    const ex e = given.expand();
+    if (e.is_zero() || is_identically_zero(e, m)) return {.zero = true};
+    GiNaC::exset found;
+    gather(e, found);
+    std::vector<GiNaC::symbol> symbols;
+    for (const GiNaC::symbol& s : m.symbols->all())
+        if (found.contains(s)) symbols.push_back(s);
+    const InDigits precision;
+    for (int seed = 1; seed <= 6; ++seed) try {
+            GiNaC::exmap at;
+            ZeroTest result{.zero = false};
+            for (std::size_t k = 0; k < symbols.size(); ++k) {
+                const int number = seed * 7 + static_cast<int>(k) * 5;
+                const numeric value = numeric(1 + number % 7, 1 + (number / 7 + static_cast<int>(k)) % 3);
+                at[symbols[k]] = value / 3;
+                result.values.emplace_back(
+                    m.symbols->info(symbols[k]).text(),
+                    fmt::format("{}/{}", (value / 3).numer().to_int(), (value / 3).denom().to_int()));
+            }
+            const auto value = real_value(e.subs(at, GiNaC::subs_options::no_pattern));
+            const auto size = size_of(e, at);
+            if (!value || !size || GiNaC::abs(*value) <= numeric(nothing) * *size) continue;
+            result.value = value->to_double();
+            return result;
+        } catch (const std::runtime_error&) {  // GiNaC's word for a pole at these values
+            continue;
+        }
+    return {};
+}
+
+void settle_by(const std::vector<ZeroTest>& tests, CheckedClaim& claim) {
+    const auto wrong = std::find_if(tests.begin(), tests.end(), [](const auto& t) { return t.zero == false; });
+    const bool all = std::all_of(tests.begin(), tests.end(), [](const auto& t) { return t.zero == true; });
+    claim.verdict = wrong != tests.end() ? Verdict::refuted : all ? Verdict::proved : Verdict::undecided;
+    claim.normal_form = claim.verdict == Verdict::proved;
+    if (claim.verdict == Verdict::undecided)
+        claim.reason = "what should vanish is zero to thirty digits wherever it was tried, and no proof was found";
+    if (wrong == tests.end()) return;
+    claim.counterexample = wrong->values;
+    claim.residual_value = wrong->value;
+    claim.residual = fmt::format("{:.6g}", wrong->value);
+}
+
+}  // namespace alembert

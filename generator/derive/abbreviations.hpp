@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The scene's definitions as abbreviations in what is derived: gamma for 1/sqrt(1 - (x'^2+y'^2)/c^2).
+///
+///     const Abbreviations abbreviate(mechanism);
+///     abbreviate(m*x''*pow(1 - (x'^2+y'^2)/c^2, -1/2))        // gamma*m*x''
+///
+/// A definition is found where it, or the sum of which it is a power, stands as one piece: under a root, in a
+/// denominator, as the angle of a sine, or as a factor; each time up to a factor of parameters. A sum that has
+/// been multiplied out is not found.
+
+#include <optional>
+#include <vector>
+
+#include "model/mechanism.hpp"
+
+namespace alembert {
+
+class Abbreviations {
+public:
+    /// Definitions that are c·(sum)^r with a factor c of parameters, and that change with the state.
+    explicit Abbreviations(const Mechanism& mechanism);
+
+    bool any() const { return !list_.empty(); }
+
+    struct Kept {
+        GiNaC::symbol name;
+        GiNaC::ex value;  ///< written out
+        GiNaC::ex factor, sum;
+        GiNaC::numeric power;  ///< value = factor·sum^power
+    };
+    const std::vector<Kept>& list() const { return list_; }
+
+    /// With the names in place of the values. `e` is written out, without intermediate symbols.
+    GiNaC::ex operator()(const GiNaC::ex& e) const;
+
+private:
+    bool is_steady(const GiNaC::ex& e) const;
+    std::optional<GiNaC::ex> named(const GiNaC::ex& sum, const GiNaC::numeric& power) const;
+
+    const Mechanism& m_;
+    std::vector<Kept> list_;
+};
+
+}  // namespace alembert

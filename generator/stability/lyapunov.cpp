@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/lyapunov.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/error.hpp"
+#include "model/formulas.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
+#include "stability/floquet.hpp"
+#include "stability/lyapunov_samples.hpp"
+#include "stability/semidefinite.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr std::size_t widest = 200;  // letters of dV/dt in the answer
+const char* const unknown_sign = "not known";
+
+ex read_function(const std::string& text, const LinearizedScene& scene) {
+    const Mechanism& m = scene.mechanism;
+    const auto refuse = [&](const std::string& why) {
+        throw ModelError(fmt::format("the Lyapunov function {}: {}", text, why));
+    };
+    std::vector<Diagnostic> mistakes;
+    const Expression expression = parse_expression(text, {}, mistakes);
+    if (!expression) refuse(mistakes.empty() ? "this is no expression" : mistakes[0].message);
+    ex V;
+    try {
+        Formulas formulas(scene.scene, m);
+        V = m.z->name(formulas.value(expression));
+    } catch (const SceneMistake& mistake) {
+        refuse(mistake.diagnostic.message);
+    }
+    std::vector<GiNaC::symbol> multipliers;
+    for (const Mechanism::Constraint& c : m.constraints) multipliers.push_back(c.multiplier);
+    for (const Mechanism::Constraint* c : m.undetermined()) multipliers.push_back(c->multiplier);
+    if (m.z->depends(V, m.qddot) || m.z->depends(V, multipliers))
+        refuse("it holds accelerations or multipliers; expected coordinates, rates, speeds and parameters alone");
+    std::vector<GiNaC::symbol> changing{m.t};
+    for (const Mechanism::Input& input : m.inputs)
+        changing.insert(changing.end(), input.derivative.begin(), input.derivative.end());
+    if (m.z->depends(V, changing))
+        refuse("it changes with time; expected a function of coordinates, rates and parameters");
+    for (const std::string& name : scene.matrices.cyclic)
+        for (const GiNaC::symbol& q : m.q)
+            if (q.get_name() == name && m.z->depends(V, {q}))
+                refuse(
+                    fmt::format("it holds {}, which nothing in the equations depends on; stability is meant "
+                                "with respect to the other coordinates and the rates",
+                                name));
+    return V;
+}
+
+const char* sign_text(const SignNear& s, const std::optional<Semidefinite>& half) {
+    if (s.definite) return s.positive ? "positive definite" : "negative definite";
+    if (half) return half->sign == 0 ? "zero" : half->sign > 0 ? "positive semidefinite" : "negative semidefinite";
+    if (s.positive && s.negative) return "of both signs";
+    return unknown_sign;
+}
+
+std::string text_of_set(const Semidefinite& half, const Symbols& symbols) {
+    std::vector<std::string> sets;
+    for (const Semidefinite::ZeroSet& set : half.sets) {
+        std::vector<std::string> equations;
+        for (const ex& function : set.texts)
+            if (const auto f = fourier(function, symbols, 100))
+                equations.push_back(fmt::format("{} = 0", text(readable(*f))));
+        if (equations.size() < set.functions.size() || equations.empty()) return "";
+        sets.push_back(fmt::format("{}", fmt::join(equations, ", ")));
+    }
+    return fmt::format("{}", fmt::join(sets, " or "));
+}
+
+/// An expression in q and q' as one in q and u, without intermediate symbols.
+ex in_states(const ex& in_rates, const Local& local) {
+    return local.mechanism.z->expand(local.in_speeds({in_rates})[0]);
+}
+
+/// dV/dt = λ V + W with W definite, of V's sign: by the quadratic forms.
+bool by_second_theorem(const Expansion& V, const Expansion& rate, int sign, const Neighbourhood& near) {
+    const CertainMatrix Q = Certain(sign) * hessian(V, near.monomials),
+                        Q_rate = Certain(sign) * hessian(rate, near.monomials);
+    const auto factor = definite_combination(Q_rate, {Certain(-1) * Q});
+    if (!factor || !((*factor)[0] > 0)) return false;
+    const Certain lambda(Rational(cln::rational(cln::cl_DF((*factor)[0]))));
+    return sign_near(rate + Expansion(-lambda) * V, near.monomials).is(sign);
+}
+
+/// dV/dt = g V with a g that is positive at the point, or definite.
+bool is_positive_multiple(const ex& V, const ex& rate, const Neighbourhood& near) {
+    const auto in_numbers = near.with_numbers(in_states(V, near.local));
+    if (!in_numbers || in_numbers->is_zero()) return false;
+    const ex quotient = (rate / *in_numbers).normal();
+    const auto value = near.value(quotient);
+    if (!value || !value->sign()) return false;
+    if (*value->sign() != 0) return *value->sign() > 0;
+    const auto half = semidefinite(quotient, near);
+    return half && half->sign > 0 && half->sets.size() == 1 &&
+           static_cast<int>(half->sets[0].functions.size()) == near.size();
+}
+
+struct Signs {
+    SignNear V, rate;
+    std::optional<Semidefinite> half;  ///< of the rate
+};
+
+Decision stable_by(const Signs& s, const Neighbourhood& near, const std::string& set) {
+    const int against = s.V.positive ? -1 : 1;
+    const char* const V = s.V.positive ? "V is positive definite" : "-V is positive definite";
+    const char* const down = s.V.positive ? "dV/dt" : "-dV/dt";
+    if (s.rate.is(against))
+        return {StabilityVerdict::asymptotically_stable, StabilityTheorem::lyapunov_asymptotic,
+                fmt::format("{} and {} negative definite", V, down)};
+    if (!s.half || (s.half->sign != 0 && s.half->sign != against)) return {};
+    if (s.half->sign == 0)
+        return {StabilityVerdict::stable, StabilityTheorem::lyapunov_stable,
+                fmt::format("{} and constant along every motion", V)};
+    const std::string where = set.empty() ? "where dV/dt = 0" : fmt::format("where dV/dt = 0 ({})", set);
+    if (std::all_of(s.half->sets.begin(), s.half->sets.end(),
+                    [&](const Semidefinite::ZeroSet& one) { return holds_no_other_motion(one, near); }))
+        return {
+            StabilityVerdict::asymptotically_stable, StabilityTheorem::lasalle,
+            fmt::format("{} and {} nowhere positive, and no motion but the equilibrium stays {}", V, down, where)};
+    return {StabilityVerdict::stable, StabilityTheorem::lyapunov_stable,
+            fmt::format("{} and {} nowhere positive; that no other motion stays {} is not shown", V, down, where)};
+}
+
+Decision unstable_by(const ex& V, const std::optional<ex>& rate, const Signs& s, const Expansion& V_series,
+                     const Expansion& rate_series, const Neighbourhood& near) {
+    for (const int sign : {1, -1}) {
+        if (!(sign > 0 ? s.V.positive : s.V.negative)) continue;
+        const std::string minus = sign > 0 ? "" : "-";
+        if (s.rate.is(sign))
+            return {StabilityVerdict::unstable, StabilityTheorem::lyapunov_instability,
+                    fmt::format("{}V takes positive values arbitrarily near, and {}dV/dt is positive definite",
+                                minus, minus)};
+        if (by_second_theorem(V_series, rate_series, sign, near))
+            return {StabilityVerdict::unstable, StabilityTheorem::lyapunov_instability,
+                    fmt::format("{}V takes positive values arbitrarily near, and {}dV/dt is a positive multiple "
+                                "of it and a positive definite rest",
+                                minus, minus)};
+        if (rate && is_positive_multiple(V, *rate, near))
+            return {StabilityVerdict::unstable, StabilityTheorem::chetaev_instability,
+                    fmt::format("{}V takes positive values arbitrarily near, and {}dV/dt is positive wherever it "
+                                "is: dV/dt is V times a positive function",
+                                minus, minus)};
+    }
+    return {};
+}
+
+Decision says_nothing(const LyapunovAnswer& answer) {
+    return {
+        StabilityVerdict::undecided, StabilityTheorem::none,
+        fmt::format("this V proves nothing here: the sign of V is {}, that of dV/dt is {}{}",
+                    answer.sampled ? "not proved" : answer.sign, answer.sampled ? "not proved" : answer.rate_sign,
+                    answer.sampled ? ". " + answer.samples + ", which is no proof" : "")};
+}
+
+void check_applies(const LinearizedScene& scene) {
+    const Mechanism& m = scene.mechanism;
+    if (!m.constraints.empty() || !m.unilateral.empty())
+        throw ModelError(
+            "a Lyapunov function is judged in independent coordinates; this scene has constraints or contacts. "
+            "Choose independent coordinates");
+    if (changes_with_time(m, scene.equations))
+        throw ModelError(
+            "a Lyapunov function without t is judged where the equations do not change with time; these do");
+}
+
+}  // namespace
+
+std::pair<LyapunovAnswer, Decision> by_lyapunov_function(const std::string& text_of_V,
+                                                         const LinearizedScene& scene, const Local* local) {
+    check_applies(scene);
+    const ex V = read_function(text_of_V, scene);
+    LyapunovAnswer answer{.function = text_of_V, .sign = unknown_sign, .rate_sign = unknown_sign};
+    const auto sample = [&] {
+        answer.sampled = true;
+        answer.samples = lyapunov_samples(V, scene);
+        return std::pair(answer, says_nothing(answer));
+    };
+    check_zero_there(V, scene);
+    if (!local) return sample();
+    std::optional<Neighbourhood> near;
+    Expansion V_series;
+    try {
+        near.emplace(*local);
+        V_series = near->series(V);
+    } catch (const NotAnalytic&) {
+        return sample();
+    }
+    const Expansion rate_series = near->rate(V_series);
+    const std::optional<ex> rate = near->rate(V);
+    const std::optional<ex> in_numbers = rate ? near->with_numbers(*rate) : std::nullopt;
+    if (rate)
+        if (const auto f = fourier(*rate, *scene.mechanism.symbols, 400)) {
+            answer.rate = text(readable(*f));
+            if (answer.rate.size() > widest) answer.rate.clear();
+        }
+    Signs signs{sign_near(V_series, near->monomials), sign_near(rate_series, near->monomials), {}};
+    if (!signs.rate.definite && !(signs.rate.positive && signs.rate.negative) && in_numbers)
+        signs.half = semidefinite(*in_numbers, *near);
+    std::optional<Semidefinite> V_half;
+    if (!signs.V.definite && !(signs.V.positive && signs.V.negative))
+        if (const auto V_numbers = near->with_numbers(in_states(V, *local)))
+            V_half = semidefinite(*V_numbers, *near);
+    answer.sign = sign_text(signs.V, V_half);
+    answer.rate_sign = sign_text(signs.rate, signs.half);
+    if (signs.half && signs.half->sign != 0) answer.set = text_of_set(*signs.half, *scene.mechanism.symbols);
+    Decision decision;
+    if (signs.V.definite) decision = stable_by(signs, *near, answer.set);
+    if (decision.verdict == StabilityVerdict::undecided)
+        decision = unstable_by(V, in_numbers, signs, V_series, rate_series, *near);
+    if (decision.verdict != StabilityVerdict::undecided) return {answer, decision};
+    if (answer.sign == unknown_sign || answer.rate_sign == unknown_sign) return sample();
+    return {answer, says_nothing(answer)};
+}
+
+}  // namespace alembert

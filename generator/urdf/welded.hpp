@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Links of a robot that fixed joints hold together, as one body each.
+///
+///     const WeldedLinks links = welded(robot, {.floating = false});
+///     links.bodies[0].ground                       // what is fixed to the root stands still
+///     links.seats[i].group, links.seats[i].shift   // where link i stands in its body
+///
+/// A body's frame is that of its link nearest to the root. Metres, kilograms, radians.
+
+#include <string>
+#include <vector>
+
+#include "urdf/robot.hpp"
+
+namespace alembert {
+
+/// Links that do not move against each other.
+struct WeldedBody {
+    int top;                 ///< the link nearest to the root
+    std::vector<int> links;  ///< all of them, in the order of the file
+    double mass = 0;
+    Real3 centre = Real3::Zero();     ///< of mass, in the frame of `top`
+    Real33 inertia = Real33::Zero();  ///< about the mass centre, along the frame of `top`
+    bool ground = false;              ///< it stands still
+    bool kept = true;                 ///< false where neither it nor anything that hangs from it has a mass
+};
+
+/// Where a link stands in its body.
+struct Seat {
+    int group = -1;  ///< in WeldedLinks::bodies
+    Real3 shift = Real3::Zero();
+    Real33 R = Real33::Identity();
+    std::vector<Real3> turns = {};  ///< roll, pitch, yaw of each fixed joint on the way
+};
+
+struct WeldedLinks {
+    std::vector<WeldedBody> bodies;       ///< from the root down; the first holds the root
+    std::vector<Seat> seats;              ///< by link
+    std::vector<std::string> merged;      ///< "tool is fixed to wrist", a sentence each
+    std::vector<Robot::Dropped> dropped;  ///< masses fixed to the ground, joints that move no mass
+};
+
+/// `floating`: the root moves freely in space. Throws ModelError for a body with a negative moment of inertia.
+WeldedLinks welded(const Robot& robot, bool floating);
+
+}  // namespace alembert

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Claims that are no equations of motion: motions in closed form, and equations to first order.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include "check/check.hpp"
+#include "scene/claims_file.hpp"
+#include "scenes.hpp"
+#include "state/prepared.hpp"
+
+namespace check_closed_forms {
+
+using namespace alembert;
+
+namespace {
+
+Checked checked(const std::string& scene, const std::string& claims) {
+    const Scene read = with_claims(parse_scene(scene, "s.toml"), claims, "claims.txt");
+    return check(read, prepared(read).mechanism);
+}
+
+void check_verdicts(const Checked& result, const std::vector<Verdict>& expected) {
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CAPTURE(result.claims[k].reason);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+}
+
+const std::string chain =  // slides off a smooth table: T = m x'^2/2, V = -m g x^2/(2 l)
+    "parameters = { m = 1, g = 9.81, l = 2 }\ncoordinates = { x = 0.1 }\n[energy]\nkinetic = \"m*x'^2/2\"\n"
+    "potential = \"-m*g*x^2/(2*l)\"\n";
+
+const std::string driven =
+    "parameters = { m = 1, k = 4, F = 1, W = 3 }\ninputs = { f = \"F*cos(W*t)\" }\ncoordinates = { x = 0.1 }\n"
+    "[energy]\nkinetic = \"m*x'^2/2\"\npotential = \"k*x^2/2\"\n[forces]\nx = \"f\"\n";
+
+const std::string pendulum_on_cart =
+    "gravity = [0, \"-g\"]\nparameters = { M = 2, m = 1, l = 0.5, g = 9.81 }\n"
+    "coordinates = { x = 0, theta = 0.1 }\n[[particle]]\nname = \"C\"\nmass = \"M\"\nposition = [\"x\", 0]\n"
+    "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x + l*sin(theta)\", \"-l*cos(theta)\"]\n";
+
+const std::string bead_on_hoop =
+    "parameters = { m = 1, R = 1, g = 9.81, w = 5 }\ncoordinates = { theta = 0.1 }\n[energy]\n"
+    "kinetic = \"m*R^2*(theta'^2 + w^2*sin(theta)^2)/2\"\npotential = \"-m*g*R*cos(theta)\"\n";
+
+}  // namespace
+
+TEST_CASE("closed forms: a motion is put into the equations, for all values of its constants") {
+    check_verdicts(checked(chain, "constants x0\nsolution\nx = x0*cosh(sqrt(g/l)*t)\n"), {Verdict::proved});
+    check_verdicts(checked(chain,
+                           "constants x0 v0\nsolution\n"
+                           "x = x0*cosh(sqrt(g/l)*t) + v0*sqrt(l/g)*sinh(sqrt(g/l)*t)\n"),
+                   {Verdict::proved});
+    check_verdicts(checked(chain, "constants x0\nsolution\nx = x0*exp(-sqrt(g/l)*t)\n"), {Verdict::proved});
+
+    const Checked wrong = checked(chain, "constants x0\nsolution\nx = x0*cos(sqrt(g/l)*t)\n");
+    check_verdicts(wrong, {Verdict::refuted});
+    CHECK(wrong.claims[0].reason.find("the equation of motion of x") != std::string::npos);
+    CHECK(wrong.claims[0].counterexample.size() == 5);  // m, g, l, x0 and t
+    check_verdicts(checked(chain, "constants x0\nsolution\nx = x0*cosh(g/l*t)\n"), {Verdict::refuted});
+}
+
+TEST_CASE("closed forms: inputs are known functions of time") {
+    check_verdicts(checked(driven, "solution\nx = F*cos(W*t)/(k - m*W^2)\n"), {Verdict::proved});
+    check_verdicts(checked(driven, "solution\nx = f/(k - m*W^2)\n"), {Verdict::proved});
+    check_verdicts(checked(driven, "solution\nx = F*cos(W*t)/(k + m*W^2)\n"), {Verdict::refuted});
+}
+
+TEST_CASE("closed forms: with constraints the multipliers belong to the solution") {
+    const std::string circle =
+        "parameters = { m = 1, r = 2, w = 3 }\ncoordinates = { x = 2, y = { initial = 0, rate = 6 } }\n"
+        "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", \"y\"]\n[[constraint]]\nname = \"c\"\n"
+        "holonomic = \"(x^2 + y^2 - r^2)/2\"\n";
+    const std::string motion = "solution\nx = r*cos(w*t)\ny = r*sin(w*t)\n";
+    check_verdicts(checked(circle, motion + "lambda_c = -m*w^2\n"),
+                   {Verdict::proved, Verdict::proved, Verdict::proved});
+    check_verdicts(checked(circle, motion + "lambda_c = m*w^2\n"),
+                   {Verdict::refuted, Verdict::refuted, Verdict::refuted});
+    const Checked open = checked(circle, motion);
+    check_verdicts(open, {Verdict::undecided, Verdict::undecided});
+    CHECK(open.claims[0].reason.find("lambda_c") != std::string::npos);
+    check_verdicts(checked(circle, "solution\nx = r*cos(w*t)\n"), {Verdict::undecided});
+}
+
+TEST_CASE("closed forms: linear equations hold to first order near an equilibrium") {
+    // (M + m) x'' + m l th'' = 0 and l th'' + x'' + g th = 0
+    check_verdicts(checked(pendulum_on_cart,
+                           "near theta = 0\n(M+m)*x'' + m*l*theta'' = 0\n"
+                           "l*theta'' + x'' + g*theta = 0\nM*l*theta'' + (M+m)*g*theta = 0\n"
+                           "l*theta'' + x'' + g*theta*cos(theta) + theta'^2*x'' = 0\n"),
+                   {Verdict::proved, Verdict::proved, Verdict::proved, Verdict::proved});
+    const Checked wrong = checked(pendulum_on_cart,
+                                  "near theta = 0\nM*l*theta'' + m*g*theta = 0\n"
+                                  "l*theta'' - x'' + g*theta = 0\nx'' = g\n");
+    check_verdicts(wrong, {Verdict::refuted, Verdict::refuted, Verdict::refuted});
+    CHECK(wrong.claims[0].difference == "-M*g*theta");
+    CHECK(wrong.claims[2].reason == "it does not even hold at the point itself");
+    // Upside down the sign of gravity turns.
+    check_verdicts(checked(pendulum_on_cart,
+                           "near theta = pi\nM*l*theta'' - (M+m)*g*(theta - pi) = 0\n"
+                           "M*l*theta'' + (M+m)*g*(theta - pi) = 0\n"),
+                   {Verdict::proved, Verdict::refuted});
+}
+
+TEST_CASE("closed forms: an equilibrium that depends on parameters, and a point that is none") {
+    check_verdicts(checked(bead_on_hoop,
+                           "near theta = acos(g/(R*w^2))\n"
+                           "theta'' + (w^2 - g^2/(R^2*w^2))*(theta - acos(g/(R*w^2))) = 0\n"
+                           "theta'' + w^2*(theta - acos(g/(R*w^2))) = 0\n"),
+                   {Verdict::proved, Verdict::refuted});
+    const Checked none = checked(bead_on_hoop, "near theta = pi/2\ntheta'' + theta = 0\n");
+    check_verdicts(none, {Verdict::undecided});
+    CHECK(none.claims[0].reason.find("no equilibrium") != std::string::npos);
+}
+
+TEST_CASE("closed forms: third derivatives are those of the differentiated equations") {
+    const std::string pendulum =
+        "gravity = [0, \"-g\"]\nparameters = { m = 1, l = 0.5, g = 9.81 }\ncoordinates = { theta = 0.1 }\n"
+        "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"l*sin(theta)\", \"-l*cos(theta)\"]\n";
+    check_verdicts(checked(pendulum,
+                           "l*theta''' + g*theta'*cos(theta) = 0\n"
+                           "l*theta''' + g*cos(theta) = 0\nl*theta''' + g*theta'*sin(theta) = 0\n"),
+                   {Verdict::proved, Verdict::refuted, Verdict::refuted});
+    // The same pendulum by a constraint: x''' from two equations and the constraint, with its multiplier.
+    const std::string cartesian =
+        "gravity = [0, \"-g\"]\nparameters = { m = 1, l = 0.5, g = 9.81 }\n"
+        "coordinates = { x = 0.3, y = -0.4 }\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", "
+        "\"y\"]\n"
+        "[[constraint]]\nname = \"c\"\nholonomic = \"(x^2 + y^2 - l^2)/2\"\n";
+    check_verdicts(checked(cartesian,
+                           "x*x''' + y*y''' + 3*x'*x'' + 3*y'*y'' = 0\n"
+                           "m*(x'''*y - y'''*x) + m*(x''*y' - y''*x') = m*g*x'\n"
+                           "x*x''' + y*y''' + x'*x'' + y'*y'' = 0\n"),
+                   {Verdict::proved, Verdict::proved, Verdict::refuted});
+}
+
+TEST_CASE("closed forms: what cannot be read has its place") {
+    const auto message = [](const std::string& claims) {
+        try {
+            checked(chain, claims);
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    CHECK(message("solution\nx' = t\n").find("claims.txt:2:1") != std::string::npos);
+    CHECK(message("solution\nx = x0*t\n").find("'x0'") != std::string::npos);
+    CHECK(message("solution\nx = x*t\n").find("a solution may depend on the time and parameters only") !=
+          std::string::npos);
+    CHECK(message("near y = 0\nx'' = 0\n").find("unknown name 'y'; expected a coordinate") != std::string::npos);
+    CHECK(message("near m = 0\nx'' = 0\n").find("'near' gives the values of coordinates") != std::string::npos);
+    CHECK(message("near x = t\nx'' = 0\n").find("may depend on parameters only") != std::string::npos);
+}
+
+}  // namespace check_closed_forms

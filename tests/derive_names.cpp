@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// The scene's definitions as names in what is derived, and the sign of a printed equation.
+#include <doctest/doctest.h>
+
+#include "check/check.hpp"
+#include "derive/derive.hpp"
+#include "notation/text.hpp"
+#include "scene/claims_file.hpp"
+#include "state/prepared.hpp"
+
+namespace derive_names {
+
+using namespace alembert;
+
+namespace {
+
+std::vector<std::string> equations_of(const Derivation& shown) {
+    std::vector<std::string> result;
+    for (const ReadableEquation& e : shown.equations) result.push_back(text(e.lhs) + " = " + text(e.rhs));
+    return result;
+}
+
+/// Every printed equation is a right claim about the scene.
+void check_printed(const std::string& scene, const std::vector<std::string>& equations) {
+    std::string claims;
+    for (const std::string& equation : equations) claims += equation + "\n";
+    const Scene read = with_claims(parse_scene(scene, "s.toml"), claims, "claims.txt");
+    for (const CheckedClaim& claim : check(read, prepared(read).mechanism).claims)
+        CHECK(claim.verdict == Verdict::proved);
+}
+
+const std::string relativistic =
+    "parameters = { m = 1, c = 2, e = 1, B = 0.5, k = 1 }\n"
+    "coordinates = { x = { initial = 0, rate = 0.2 }, y = { initial = 0, rate = 0.1 } }\n"
+    "[definitions]\ngamma = \"1/sqrt(1 - (x'^2+y'^2)/c^2)\"\n"
+    "[energy]\nlagrangian = \"-m*c^2/gamma + e*B/2*(x*y' - y*x') - k*x^2/2\"\n";
+
+}  // namespace
+
+TEST_CASE("derive: the factor of a relativistic particle stays a name, and the equations are right") {
+    const DerivedScene d = derive(parse_scene(relativistic, "s.toml"), {});
+    REQUIRE(d.shown.abbreviations.size() == 1);
+    CHECK(text(d.shown.abbreviations[0].first) == "gamma");
+    const std::vector<std::string> equations = equations_of(d.shown);
+    for (const std::string& equation : equations) {
+        CAPTURE(equation);
+        CHECK(equation.find("gamma") != std::string::npos);
+        CHECK(equation.find("sqrt") == std::string::npos);
+    }
+    check_printed(relativistic, equations);
+}
+
+TEST_CASE("derive: an angle between two rods and a distance stay names where that is shorter") {
+    const std::string scene =
+        "parameters = { m = 1, k = 2, q = 3, a = 1 }\ncoordinates = { x = 1, y = 0.5 }\n"
+        "[definitions]\nr = \"sqrt((x-a)^2 + y^2)\"\nunused = \"x + y\"\n"
+        "[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\npotential = \"-k/r + q/r^3\"\n";
+    const DerivedScene d = derive(parse_scene(scene, "s.toml"), {});
+    REQUIRE(d.shown.abbreviations.size() == 1);
+    CHECK(text(d.shown.abbreviations[0].first) == "r");
+    check_printed(scene, equations_of(d.shown));
+}
+
+TEST_CASE("derive: definitions that make nothing shorter are written out") {
+    const std::string scene =
+        "parameters = { m = 1, g = 9.81, l = 1 }\ncoordinates = { theta = 0.1 }\n"
+        "[definitions]\nheight = \"-l*cos(theta)\"\nangle = \"theta + theta\"\n"
+        "[energy]\nkinetic = \"m*l^2*theta'^2/2\"\npotential = \"m*g*height\"\n";
+    const DerivedScene d = derive(parse_scene(scene, "s.toml"), {});
+    CHECK(d.shown.abbreviations.empty());
+    CHECK(equations_of(d.shown) == std::vector<std::string>{"l*theta'' + g*sin(theta) = 0"});
+}
+
+TEST_CASE("derive: a row keeps the sign with which its own acceleration has a positive inertia") {
+    const std::string scene =
+        "parameters = { m = 1, J = 2, k = 1 }\ncoordinates = { x = 0, y = 0 }\n"
+        "[energy]\nkinetic = \"m*x'^2/2 - k*x'*y' + J*y'^2/2\"\n[forces]\ny = \"-k*x\"\n";
+    const std::vector<std::string> equations = equations_of(derive(parse_scene(scene, "s.toml"), {}).shown);
+    CHECK(equations == std::vector<std::string>{"m*x'' - k*y'' = 0", "-k*x'' + J*y'' = -k*x"});
+}
+
+}  // namespace derive_names
