@@ -9,7 +9,7 @@
 ///     k.frames[0].omega.own[2].value;             // rad/s, at the state
 ///
 /// Velocities and accelerations are those against N. Turn by turn, and from a frame P to a frame F that turns
-/// against it (Zhang & Qin §2.6-2.9; Kane & Levinson, Dynamics (1985), §2.7-2.8):
+/// against it (Zhang & Qin, chapter 2; Kane & Levinson, Dynamics (1985), chapter 2):
 ///     ω_F = ω_P + Σ_k φ_k' a_k,     α_F = α_P + Σ_k (φ_k'' a_k + ω_k × φ_k' a_k),
 /// a_k being the axis of turn k and ω_k the angular velocity of the frame that the turns before it have reached.
 /// From a point Q to a point P at ρ along a frame F:
