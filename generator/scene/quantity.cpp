@@ -26,8 +26,8 @@ bool begins_with(const std::string& text, const char* beginning) {
     return text.rfind(beginning, 0) == 0;
 }
 
-/// z1, z2 …, the intermediate symbols that `derive` prints when the equations are too long to be read, or u1, u2 …,
-/// the speeds that a formalism chooses.
+/// z1, z2 …, the intermediate symbols that `derive` prints when the equations are too long to be read, or u1, u2
+/// …, the speeds that a formalism chooses.
 bool is_given_by_derive(const std::string& text) {
     return text.size() > 1 && (text[0] == 'z' || text[0] == 'u') &&
            text.find_first_not_of("0123456789", 1) == std::string::npos;
