@@ -173,7 +173,7 @@ TEST_CASE("integrability: it is decided at states that obey the holonomic constr
     CHECK(turned.constraints[2].integrable == true);
 }
 
-TEST_CASE("integrability: if the loop has no exact point, a " no " is confirmed numerically") {
+TEST_CASE("integrability: if the loop has no exact point, its \"no\" is confirmed numerically") {
     const std::vector<std::string> q{"al = 0.5", "be = { guess = 0.3, rate_guess = 0 }",
                                      "ga = { guess = 0.7, rate_guess = 0 }", "x", "y"};
     const std::string loop_x = "cos(al) + 2*cos(be) - 1.5*cos(ga) - 1.7",

@@ -56,6 +56,12 @@ TEST_CASE("closed forms: a motion is proved by inserting it into the equations, 
                    {Verdict::proved});
     check_verdicts(checked(chain, "constants x0\nsolution\nx = x0*exp(-sqrt(g/l)*t)\n"), {Verdict::proved});
 
+    const std::string swing =  // tuned by a parameter that follows another
+        "parameters = { m = 1, w = 3, k = \"m*w^2\" }\ncoordinates = { x = 0.1 }\n[energy]\n"
+        "kinetic = \"m*x'^2/2\"\npotential = \"k*x^2/2\"\n";
+    check_verdicts(checked(swing, "constants a\nsolution\nx = a*sin(w*t)\n"), {Verdict::proved});
+    check_verdicts(checked(swing, "constants a\nsolution\nx = a*sin(2*w*t)\n"), {Verdict::refuted});
+
     const Checked wrong = checked(chain, "constants x0\nsolution\nx = x0*cos(sqrt(g/l)*t)\n");
     check_verdicts(wrong, {Verdict::refuted});
     CHECK(wrong.claims[0].reason.find("the equation of motion of x") != std::string::npos);

@@ -44,6 +44,16 @@ std::optional<numeric> real_value(const ex& e) {
     return GiNaC::ex_to<numeric>(value);
 }
 
+/// With the parameters that the scene gives in others written out.
+ex in_independent_parameters(ex e, const Mechanism& m) {
+    GiNaC::exmap values;
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (!p.independent) values[p.symbol] = m.z->expand(p.value);
+    for (std::size_t round = 0; round < values.size(); ++round)  // one may stand in another
+        e = e.subs(values, GiNaC::subs_options::no_pattern);
+    return e;
+}
+
 /// The sum of |value| over the terms of the outermost sum.
 std::optional<numeric> size_of(const ex& e, const GiNaC::exmap& at) {
     numeric sum = 0;
@@ -61,7 +71,7 @@ std::optional<numeric> size_of(const ex& e, const GiNaC::exmap& at) {
 }  // namespace
 
 ZeroTest zero_test(const ex& given, const Mechanism& m) {
-    const ex e = given.expand();
+    const ex e = in_independent_parameters(given, m).expand();
     if (e.is_zero() || is_identically_zero(e, m)) return {.zero = true};
     GiNaC::exset found;
     gather(e, found);
