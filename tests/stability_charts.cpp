@@ -169,6 +169,9 @@ TEST_CASE(
     REQUIRE(circle.exponents.size() == 2);
     CHECK(std::abs(*circle.sum + 0.5) < 1e-8);
     CHECK(!circle.divergence);
+    CHECK(circle.exponents[0] >= circle.exponents[1]);
+    for (const LyapunovExponents::Row& row : circle.rows) CHECK(row.estimates.size() == 2);
+    CHECK(circle.rows.back().estimates == circle.exponents);
     CHECK(std::abs(circle.exponents[0] + 0.25) < 5e-3);
 }
 

@@ -188,7 +188,8 @@ private:
         return lengths;
     }
 
-    void finish(const std::vector<LyapunovExponents::Row>& all, double divergence) {
+    void finish(std::vector<LyapunovExponents::Row> all, double divergence) {
+        put_in_order(all);
         result_.exponents = all.back().estimates;
         for (std::size_t c = 0; c < result_.exponents.size(); ++c) {
             double low = HUGE_VAL, high = -HUGE_VAL;
@@ -204,6 +205,19 @@ private:
         if (static_cast<int>(result_.exponents.size()) < result_.size) return;
         result_.sum = 0;
         for (const double one : result_.exponents) *result_.sum += one;
+    }
+
+    /// By the last estimate, the largest first: after a short motion the vectors need not be in this order.
+    void put_in_order(std::vector<LyapunovExponents::Row>& all) const {
+        const std::vector<double> last = all.back().estimates;
+        std::vector<std::size_t> order(last.size());
+        for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return last[a] > last[b]; });
+        for (LyapunovExponents::Row& row : all) {
+            const std::vector<double> before = row.estimates;
+            for (std::size_t k = 0; k < order.size(); ++k) row.estimates[k] = before[order[k]];
+        }
     }
 
     LyapunovExponents& result_;
