@@ -16,7 +16,7 @@ alembert::Scene chain(int rods) {
     for (int i = 1; i <= rods; ++i) {
         const std::string k = std::to_string(i), angle = "q" + k, frame = "R" + k;
         draft.table("coordinates").set(angle, alembert::DraftTable().set("initial", "pi/2").set("unit", "rad"));
-        draft.add("frame").set("name", frame).set("rotate", {alembert::DraftValue{"z", angle}});
+        draft.add("frame").set("name", frame).set("rotate", alembert::DraftValue::list({{"z", angle}}));
         draft.add("body")
             .set("name", "rod" + k)
             .set("mass", "m")

@@ -68,6 +68,7 @@ const WrongClaim wrong_claims[] = {
     {"hinged_bars", "rest\nP*l*cos(theta/2) + m*g*l/2*sin(theta/2) = 0", "sign"},
     {"kepler_parabolic", "m*s*xi'' + m*xi*(xi'^2 - eta'^2) + m*eta*xi'*eta' + 4*k*xi/s^2 = 0", "factor"},
     {"ladder_with_string", "rest\nlambda_wall = k*(l*sin(phi) - d)", "swapped_trig"},
+    {"motor_on_springs", "(M + m)*x'' + c*x' + k*x = m*e*(phi'^2*sin(phi) - phi''*sin(phi))", "swapped_trig"},
     {"pendulum_absorber", "l*theta'' + (l + R*cos(theta))*phi'' + R*phi'*sin(theta) = 0", "lost_dot"},
     {"rate_gyroscope",
      "A*theta'' + A*psi'^2*sin(theta)*cos(theta) - C*(phi' + psi'*sin(theta))*psi'*sin(theta) + c*theta' + "
@@ -95,7 +96,6 @@ const WrongClaim wrong_claims[] = {
     {"triatomic_molecule", "M*x2'' = k*(x3 - x2 + x1)", "factor"},
     {"two_centres", "(m*c^2*D*(u'^2 + v'^2)/2 - k1/(c*(cosh(u) - cos(v))) + k2/(c*(cosh(u) + cos(v))))' = 0",
      "sign"},
-    {"motor_on_springs", "(M + m)*x'' + c*x' + k*x = m*e*(phi'^2*sin(phi) - phi''*sin(phi))", "swapped_trig"},
     {"vibration_absorber", "M*x1'' + K*x1 + k*x1 = P*sin(omega*t)", "missing_term"},
     {"wedge_with_two_blocks", "rest\nm2*cos(beta) = m1*sin(alpha)", "swapped_trig"},
     {"yo_yo", "(J + m*b^2)*theta'' = m*b*(g - h'')", "sign"},

@@ -49,10 +49,13 @@ TEST_CASE("draft: entries of a list keep their order, and a table is made once")
     draft.add("spring").set("along", "theta").set("stiffness", 2);
     first.set("along", "2*theta").set("stiffness", 1);
     draft.table("parameters").set("late", 3);
+    draft.add("frame").set("name", "F").set("rotate", DraftValue::list({{"z", "theta"}}));
     const Scene scene = draft.scene();
     REQUIRE(scene.springs.size() == 2);
     CHECK(scene.springs[0].along.text == "2*theta");
     CHECK(scene.parameters.size() == 5);
+    REQUIRE(scene.frames.size() == 1);
+    CHECK(scene.frames[0].rotations.size() == 1);
 }
 
 TEST_CASE("draft: mistakes are told as those of a file") {

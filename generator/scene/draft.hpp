@@ -36,6 +36,8 @@ public:
     DraftValue(std::initializer_list<DraftValue> list);  // NOLINT: so is a list
     DraftValue(const std::vector<DraftValue>& list);     // NOLINT
     DraftValue(const DraftTable& table);                 // NOLINT: { initial = 0.3, unit = "rad" }
+    /// An array of one array needs this name, as C++ takes {{"z", "psi"}} for a copy of the inner one.
+    static DraftValue list(const std::vector<DraftValue>& values) { return DraftValue(values); }
 
     /// As it stands in a scene.
     const std::string& text() const { return text_; }
