@@ -44,7 +44,7 @@ public:
         if (!start_.speeds.empty()) {
             try {
                 solve_for_rates(true);
-                check(p_.nodes_of(Group::velocity), start_.qdot, false, true);
+                check(p_.nodes_of(Group::velocity), start_.qdot, false);
             } catch (const ModelError&) {
                 if (rates_must_obey || m_.speeds.size() < m_.q.size()) throw;
                 solve_for_rates(false);
@@ -135,8 +135,7 @@ private:
             if (!step.allFinite()) break;
             for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
         }
-        // Rates that are given may be the result of another computation, such as those after an impact.
-        check(nodes, x, n > 0, n > 0 || group == Group::velocity);
+        check(nodes, x, n > 0);
         for (const int i : free)
             if (std::abs(x[i] - before[i]) >
                 1e-14 * std::max(1.0, std::abs(before[i])))  // a smaller change is rounding and is not reported
@@ -144,7 +143,8 @@ private:
                     fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
     }
 
-    /// The rounding error of a step; the terms themselves may all be zero.
+    /// The rounding error of a step, here or in the computation that gave the values; the terms themselves may all
+    /// be zero.
     double rounding(std::size_t k, const std::vector<double>& x, const std::vector<double>& value) const {
         double row = 0, largest = 0;
         for (int i = 0; i < m_.size(); ++i) {
@@ -154,14 +154,13 @@ private:
         return 64 * std::numeric_limits<double>::epsilon() * row * largest;
     }
 
-    /// `solved` means that x is the solution of a linear system.
-    void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed, bool solved) const {
+    void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed) const {
         const std::vector<double> value = interpret(p_, start_.state()),
                                   rounded = rounding_errors(p_, start_.state());
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= tolerance::initial_values * size_of_terms(p_, nodes[k], value) +
-                              (solved ? rounding(k, x, value) : 0) + rounded[nodes[k]])
+            if (misfit <= tolerance::initial_values * size_of_terms(p_, nodes[k], value) + rounding(k, x, value) +
+                              rounded[nodes[k]])
                 continue;
             if (!std::isfinite(misfit))
                 throw ModelError(
