@@ -327,6 +327,21 @@ position = ["l*sin(theta)*cos(phi)", "l*sin(theta)*sin(phi)", "-l*cos(theta)"]
     });
 }
 
+TEST_CASE("stability: rolling bodies of revolution, as long as their motion can be reversed") {
+    const auto disc = [](const std::string& more) { return text_of("rolling_disc") + more; };
+    check({
+        {"a disc", disc(""), {}, V::stable, T::reversible, true},
+        {"a ring", disc(""), {"A=0.125", "C=0.25", "w=2.3"}, V::stable, T::reversible, true},
+        {"a ring, too slow", disc(""), {"A=0.125", "C=0.25", "w=2.2"}, V::unstable, T::first_approximation},
+        // What drives it while it leans: the first approximation is the same, and the motion grows.
+        {"a disc that is driven", disc("[forces]\ntheta = \"theta'^3/50\"\n"), {}, V::undecided, T::none, true},
+        {"a disc that is braked", disc("[forces]\ntheta = \"-theta'^3/50\"\n"), {}, V::undecided, T::none, true},
+        {"a force of position", disc("[forces]\ntheta = \"-theta^3/50\"\n"), {}, V::stable, T::reversible, true},
+        {"a damped lean", disc("[forces]\ntheta = \"-theta'/50\"\n"), {}, V::stable, T::malkin, true},
+        {"a driven lean", disc("[forces]\ntheta = \"theta'/50\"\n"), {}, V::unstable, T::first_approximation},
+    });
+}
+
 TEST_CASE("stability: polynomials without a mechanism") {
     const auto polynomial = [](const std::string& list) {
         return "[polynomial]\ncoefficients = [" + list + "]\n";
