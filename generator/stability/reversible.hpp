@@ -23,7 +23,7 @@
 namespace alembert {
 
 /// Stable if one speed can be found whose reversal, with that of time, leaves the equations as they are, which is
-/// proved in exact arithmetic at random states; undecided otherwise.
+/// proved in exact arithmetic (exact_field.hpp); undecided otherwise.
 Decision by_reversal(const Local& local, const std::vector<RootOf>& roots);
 
 }  // namespace alembert
