@@ -116,7 +116,7 @@ Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
     Expansion power = c;
     for (int order = 2; order <= highest_degree; ++order) {
         power = power * c;
-        const std::vector<Expansion> F = field(local, x, highest_degree);
+        const std::vector<Expansion> F = field(local, x, order);
         CertainMatrix known(n + 1, 1);
         for (int i = 0; i < n; ++i) known(i, 0) = -F[i].coefficient(order);
         const auto step = solution(bordered, known);
@@ -256,7 +256,7 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
 
 }  // namespace
 
-Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots) {
+Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots, FamilyProof by) {
     const int n = local.A.rows;
     int zeros = 0;
     for (const RootOf& r : roots) {
@@ -270,8 +270,8 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
     if (zeros < n && svd.values[n - zeros - 1] < 1e-8L * largest) return {};
     if (svd.values[n - zeros] > 1e-12L * std::max(1.0L, largest)) return {};
     const Eigen::MatrixXd V = svd.right.cast<double>();
-    const bool proved = has_family(local, V.rightCols(zeros));
-    if (!proved && !finds_family(local, V, zeros)) return {};
+    const bool proved = by == FamilyProof::exact;
+    if (!(proved ? has_family(local, V.rightCols(zeros)) : finds_family(local, V, zeros))) return {};
     return {StabilityVerdict::stable, StabilityTheorem::malkin,
             fmt::format(
                 "{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters{}, "

@@ -20,9 +20,12 @@
 
 namespace alembert {
 
+/// How it is shown that neighbouring steady motions exist.
+enum class FamilyProof { exact, in_numbers };
+
 /// Undecided if the case does not apply or is not decided.
 Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots);
 Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots);
-Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots);
+Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots, FamilyProof by);
 
 }  // namespace alembert
