@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "alembert/dense.hpp"
+#include "linear/dense_long.hpp"
 #include "stability/exact_field.hpp"
 #include "stability/field.hpp"
 
@@ -149,21 +151,25 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
     const Eigen::MatrixXcd A = numbers(local.A).cast<Complex>(), one = Eigen::MatrixXcd::Identity(n, n);
     const Complex i_omega(0, omega);
     const auto kernel = [&](const Eigen::MatrixXcd& m) {
-        const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(m, Eigen::ComputeFullV);
-        return ComplexVector(svd.matrixV().col(n - 1));
+        const LongComplexMatrix right = right_vectors(m.cast<std::complex<long double>>()).right;
+        return ComplexVector(right.col(n - 1).cast<Complex>());
     };
     const ComplexVector q = kernel(A - i_omega * one), q_bar = q.conjugate();
     ComplexVector p = kernel(A.transpose() + i_omega * one);
     p /= std::conj(p.dot(q));  // dot conjugates its first argument: ⟨p, q⟩ = 1
     const Eigen::MatrixXcd twice = 2.0 * i_omega * one - A;
-    const ComplexVector first = A.partialPivLu().solve(form({q, q_bar}));
-    const ComplexVector second = twice.partialPivLu().solve(form({q, q}));
+    const auto solved = [](const Eigen::MatrixXcd& m, const Eigen::MatrixXcd& right) {
+        using Long = std::complex<long double>;
+        const LongComplexMatrix left = m.cast<Long>(), b = right.cast<Long>(), x = solve(left, b);
+        return Eigen::MatrixXcd(x.cast<Complex>());
+    };
+    const ComplexVector first = solved(A, form({q, q_bar})), second = solved(twice, form({q, q}));
     const double l1 =
         (p.dot(form({q, q, q_bar})) - 2.0 * p.dot(form({q, first})) + p.dot(form({q_bar, second}))).real() /
         (2 * omega);
     const Eigen::VectorXd large = q.cwiseAbs(), squares = form.bound({large, large});
-    const Eigen::VectorXd size_of_first = A.inverse().cwiseAbs() * squares,
-                          size_of_second = twice.inverse().cwiseAbs() * squares;
+    const Eigen::VectorXd size_of_first = solved(A, one).cwiseAbs() * squares,
+                          size_of_second = solved(twice, one).cwiseAbs() * squares;
     const double size =
         p.cwiseAbs().dot(form.bound({large, large, large}) + 2 * form.bound({large, size_of_first}) +
                          form.bound({large, size_of_second})) /
@@ -244,7 +250,7 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
                 const Eigen::VectorXd F = rate(local.tangent_at(at));
                 residual = F.norm();
                 if (zeros == n) break;
-                const Eigen::VectorXd y = (numbers(local.A) * across).colPivHouseholderQr().solve(-F);
+                const Eigen::VectorXd y = least_norm(numbers(local.A) * across, -F).x;
                 at = moved(at, across * y);
             }
             if (!(residual < 1e-30)) return false;
@@ -263,12 +269,13 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
         zeros += zero ? 1 : 0;
     }
     if (zeros == 0 || n == 0 || !local.cyclic_momenta.empty()) return {};
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(numbers(local.A), Eigen::ComputeFullV | Eigen::ComputeFullU);
-    const double largest = svd.singularValues()[0];
-    if (zeros < n && svd.singularValues()[n - zeros - 1] < 1e-8 * largest) return {};
-    if (svd.singularValues()[n - zeros] > 1e-12 * std::max(1.0, largest)) return {};
-    const bool proved = has_family(local, svd.matrixV().rightCols(zeros));
-    if (!proved && !finds_family(local, svd.matrixV(), zeros)) return {};
+    const LongSingularValues svd = singular_values(LongMatrix(numbers(local.A).cast<long double>()));
+    const long double largest = svd.values[0];
+    if (zeros < n && svd.values[n - zeros - 1] < 1e-8L * largest) return {};
+    if (svd.values[n - zeros] > 1e-12L * std::max(1.0L, largest)) return {};
+    const Eigen::MatrixXd V = svd.right.cast<double>();
+    const bool proved = has_family(local, V.rightCols(zeros));
+    if (!proved && !finds_family(local, V, zeros)) return {};
     return {
         StabilityVerdict::stable, StabilityTheorem::malkin,
         fmt::format(
