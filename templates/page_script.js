@@ -236,7 +236,7 @@ const times = data.times || (figure ? figure.times : [0]);
 const start = times[0], end = times[times.length - 1];
 const play = byId("play"), slider = byId("time"), speed = byId("speed"), trace = byId("trace"), clock = byId("clock");
 let now = start, playing = false, last = 0;
-const plots = Array.from(document.querySelectorAll(".plot > svg")).map(plotCursor);
+const plots = Array.from(document.querySelectorAll(".plot > svg[data-columns]")).map(plotCursor);
 const outputs = Array.from(document.querySelectorAll("output[data-column]"));
 
 function value(column, low, high, part) {

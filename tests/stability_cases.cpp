@@ -340,6 +340,14 @@ TEST_CASE("stability: terms of high degree and coefficients that cancel are not 
         {"a zero root, tiny", one("0*x", forces("1e-20*x^3 - x'")), {}, V::unstable, T::one_zero_root, true},
         // 3 x² x' − x'³ does no work over a turn: the first Lyapunov coefficient is zero.
         {"work that cancels", one("x^2/2", forces("3*x^2*x' - x'^3 + x'^5")), {}, V::undecided, T::none, true},
+        // The states at rest are the two axes, and no plane of them.
+        {"two zero roots", two("0*x", forces("x*y - x'", "x*y - y'")), {}, V::undecided, T::none, true},
+        {"a circle of states at rest",
+         two("(x^2 + y^2 - 1)^2", rayleigh("(x'^2 + y'^2)/2")),
+         {"x=1"},
+         V::stable,
+         T::malkin,
+         true},
         {"a flat hill", bead("-x^20", damper), {}, V::unstable, T::one_zero_root, true},
         {"a hill that is nearly flat", bead("-1e-12*x^10", damper), {}, V::unstable, T::one_zero_root, true},
         {"a flat valley", bead("x^20", damper), {}, V::asymptotically_stable, T::one_zero_root, true},

@@ -14,7 +14,8 @@ namespace {
 struct ReportVerb : SceneOptions {
     std::string output;
     RunOptions wishes{.budget = 3'000'000};
-    bool moves = true;
+    bool moves = true, measures = false;
+    std::string section;
 };
 
 /// Writes a page that shows the mistake if the scene is no mechanism, and reports the mistake.
@@ -27,6 +28,8 @@ int run(const ReportVerb& verb) {
     check_output(verb.output, {verb.scene});
     Progress progress;
     OverviewOptions options{.by = verb.by, .wishes = verb.wishes, .moves = verb.moves};
+    options.section = verb.section;
+    options.measures = verb.measures;
     options.wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     std::optional<Overview> all;
     try {
@@ -61,6 +64,9 @@ void add_report(CLI::App& app, Chosen& chosen) {
             verb.add_option("--budget", options.wishes.budget, "evaluations of the motion, at most")
                 .type_name(values::count)
                 .positive();
+            verb.add_option("--poincare", options.section, "section of Poincare, as in \"theta1 = 0\"")
+                .type_name(values::formula);
+            verb.add_flag("--bench", options.measures, "also speed against error, of every method");
             verb.add_flag("!--no-motion", options.moves, "leaves the motion out");
         });
 }

@@ -44,6 +44,7 @@ struct FigureElement {
         tie,      ///< two ends: a distance that a constraint keeps
         string,   ///< two ends: a distance that a unilateral constraint bounds
         force,    ///< point, direction
+        waiting,  ///< point, direction: a force that is zero, where it acts at another time
         torque,   ///< point, direction
         impulse,  ///< point, direction
         gravity,  ///< direction

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "overview/overview.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "alembert/error.hpp"
 #include "lower/lower.hpp"
+#include "model/formulas.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -100,6 +104,32 @@ void pose(WatchedMotion& motion, const Drawing& drawing, const State<double>& st
     }
 }
 
+const char* const section_event = "section of Poincare";
+
+/// The section as an event that is recorded.
+EventRule section_rule(const Overview& all, const std::string& section) {
+    const auto refuse = [&](const std::string& why) {
+        throw ModelError(
+            fmt::format("--poincare {}: {}; expected an equation of the state, as in --poincare "
+                        "\"theta1 = 0\"",
+                        section, why));
+    };
+    const std::size_t equals = section.find('=');
+    if (equals == std::string::npos || section.find('=', equals + 1) != std::string::npos) refuse("this is none");
+    std::vector<Diagnostic> mistakes;
+    const Expression difference = parse_expression(
+        fmt::format("({}) - ({})", section.substr(0, equals), section.substr(equals + 1)), {}, mistakes);
+    if (!difference) refuse(mistakes.empty() ? "this is none" : mistakes[0].message);
+    try {
+        Formulas formulas(all.scene, all.mechanism);
+        const GiNaC::ex value = all.mechanism.z->name(formulas.value(difference));
+        if (all.mechanism.z->depends(value, all.mechanism.qddot)) refuse("it holds accelerations");
+    } catch (const SceneMistake& mistake) {
+        refuse(mistake.diagnostic.message);
+    }
+    return {.name = {section_event, {}}, .when = difference, .direction = 1};
+}
+
 WatchedMotion watched(const Overview& all, const OverviewOptions& options) {
     RunOptions wishes = options.wishes;
     wishes.by = options.by;
@@ -107,11 +137,53 @@ WatchedMotion watched(const Overview& all, const OverviewOptions& options) {
         const double duration = wishes.duration >= 0 ? wishes.duration : start_of(all.mechanism).duration;
         if (duration > 0) wishes.sample = duration / rows_shown;
     }
-    WatchedMotion motion{.run = simulate(all.scene, wishes)};
+    Scene scene = all.scene;
+    if (!options.section.empty()) scene.events.push_back(section_rule(all, options.section));
+    WatchedMotion motion{.run = simulate(std::move(scene), wishes)};
+    motion.section = options.section;
+    std::erase_if(motion.run.motion.events, [&](const EventRecord& e) {
+        if (e.name != section_event) return false;
+        motion.crossings.push_back(e.state);
+        return true;
+    });
     watch_energies(motion, all.mechanism, all.start);
     watch_constraints(motion, all.mechanism, all.start);
     if (all.drawing.value && all.drawing.value->obstacle.empty()) pose(motion, *all.drawing.value, all.start);
     return motion;
+}
+
+constexpr int equilibria_judged = 6;
+
+/// Only for scenes so small that this takes a second or two.
+std::string too_large_to_judge(const Mechanism& m) {
+    if (m.size() <= 6 && m.constraints.size() <= 4) return "";
+    return "Left out here, as the scene is large; the program does it when asked: alembert equilibrium, alembert "
+           "stability";
+}
+
+JudgedEquilibria judged(const Scene& scene, const std::string& by) {
+    JudgedEquilibria result{equilibria(scene, {.by = by, .starts = 100})};
+    const Mechanism& m = result.found.mechanism;
+    for (const Equilibrium& one : result.found.list) {
+        result.verdicts.emplace_back();
+        if (result.verdicts.size() > equilibria_judged) continue;
+        StabilityOptions options{.by = by};
+        const auto give = [&](const std::string& name, double value) {
+            options.at.emplace_back(name, value + 0.0);
+            options.exact_at.emplace_back(name, fmt::format("{}", value + 0.0));
+        };
+        for (int i = 0; i < m.size(); ++i) {
+            give(m.q[i].get_name(), one.start.q[i]);
+            if (m.speeds.empty()) give(m.q[i].get_name() + "'", one.start.qdot[i]);
+        }
+        try {
+            result.verdicts.back() = stability(scene, options);
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception&) {  // the first judgement of `equilibria` stands
+        }
+    }
+    return result;
 }
 
 }  // namespace
@@ -125,6 +197,7 @@ Overview overview(Scene scene, const OverviewOptions& options) {
         if (options.wishes.progress) options.wishes.progress(what, 0);
     };
     const Scene& s = all.scene;
+    if (!options.section.empty()) section_rule(all, options.section);  // throws before anything long is done
     const bool is_readable = all.mechanism.size() <= readable_size;
     tell("deriving");
     all.derived = attempted([&] { return derive(s, {.by = options.by}); });
@@ -138,6 +211,10 @@ Overview overview(Scene scene, const OverviewOptions& options) {
                              : left_out<Agreed>(too_large + "agree");
     tell("auditing constraints");
     all.audited = is_readable ? attempted([&] { return audit(s); }) : left_out<Audited>(too_large + "audit");
+    tell("looking for equilibria");
+    const std::string too_large_here = too_large_to_judge(all.mechanism);
+    all.rest = too_large_here.empty() ? attempted([&] { return judged(s, options.by); })
+                                      : left_out<JudgedEquilibria>(too_large_here);
     tell("drawing");
     all.drawing = attempted([&] { return draw(s, all.mechanism); });
     all.struck = s.impulses.empty() && s.generalized_impulses.empty()
@@ -146,6 +223,14 @@ Overview overview(Scene scene, const OverviewOptions& options) {
     all.emitted = attempted([&] { return emission(s, {.by = options.by}); });
     all.motion = options.moves ? attempted([&] { return watched(all, options); })
                                : left_out<WatchedMotion>("The scene was not run.");
+    if (options.measures) {
+        BenchOptions wishes{.wishes = options.wishes};
+        wishes.wishes.by = options.by;
+        wishes.wishes.sample = 0;
+        all.bench = attempted([&] { return bench(s, wishes); });
+    } else {
+        all.bench = left_out<Bench>("No methods were measured.");
+    }
     return all;
 }
 

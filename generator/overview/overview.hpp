@@ -17,9 +17,12 @@
 #include "check/check.hpp"
 #include "contact/impact.hpp"
 #include "derive/derive.hpp"
+#include "equilibrium/equilibria.hpp"
 #include "figure/drawing.hpp"
+#include "run/bench.hpp"
 #include "run/emission.hpp"
 #include "run/simulate.hpp"
+#include "stability/stability.hpp"
 
 namespace alembert {
 
@@ -34,7 +37,9 @@ struct PartOfOverview {
 struct OverviewOptions {
     std::string by = {};  ///< a formalism; if empty, the program chooses
     RunOptions wishes{.sample = -1, .budget = 3'000'000};
-    bool moves = true;  ///< whether the scene is simulated
+    bool moves = true;         ///< whether the scene is simulated
+    std::string section = {};  ///< of Poincaré: "a = b", expressions of the state
+    bool measures = false;     ///< whether every method is measured (run/bench.hpp)
 };
 
 /// A motion with further values for its rows: poses of the figure, energies, residuals of the constraints.
@@ -45,6 +50,14 @@ struct WatchedMotion {
     std::vector<double> kinetic = {}, potential = {};  ///< by row; empty if a Lagrangian is given
     std::vector<std::string> constraints = {};
     std::vector<std::vector<double>> position = {}, velocity = {};  ///< residuals, by constraint, then by row
+    std::string section = {};                                       ///< of Poincaré, as it was asked for
+    std::vector<std::vector<double>> crossings = {};  ///< coordinates, then rates, where a − b grows through zero
+};
+
+/// Equilibria and steady motions, and what `stability` says about each of the first ones.
+struct JudgedEquilibria {
+    Equilibria found;
+    std::vector<std::optional<Stability>> verdicts = {};  ///< by equilibrium
 };
 
 struct Overview {
@@ -60,9 +73,12 @@ struct Overview {
     PartOfOverview<WatchedMotion> motion = {};
     PartOfOverview<Emission> emitted = {};
     PartOfOverview<Struck> struck = {};
+    PartOfOverview<JudgedEquilibria> rest = {};
+    PartOfOverview<Bench> bench = {};
 };
 
-/// Throws SceneError or ModelError if the scene describes no mechanism at all.
+/// Throws SceneError or ModelError if the scene describes no mechanism at all, and ModelError for a section that
+/// is no equation of the state.
 Overview overview(Scene scene, const OverviewOptions& options = {});
 
 }  // namespace alembert

@@ -58,6 +58,7 @@ private:
             case Element::angle:
             case Element::length:
             case Element::force:
+            case Element::waiting:
             case Element::torque:
             case Element::impulse:
                 return 3;
@@ -185,6 +186,7 @@ private:
                 line("tie", p[0], p[1]);
                 return;
             case Element::force:
+            case Element::waiting:
             case Element::impulse:
                 return add_arrow(e);
             case Element::torque:
@@ -333,7 +335,9 @@ private:
 
     void add_arrow(const FigureElement& e) {
         const int a = e.points[0], d = e.points[1];
-        const std::string style = e.kind == Element::force ? "force" : "impulse";
+        const std::string style = e.kind == Element::force     ? "force"
+                                  : e.kind == Element::waiting ? "waiting"
+                                                               : "impulse";
         std::vector<FigureVertex> arrow{between(a, d, 0, 0, 0, true), between(a, d, 1)};
         const std::vector<FigureVertex> tip = head(a, d);
         arrow.insert(arrow.end(), tip.begin(), tip.end());

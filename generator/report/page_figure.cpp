@@ -53,13 +53,37 @@ void add_controls(PageParts& page, const FigureShapes& shapes, double duration) 
         put(page.body, "<p class=\"hint\">Turn the view with the mouse, a finger, or the arrow keys.</p>\n");
 }
 
+/// Draws a force that is zero at some poses of the motion there too, along the direction in which it acts next.
+void add_waiting_forces(Drawing& drawing, std::vector<Pose>& poses) {
+    const std::size_t known = drawing.elements.size();
+    for (std::size_t k = 0; k < known; ++k) {
+        const FigureElement force = drawing.elements[k];
+        if (force.kind != FigureElement::Kind::force) continue;
+        const auto at = static_cast<std::size_t>(force.points[1]);
+        double largest = 0;
+        for (const Pose& pose : poses) largest = std::max(largest, pose[at].norm());
+        const auto is_zero = [&](const Pose& pose) { return pose[at].norm() <= 1e-3 * largest; };
+        if (!(largest > 0) || std::none_of(poses.begin(), poses.end(), is_zero)) continue;
+        Vector3d next(0, 0, 0);
+        for (const Pose& pose : poses)  // what acted last stands for a force that acts no more
+            if (!is_zero(pose)) next = pose[at].normalized();
+        const int direction = static_cast<int>(poses[0].size());
+        for (std::size_t frame = poses.size(); frame-- > 0;) {
+            if (!is_zero(poses[frame])) next = poses[frame][at].normalized();
+            poses[frame].push_back(is_zero(poses[frame]) ? next : Vector3d(0, 0, 0));
+        }
+        drawing.elements.push_back(
+            {.kind = FigureElement::Kind::waiting, .points = {force.points[0], direction}, .label = force.label});
+    }
+}
+
 }  // namespace
 
 void add_figure(PageParts& page, const Overview& all) {
     page.section("figure", "Figure and motion");
-    const Drawing* const drawing = all.drawing.value ? &*all.drawing.value : nullptr;
-    if (drawing == nullptr || !drawing->obstacle.empty()) {
-        page.problem(drawing == nullptr ? all.drawing.problem : drawing->obstacle);
+    std::optional<Drawing> drawing = all.drawing.value;
+    if (!drawing || !drawing->obstacle.empty()) {
+        page.problem(drawing ? drawing->obstacle : all.drawing.problem);
         page.end();
         return;
     }
@@ -78,6 +102,7 @@ void add_figure(PageParts& page, const Overview& all) {
         poses.push_back(pose_at(*drawing, all.start));
         q.push_back(all.start.q);
     }
+    add_waiting_forces(*drawing, poses);
     const FigureShapes shapes = shapes_of(*drawing, poses, q);
     put(page.body, "<div class=\"stage{}\"{}>\n", shapes.is_plane ? "" : " space",
         shapes.is_plane ? ""

@@ -56,7 +56,8 @@ std::string axis_label(const std::string& name, const std::string& unit) {
            "</tspan>";
 }
 
-std::string path(const std::vector<double>& x, const std::vector<double>& y, const Range& xs, const Range& ys) {
+std::string path(const std::vector<double>& x, const std::vector<double>& y, const Range& xs, const Range& ys,
+                 bool points) {
     std::string d;
     bool pen_down = false;
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -67,7 +68,8 @@ std::string path(const std::vector<double>& x, const std::vector<double>& y, con
         put(d, "{}{:.1f} {:.1f}", pen_down ? "L" : "M",
             left + (x[k] - xs.low) / (xs.high - xs.low) * (width - left - right),
             height - bottom - (y[k] - ys.low) / (ys.high - ys.low) * (height - top - bottom));
-        pen_down = true;
+        if (points) d += "h0";
+        pen_down = !points;
     }
     return d;
 }
@@ -90,19 +92,25 @@ std::vector<double> page_ticks(double low, double high, int count) {
 std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x,
                       const std::vector<PagePlotLine>& lines, int x_column) {
     std::vector<const std::vector<double>*> all;
-    for (const PagePlotLine& line : lines) all.push_back(&line.y);
-    const bool over_time = x_column < 0;
-    Range xs = range_of({&x});
+    std::vector<const std::vector<double>*> all_x{&x};
+    for (const PagePlotLine& line : lines) {
+        all.push_back(&line.y);
+        all_x.push_back(&line.x);
+    }
+    const bool over_time = x_column < 0 && !labels.points;
+    Range xs = range_of(all_x);
     if (over_time && !x.empty() && x.front() < x.back()) xs = {x.front(), x.back()};
     const Range ys = range_of(all);
     std::string columns;
     for (const PagePlotLine& line : lines) columns += fmt::format("{}{}", columns.empty() ? "" : ",", line.column);
     std::string page;
-    put(page,
-        "<figure class=\"plot\">\n<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" data-columns=\"{}\" "
-        "data-x-column=\"{}\" data-x=\"{:.17g},{:.17g}\" data-y=\"{:.17g},{:.17g}\">\n",
-        width, height, html(labels.title + " over " + labels.x_name), columns, x_column, xs.low, xs.high, ys.low,
-        ys.high);
+    put(page, "<figure class=\"plot\">\n<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\"", width, height,
+        html(labels.title + (labels.points ? ": " + labels.y_name : "") + " over " + labels.x_name));
+    if (!labels.points)
+        put(page,
+            " data-columns=\"{}\" data-x-column=\"{}\" data-x=\"{:.17g},{:.17g}\" data-y=\"{:.17g},{:.17g}\"",
+            columns, x_column, xs.low, xs.high, ys.low, ys.high);
+    put(page, ">\n");
     const auto to_x = [&](double v) { return left + (v - xs.low) / (xs.high - xs.low) * (width - left - right); };
     const auto to_y = [&](double v) {
         return height - bottom - (v - ys.low) / (ys.high - ys.low) * (height - top - bottom);
@@ -120,6 +128,10 @@ std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x
             "text-anchor=\"end\">{}</text>\n",
             left, to_y(v), width - right, left - 5, to_y(v) + 4,
             tick_text(v, y_ticks.size() > 1 ? y_ticks[1] - y_ticks[0] : 1));
+    if (labels.axes && xs.low < 0 && xs.high > 0)
+        put(page, "<path class=\"frame\" d=\"M{:.1f} {}V{}\"/>\n", to_x(0), top, height - bottom);
+    if (labels.axes && ys.low < 0 && ys.high > 0)
+        put(page, "<path class=\"frame\" d=\"M{} {:.1f}H{}\"/>\n", left, to_y(0), width - right);
     put(page, "<path class=\"frame\" d=\"M{0} {1}V{2}H{3}\"/>\n", left, top, height - bottom, width - right);
     put(page, "<text class=\"axis-label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
         (left + width - right) / 2, height - 6, axis_label(labels.x_name, labels.x_unit));
@@ -127,9 +139,17 @@ std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x
         "<text class=\"axis-label\" transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
         (top + height - bottom) / 2, axis_label(labels.y_name, labels.y_unit));
     for (std::size_t k = 0; k < lines.size(); ++k)
-        put(page, "<path class=\"line c{}{}\" d=\"{}\"/>\n", k % 7, k >= 7 ? " dashed" : "",
-            path(x, lines[k].y, xs, ys));
+        put(page, "<path class=\"line c{}{}\" d=\"{}\"/>\n", k % 7,
+            labels.points ? lines[k].y.size() > 40 ? " points small" : " points"
+            : k >= 7      ? " dashed"
+                          : "",
+            path(lines[k].x.empty() ? x : lines[k].x, lines[k].y, xs, ys, labels.points));
     put(page, "</svg>\n<figcaption><span class=\"plot-title\">{}</span>", html(labels.title));
+    for (std::size_t k = 0; k < lines.size() && labels.points && lines.size() > 1; ++k)
+        put(page,
+            " <span class=\"key\"><svg class=\"swatch\" viewBox=\"0 0 22 8\" aria-hidden=\"true\"><path "
+            "class=\"line c{} points\" d=\"M11 4h0\"/></svg>{}</span>",
+            k % 7, html(lines[k].name));
     for (std::size_t k = 0; k < lines.size() && over_time; ++k)
         put(page,
             " <span class=\"key\"><svg class=\"swatch\" viewBox=\"0 0 22 8\" aria-hidden=\"true\"><path "

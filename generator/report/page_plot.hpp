@@ -16,12 +16,15 @@ struct PagePlotLabels {
     std::string title;
     std::string x_name, x_unit;  ///< name and unit of a value of the scene; the unit may be empty
     std::string y_name, y_unit;
+    bool points = false;  ///< dots without a cursor in place of lines, all with a key
+    bool axes = false;    ///< also lines where x = 0 and y = 0
 };
 
 struct PagePlotLine {
     std::string name;  ///< the name of a value of the scene
     std::vector<double> y;
-    int column;  ///< the column in the page's table of values
+    int column = -1;             ///< the column in the page's table of values
+    std::vector<double> x = {};  ///< of points; empty for those of the plot
 };
 
 /// One <figure> with its caption. `x_column` is −1 for the time. Values that are not finite are left out. Lines

@@ -58,8 +58,11 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
     add_claims(parts, all);
     add_agreement(parts, all);
     add_constraints(parts, all);
+    add_stability(parts, all);
     add_plots(parts, all);
+    add_section_of_poincare(parts, all);
     add_motion(parts, all);
+    add_bench(parts, all);
     add_code(parts, all);
     add_commands(parts, all, options.by);
 
