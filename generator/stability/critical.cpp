@@ -260,7 +260,7 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
 
 }  // namespace
 
-Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots) {
+Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots, FamilyBy by) {
     const int n = local.A.rows;
     int zeros = 0;
     for (const RootOf& r : roots) {
@@ -274,8 +274,8 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
     if (zeros < n && svd.values[n - zeros - 1] < 1e-8L * largest) return {};
     if (svd.values[n - zeros] > 1e-12L * std::max(1.0L, largest)) return {};
     const Eigen::MatrixXd V = svd.right.cast<double>();
-    const bool proved = has_family(local, V.rightCols(zeros));
-    if (!proved && !finds_family(local, V, zeros)) return {};
+    const bool proved = by == FamilyBy::proof;
+    if (proved ? !has_family(local, V.rightCols(zeros)) : !finds_family(local, V, zeros)) return {};
     return {
         StabilityVerdict::stable, StabilityTheorem::malkin,
         fmt::format(

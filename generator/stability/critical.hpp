@@ -23,6 +23,7 @@ namespace alembert {
 /// Undecided if the case does not apply or is not decided.
 Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots);
 Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots);
-Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots);
+enum class FamilyBy { proof, newton };
+Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots, FamilyBy by);
 
 }  // namespace alembert
