@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "alembert/dense.hpp"
 #include "linear/dense_long.hpp"
@@ -22,6 +21,11 @@ using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 
 constexpr int highest_degree = 20;
+
+Eigen::MatrixXcd inverse(const Eigen::MatrixXcd& A) {
+    const LongComplexMatrix one = LongComplexMatrix::Identity(A.rows(), A.cols());
+    return solve(LongComplexMatrix(A.cast<std::complex<long double>>()), one).cast<Complex>();
+}
 
 int count(const std::vector<RootOf>& roots, Side side) {
     return static_cast<int>(
@@ -112,7 +116,7 @@ Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
     Expansion power = c;
     for (int order = 2; order <= highest_degree; ++order) {
         power = power * c;
-        const std::vector<Expansion> F = field(local, x, highest_degree);
+        const std::vector<Expansion> F = field(local, x, order);
         CertainMatrix known(n + 1, 1);
         for (int i = 0; i < n; ++i) known(i, 0) = -F[i].coefficient(order);
         const auto step = solution(bordered, known);
@@ -158,18 +162,14 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
     ComplexVector p = kernel(A.transpose() + i_omega * one);
     p /= std::conj(p.dot(q));  // dot conjugates its first argument: ⟨p, q⟩ = 1
     const Eigen::MatrixXcd twice = 2.0 * i_omega * one - A;
-    const auto solved = [](const Eigen::MatrixXcd& m, const Eigen::MatrixXcd& right) {
-        using Long = std::complex<long double>;
-        const LongComplexMatrix left = m.cast<Long>(), b = right.cast<Long>(), x = solve(left, b);
-        return Eigen::MatrixXcd(x.cast<Complex>());
-    };
-    const ComplexVector first = solved(A, form({q, q_bar})), second = solved(twice, form({q, q}));
+    const Eigen::MatrixXcd A_inverse = inverse(A), twice_inverse = inverse(twice);
+    const ComplexVector first = A_inverse * form({q, q_bar}), second = twice_inverse * form({q, q});
     const double l1 =
         (p.dot(form({q, q, q_bar})) - 2.0 * p.dot(form({q, first})) + p.dot(form({q_bar, second}))).real() /
         (2 * omega);
     const Eigen::VectorXd large = q.cwiseAbs(), squares = form.bound({large, large});
-    const Eigen::VectorXd size_of_first = solved(A, one).cwiseAbs() * squares,
-                          size_of_second = solved(twice, one).cwiseAbs() * squares;
+    const Eigen::VectorXd size_of_first = A_inverse.cwiseAbs() * squares,
+                          size_of_second = twice_inverse.cwiseAbs() * squares;
     const double size =
         p.cwiseAbs().dot(form.bound({large, large, large}) + 2 * form.bound({large, size_of_first}) +
                          form.bound({large, size_of_second})) /
@@ -205,8 +205,8 @@ bool has_family(const Local& local, const Eigen::MatrixXd& V) {
     return static_cast<Eigen::Index>(ne) - static_cast<Eigen::Index>(still.size()) + forces == V.cols();
 }
 
-/// The same in numbers: Newton's method finds steady motions a small distance along some random null vectors,
-/// which are combinations of the last columns of V.
+/// The same in numbers: Newton's method finds steady motions a small distance along each null vector, the last
+/// columns of V.
 bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
     const int n = local.A.rows, p = static_cast<int>(local.split.u.size());
     const std::size_t ne = local.essential.size();
@@ -238,13 +238,9 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
         return F;
     };
     const Eigen::MatrixXd across = V.leftCols(n - zeros);
-    std::mt19937_64 random(15);
-    std::normal_distribution<double> normal;
-    for (int k = 0; k < (zeros == 1 ? 1 : 2 * zeros); ++k)
+    for (int k = 0; k < zeros; ++k)
         for (const double step : {0.05, -0.03}) {
-            Eigen::VectorXd direction(zeros);
-            for (double& one : direction) one = normal(random);
-            CertainPoint at = moved(local.point, step * V.rightCols(zeros) * direction.normalized());
+            CertainPoint at = moved(local.point, step * V.col(n - zeros + k));
             double residual = 1;
             for (int round = 0; round < 60 && residual > 1e-31; ++round) {
                 const Eigen::VectorXd F = rate(local.tangent_at(at));
@@ -260,7 +256,7 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
 
 }  // namespace
 
-Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots, FamilyBy by) {
+Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots, FamilyProof by) {
     const int n = local.A.rows;
     int zeros = 0;
     for (const RootOf& r : roots) {
@@ -274,15 +270,14 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots,
     if (zeros < n && svd.values[n - zeros - 1] < 1e-8L * largest) return {};
     if (svd.values[n - zeros] > 1e-12L * std::max(1.0L, largest)) return {};
     const Eigen::MatrixXd V = svd.right.cast<double>();
-    const bool proved = by == FamilyBy::proof;
-    if (proved ? !has_family(local, V.rightCols(zeros)) : !finds_family(local, V, zeros)) return {};
-    return {
-        StabilityVerdict::stable, StabilityTheorem::malkin,
-        fmt::format(
-            "{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters{}, "
-            "and all others have negative real parts: disturbed motions tend to steady motions near this "
-            "one",
-            zeros, zeros == 1 ? "is" : "are", proved ? "" : " (found by Newton's method in several directions)")};
+    const bool proved = by == FamilyProof::exact;
+    if (!(proved ? has_family(local, V.rightCols(zeros)) : finds_family(local, V, zeros))) return {};
+    return {StabilityVerdict::stable, StabilityTheorem::malkin,
+            fmt::format(
+                "{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters{}, "
+                "and all others have negative real parts: disturbed motions tend to steady motions near this "
+                "one",
+                zeros, zeros == 1 ? "is" : "are", proved ? "" : " (found by Newton's method along each)")};
 }
 
 }  // namespace alembert

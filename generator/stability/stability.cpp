@@ -136,7 +136,7 @@ Decision by_potential(const Local& local, const PowerSign& power) {
 /// For nonlinear equations whose first approximation does not decide, the first method that does.
 Decision critical_case(const Local& local, const PowerSign& power, const std::vector<RootOf>& roots) {
     const std::function<Decision()> ways[] = {
-        [&] { return family_of_motions(local, roots, FamilyBy::proof); },
+        [&] { return family_of_motions(local, roots, FamilyProof::exact); },
         [&] { return one_zero_root(local, roots); },
         [&] { return pair_on_axis(local, roots); },
         [&] {
@@ -144,7 +144,7 @@ Decision critical_case(const Local& local, const PowerSign& power, const std::ve
             return proof ? by_integrals(*proof, power.is_zero) : Decision{};
         },
         [&] { return by_potential(local, power); },
-        [&] { return family_of_motions(local, roots, FamilyBy::newton); },
+        [&] { return family_of_motions(local, roots, FamilyProof::in_numbers); },
         [&] { return by_reversal(local, roots); },
         [&] { return by_arnold(local, power, roots); },
     };
