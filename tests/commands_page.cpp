@@ -189,4 +189,63 @@ TEST_CASE("page: a script's hash is SHA-256 in base 64, and JSON in a script can
     CHECK(alembert::html("<a href='x'>&\"") == "&lt;a href=&#39;x&#39;&gt;&amp;&quot;");
 }
 
+TEST_CASE("page: equilibria with their verdicts and eigenvalues, and a section of Poincare that is asked for") {
+    const std::string hoop = source_path("scenes/textbook/rotating_hoop.toml");
+    const std::string page = page_of(hoop, 0, {"--duration", "20", "--poincare", "theta = 0"});
+    const std::size_t at = page.find("<section id=\"stability\""), end = page.find("</section>", at);
+    REQUIRE(at != std::string::npos);
+    const std::string section = page.substr(at, end - at);
+    // Of four equilibria the lower one is unstable beyond the pitchfork, the two aside are stable, the upper one
+    // is not.
+    const auto count = [&](const std::string& what) {
+        std::size_t found = 0;
+        for (std::size_t k = section.find(what); k != std::string::npos; k = section.find(what, k + 1)) ++found;
+        return found;
+    };
+    CHECK(count(">stable</strong>") == 2);
+    CHECK(count(">unstable</strong>") == 2);
+    CHECK(section.find("Eigenvalues") != std::string::npos);
+    CHECK(section.find("acos(") != std::string::npos);
+    CHECK(page.find("<section id=\"poincare\"") != std::string::npos);
+    CHECK(page.find("<section id=\"bench\"") == std::string::npos);
+    const std::string file = temporary("page.html", "");
+    const auto refused = run({"report", hoop, "-o", file, "--poincare", "theta"});
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find("expected an equation of the state") != std::string::npos);
+}
+
+TEST_CASE("page: a force that acts later is drawn pale until then") {
+    const std::string scene = temporary("push.toml", R"toml(
+[inputs]
+F = "2*(1 + sign(t - 1))"
+[coordinates]
+x = 0
+[[particle]]
+name = "block"
+mass = 1
+position = ["x", 0]
+[[force]]
+at = "block"
+vector = ["F", 0]
+[simulation]
+duration = 2
+)toml");
+    const std::string page = page_of(scene);
+    CHECK(page.find("class=\"waiting\"") != std::string::npos);
+    const std::string always = temporary("pull.toml", R"toml(
+[coordinates]
+x = 0
+[[particle]]
+name = "block"
+mass = 1
+position = ["x", 0]
+[[force]]
+at = "block"
+vector = [3, 0]
+[simulation]
+duration = 1
+)toml");
+    CHECK(page_of(always).find("class=\"waiting\"") == std::string::npos);
+}
+
 }  // namespace commands_page

@@ -104,7 +104,7 @@ void pose(WatchedMotion& motion, const Drawing& drawing, const State<double>& st
     }
 }
 
-const char* const section_event = "section of Poincare";
+const char* const section_event = "section_of_Poincare_";
 
 /// The section as an event that is recorded.
 EventRule section_rule(const Overview& all, const std::string& section) {

@@ -95,7 +95,8 @@ std::string as_text(const Equilibria& found) {
     if (found.closed)
         put(page, "Solved in the parameters: these are all, modulo whole turns.\n");
     else if (!found.list.empty())
-        put(page, "Found by Newton's method from {} starts; there may be more.\n", found.search.starts);
+        put(page, "Found by Newton's method from {} starts; there may be more (--starts N searches longer).\n",
+            found.search.starts);
     return page;
 }
 

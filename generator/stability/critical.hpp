@@ -13,8 +13,8 @@
 ///
 /// If there are as many zero roots as parameters of the neighbouring steady motions, the state is stable (Lyapunov
 /// and Malkin). That these motions exist is proved by forces that vanish whenever some speeds are zero, as the one
-/// along the speed of a bicycle; where this does not succeed (in a dead zone), it is found by Newton's method in
-/// 34 digits, a small distance along some combinations of the zero eigenvectors.
+/// along the speed of a bicycle; where this does not succeed (in a dead zone), it is found by Newton's method a
+/// small distance along each zero eigenvector, in 34 digits.
 
 #include "stability/verdict.hpp"
 

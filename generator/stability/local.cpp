@@ -46,6 +46,21 @@ CertainMatrix solved(const CertainMatrix& A, const CertainMatrix& B, const char*
     return *std::move(result);
 }
 
+/// The member, and those of all sets that are joined to it by common members.
+std::vector<int> joined_by(const std::vector<std::vector<int>>& sets, int member) {
+    std::vector<int> result{member};
+    const auto is_in = [&](int i) { return position_in(result, i) >= 0; };
+    for (std::size_t size = 0; size < result.size();) {
+        size = result.size();
+        for (const std::vector<int>& set : sets) {
+            if (std::none_of(set.begin(), set.end(), is_in)) continue;
+            for (const int i : set)
+                if (!is_in(i)) result.push_back(i);
+        }
+    }
+    return result;
+}
+
 CertainMatrix column(const CertainVector& v) {
     return filled(static_cast<int>(v.size()), 1, [&](int i, int) { return v[i]; });
 }
@@ -94,21 +109,14 @@ bool Local::is_left_out_of_equations(int coordinate) const {
     return true;
 }
 
-/// The coordinate, and those that holonomic constraints tie to it.
-std::vector<int> Local::tied_to(int coordinate) const {
-    std::vector<int> result{coordinate};
-    const auto is_in = [&](int i) { return position_in(result, i) >= 0; };
-    for (std::size_t size = 0; size < result.size();) {
-        size = result.size();
-        for (const Mechanism::Constraint& c : mechanism.constraints) {
-            if (!c.position) continue;
-            std::vector<int> own;
-            for (int i = 0; i < residuals.n; ++i)
-                if (!is_identically_zero(c.row[i], mechanism)) own.push_back(i);
-            if (std::none_of(own.begin(), own.end(), is_in)) continue;
-            for (const int i : own)
-                if (!is_in(i)) result.push_back(i);
-        }
+/// For each holonomic constraint the coordinates on which it depends.
+std::vector<std::vector<int>> Local::ties() const {
+    std::vector<std::vector<int>> result;
+    for (const Mechanism::Constraint& c : mechanism.constraints) {
+        if (!c.position) continue;
+        result.emplace_back();
+        for (int i = 0; i < residuals.n; ++i)
+            if (!is_identically_zero(c.row[i], mechanism)) result.back().push_back(i);
     }
     return result;
 }
@@ -126,6 +134,8 @@ void Local::find_essential() {
         std::erase_if(left, [&](int r) { return !is_left_out_of_equations(split.q[r]); });
     } else if (!left.empty()) {
         const ExactField field(residuals, split);
+        const std::vector<std::vector<int>> constraints = ties();
+        const auto tied_to = [&](int coordinate) { return joined_by(constraints, coordinate); };
         std::vector<int> all;
         for (const int r : left)
             for (const int i : tied_to(split.q[r])) all.push_back(i);

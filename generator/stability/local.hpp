@@ -69,7 +69,7 @@ public:
 private:
     void find_essential();
     bool is_left_out_of_equations(int coordinate) const;
-    std::vector<int> tied_to(int coordinate) const;
+    std::vector<std::vector<int>> ties() const;
     void find_point(const ExactOverrides& exact_at);
     void settle();
     void find_momenta();
