@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "alembert/error.hpp"
 #include "linear/linearize_symbolic.hpp"
@@ -90,6 +91,23 @@ Stability stability_of_polynomial(const Scene& scene, const StabilityOptions& op
     return result;
 }
 
+namespace {
+
+/// Conditions of more terms than these nobody reads, and their determinants take minutes.
+constexpr double most_terms = 1e6;
+
+/// A bound on the number of terms of the largest Hurwitz determinant, in which n − 1 coefficients are multiplied.
+double terms_of_determinant(const SymbolicPolynomial& p) {
+    std::size_t most = 1;
+    for (const ex& coefficient : p) {
+        const ex sum = coefficient.expand();
+        if (GiNaC::is_a<GiNaC::add>(sum)) most = std::max(most, sum.nops());
+    }
+    return std::pow(static_cast<double>(most), static_cast<double>(p.size()) - 2);
+}
+
+}  // namespace
+
 void add_conditions(Stability& result, const Local& local, const ExactOverrides& exact_at) {
     const Mechanism& m = local.mechanism;
     std::vector<ex> q0 = m.q_start, u0 = m.qdot_start;
@@ -117,7 +135,7 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
     for (const MassElement& body : m.masses)
         if (GiNaC::is_a<GiNaC::symbol>(body.mass)) positive.push_back(body.mass);
     positive.push_back(p.front());
-    if (p.size() < 2) return;
+    if (p.size() < 2 || terms_of_determinant(p) > most_terms) return;
     bool odd_vanish = true;
     for (std::size_t k = 1; k < p.size(); k += 2) odd_vanish = odd_vanish && p[k].normal().is_zero();
     result.conditions =
