@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # tests/bench/claims.sh BUILD [COUNT]: COUNT random claims (10000), a half of them right and a half wrong, shared out over the textbook
 # scenes, judged by `check` and by an evaluation in 60 digits. Prints for each scene how many were proved, refuted and left undecided,
-# how many of these were false, and the slowest check. Then every equation that any formalism prints of any of these scenes is held
+# how many of these were false, and the seconds. Then every equation that any formalism prints of any of these scenes is held
 # against `check`. The exit code is 0 if no verdict was false and nothing that is printed was left unproved.
 set -eu
 build=${1:?usage: claims.sh BUILD [COUNT]}
