@@ -371,8 +371,12 @@ private:
 }  // namespace
 
 Audit audit_of(const Mechanism& mechanism) {
-    if (!constraints_are_open(mechanism)) return Auditing(mechanism).go();
-    Audit result = Auditing(with_sample_functions(mechanism)).go();
+    if (!constraints_are_open(mechanism)) {
+        const Mechanism own = with_own_intermediates(mechanism);
+        return Auditing(own).go();
+    }
+    const Mechanism sampled = with_sample_functions(mechanism);
+    Audit result = Auditing(sampled).go();
     result.start = start_of(mechanism).state();
     result.adjusted.clear();
     result.singular_poses.clear();
@@ -382,8 +386,7 @@ Audit audit_of(const Mechanism& mechanism) {
     }
     result.notes.push_back(
         "[functions] leaves functions in the constraints open: ranks and integrability are those with functions "
-        "chosen "
-        "at random in their place, and whether the initial state obeys the constraints is unknown");
+        "chosen at random in their place, and whether the initial state obeys the constraints is unknown");
     return result;
 }
 

@@ -84,6 +84,9 @@ struct SpringElement {
     GiNaC::ex stiffness, free_length;
     std::optional<std::pair<Vector3, Vector3>> between = {};  ///< positions of its ends
     GiNaC::ex along = 0;
+    /// d in V = ½ k d², if V is written so: the length without the free length, or the difference of two positions
+    /// on one axis.
+    std::optional<GiNaC::ex> extension = {};
 };
 
 struct Mechanism {
@@ -233,6 +236,10 @@ struct Mechanism {
     /// Q̂_i of the impulses.
     std::vector<GiNaC::ex> generalized_impulses() const;
 };
+
+/// The same mechanism with a copy of its table of intermediate symbols. Whoever names further expressions does so
+/// in a copy, so that the given mechanism does not change.
+Mechanism with_own_intermediates(const Mechanism& mechanism);
 
 /// A [polynomial]: its parameters, and its coefficients in them, highest power first.
 struct PolynomialScene {

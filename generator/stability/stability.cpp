@@ -17,6 +17,7 @@
 #include "stability/lyapunov.hpp"
 #include "stability/polynomial.hpp"
 #include "stability/potential.hpp"
+#include "stability/reversible.hpp"
 #include "stability/verdict.hpp"
 #include "state/assemble.hpp"
 
@@ -68,6 +69,8 @@ const char* name_of(StabilityTheorem theorem) {
             return "Lyapunov's critical case of one zero root";
         case StabilityTheorem::pair_on_axis:
             return "Lyapunov's critical case of a pair on the axis";
+        case StabilityTheorem::reversible:
+            return "reversibility (one frequency)";
         case StabilityTheorem::arnold:
             return "Arnold (two frequencies)";
         case StabilityTheorem::lyapunov_stable:
@@ -133,6 +136,7 @@ Decision by_potential(const Local& local, const PowerSign& power) {
 /// For nonlinear equations whose first approximation does not decide, the first method that does.
 Decision critical_case(const Local& local, const PowerSign& power, const std::vector<RootOf>& roots) {
     const std::function<Decision()> ways[] = {
+        [&] { return family_of_motions(local, roots, FamilyProof::exact); },
         [&] { return one_zero_root(local, roots); },
         [&] { return pair_on_axis(local, roots); },
         [&] {
@@ -140,7 +144,8 @@ Decision critical_case(const Local& local, const PowerSign& power, const std::ve
             return proof ? by_integrals(*proof, power.is_zero) : Decision{};
         },
         [&] { return by_potential(local, power); },
-        [&] { return family_of_motions(local, roots); },
+        [&] { return family_of_motions(local, roots, FamilyProof::in_numbers); },
+        [&] { return by_reversal(local, roots); },
         [&] { return by_arnold(local, power, roots); },
     };
     for (const auto& way : ways) try {

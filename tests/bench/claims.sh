@@ -8,5 +8,5 @@ set -eu
 build=${1:?usage: claims.sh BUILD [COUNT]}
 count=${2:-10000}
 scenes=$(ls "$(dirname "$0")"/../../scenes/textbook/*.toml | wc -l)
-ALEMBERT_CLAIMS=$(((count + 2 * scenes - 1) / (2 * scenes))) exec "$build/tests/test_generator" --no-version \
+ALEMBERT_ALL_SCENES=1 ALEMBERT_CLAIMS=$(((count + 2 * scenes - 1) / (2 * scenes))) exec "$build/tests/test_generator" --no-version \
     -tc='check: random right claims*,check: the equations that each formalism prints*'
