@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "scenes.hpp"
 
 namespace check_sheets {
 
@@ -156,6 +157,82 @@ holonomic = "(x - r*cos(th))^2 + r^2*sin(th)^2 - l^2"
     CHECK(check_of(crank("1.6"), rate)["verdict"] == "proved");
     CHECK(check_of(crank("-0.8"), rate)["verdict"] == "refuted");
     CHECK(check_of(crank("1.6"), "x = r*cos(th) + sqrt(l^2 - r^2*cos(th)^2)")["verdict"] == "refuted");
+}
+
+TEST_CASE("check: a coordinate that a constraint holds at zero has the cosine 1 and the sine 0") {
+    const std::string scene = temporary("held.toml", R"toml(
+[parameters]
+m = 1
+l = 1
+[coordinates]
+tilt = 0
+x = 0
+theta = 0.3
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x + l*sin(theta + tilt)", "-l*cos(theta)*cos(tilt)"]
+[[constraint]]
+name = "upright"
+holonomic = "tilt"
+)toml");
+    for (const char* right : {"cos(tilt) = 1", "sin(theta + tilt) = sin(theta)", "cos(tilt/2) = 1",
+                              "exp(tilt) = 1", "cos(pi + tilt) = -1", "cos(theta*tilt) = 1"}) {
+        INFO(right);
+        CHECK(check_of(scene, right)["verdict"] == "proved");
+    }
+    for (const char* wrong : {"cos(tilt) = -1", "sin(theta + tilt) = -sin(theta)", "cos(theta*tilt) = -1"}) {
+        INFO(wrong);
+        CHECK(check_of(scene, wrong)["verdict"] == "refuted");
+    }
+}
+
+TEST_CASE("check: numbers and parameters stand outside of signs and sizes, with their sign in the scene") {
+    const std::string scene = alembert::test::source_path("scenes/friction/coulomb_pendulum.toml");
+    for (const char* right : {"m*l^2*theta'' + mu*N*r*sign(theta') + m*g*l*sin(theta) = 0",
+                              "sign(-3*r*theta') = -sign(theta')", "abs(-3*r*theta'/l) = 3*r/l*abs(theta')"}) {
+        INFO(right);
+        CHECK(check_of(scene, right)["verdict"] == "proved");
+    }
+    for (const char* wrong : {"m*l^2*theta'' - mu*N*r*sign(theta') + m*g*l*sin(theta) = 0",
+                              "sign(r*theta') = r*sign(theta')", "abs(r*theta') = abs(theta')"}) {
+        INFO(wrong);
+        CHECK(check_of(scene, wrong)["verdict"] == "refuted");
+    }
+}
+
+// Two masses on a string through a hole in a table (Goldstein, Classical Mechanics, chapter 1).
+TEST_CASE("check: a constant of the motion may stand in a claim in any way where another claim gives it") {
+    const std::string scene = temporary("hole.toml", R"toml(
+[parameters]
+m1 = 1
+m2 = 2
+g = 9.81
+[coordinates]
+r = 1
+theta = { initial = 0, rate = 3 }
+[[particle]]
+name = "A"
+mass = "m1"
+position = ["r*cos(theta)", "r*sin(theta)"]
+[[particle]]
+name = "B"
+mass = "m2"
+position = [0, 0, "r"]
+[energy]
+potential = "m2*g*r"
+)toml");
+    const auto verdicts = [&](const std::string& given, const std::string& claim) {
+        const auto result =
+            run({"check", scene, temporary("hole.claims", "constants L\n" + claim + given), "--json"});
+        REQUIRE(!result.out.empty());
+        return Json::parse(result.out)["claims"][0]["verdict"];
+    };
+    const std::string given = "m1*r^2*theta' = L\n";
+    CHECK(verdicts(given, "(m1+m2)*r'' - L^2/(m1*r^3) + m2*g = 0\n") == "proved");
+    CHECK(verdicts(given, "(m1+m2)*r'' - L^2/(m1*r^2) + m2*g = 0\n") == "refuted");
+    CHECK(verdicts("", "(m1+m2)*r'' - L^2/(m1*r^3) + m2*g = 0\n") == "undecided");
+    CHECK(verdicts("m1*r*theta' = L\n", "(m1+m2)*r'' - L^2/(m1*r) + m2*g = 0\n") == "undecided");
 }
 
 }  // namespace check_sheets

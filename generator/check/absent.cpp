@@ -79,11 +79,12 @@ void add_products(const std::vector<std::string>& atoms, const std::vector<std::
 
 }  // namespace
 
-std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& m, const Equations& e) {
-    std::vector<std::string> terms, energies, at_rest, in_motion;
-    std::set<std::string> angles;
-    for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs})
-        collect_angles(*side->tree, side->text, angles);
+EquationTerms equation_terms(const Mechanism& m, const Equations& e) {
+    EquationTerms result;
+    const Derivation shown = derivation_of(m, e);
+    result.is_short = shown.definitions.empty();
+    if (!result.is_short) return result;
+    std::vector<std::string>& energies = result.of_energies;
     add_terms(m.kinetic_energy(), m, energies);
     add_terms(m.potential_energy(), m, energies);
     for (const ex& momentum : m.z->pull_back({{m.lagrangian(), 1}}, m.qdot)) add_terms(momentum, m, energies);
@@ -92,19 +93,29 @@ std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism&
             if (m.z->tree_size(part.value) <= largest_tree)
                 if (const auto f = fourier(m.z->expand(part.value), *m.symbols, most_texts); f && f->size() > 1)
                     energies.push_back("(" + text(readable(*f)) + ")");
-    const Derivation shown = derivation_of(m, e);
-    if (!shown.definitions.empty()) return {};
     for (const ReadableEquation& equation : shown.equations) {
-        add_terms(equation.lhs, terms);
-        add_terms(equation.rhs, terms);
+        add_terms(equation.lhs, result.of_equations);
+        add_terms(equation.rhs, result.of_equations);
     }
-    for (const auto& [name, zero] : shown.constraints) add_terms(zero, terms);
+    for (const auto& [name, zero] : shown.constraints) add_terms(zero, result.of_equations);
+    for (const auto* terms : {&result.of_equations, &result.of_energies})
+        for (const std::string& term : *terms) {
+            std::vector<Diagnostic> mistakes;
+            if (const Expression known = parse_expression(term, {}, mistakes); known.tree)
+                collect_angles(*known.tree, term, result.angles);
+        }
+    return result;
+}
+
+std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& m, const Equations& e,
+                                            const EquationTerms& known) {
+    if (!known.is_short) return {};
+    std::vector<std::string> terms = known.of_equations, at_rest, in_motion;
+    const std::vector<std::string>& energies = known.of_energies;
     terms.insert(terms.end(), energies.begin(), energies.end());
-    for (const std::string& term : std::vector<std::string>(terms)) {
-        std::vector<Diagnostic> mistakes;
-        if (const Expression known = parse_expression(term, {}, mistakes); known.tree)
-            collect_angles(*known.tree, term, angles);
-    }
+    std::set<std::string> angles = known.angles;
+    for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs})
+        collect_angles(*side->tree, side->text, angles);
     std::vector<std::string> turns;
     for (const std::string& angle : angles) {
         turns.push_back("sin(" + angle + ")");

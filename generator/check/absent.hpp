@@ -5,7 +5,7 @@
 /// eliminated equations.
 ///
 ///     // "m*l^2*theta'^2/2", "r'*phi'" …
-///     const std::vector<std::string> terms = terms_of_mechanics(claim, mechanism, equations);
+///     const std::vector<std::string> terms = terms_of_mechanics(claim, m, e, equation_terms(m, e));
 ///     // residual + (3/2)·m·terms[7] = 0 on every motion
 ///     absent_term(program, residual, nodes_of_terms, steady, states)
 ///
@@ -14,6 +14,7 @@
 /// up in a table of all small powers.
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,19 @@
 
 namespace alembert {
 
+/// The terms of the equations and of the energies as text, the same for all claims.
+struct EquationTerms {
+    bool is_short = true;  ///< whether the equations are short enough to be read
+    std::vector<std::string> of_equations, of_energies;
+    std::set<std::string> angles;  ///< of the sines and cosines in them
+};
+EquationTerms equation_terms(const Mechanism& mechanism, const Equations& equations);
+
 /// Terms that may stand in an equation about this mechanism, as text: those of its equations, constraints,
 /// energies and momenta, and products of two coordinates, rates, accelerations, multipliers or inputs with sines
 /// and cosines. If the claim differentiates, also derivatives of such terms. At most a few thousand.
 std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& mechanism,
-                                            const Equations& equations);
+                                            const Equations& equations, const EquationTerms& known);
 
 /// Parameters, and the sums of parameters in the claim.
 std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& mechanism);

@@ -18,6 +18,7 @@
 #include "check/solution.hpp"
 #include "check/static_combination.hpp"
 #include "check/vanishing.hpp"
+#include "formalism/elements.hpp"
 #include "formalism/routh.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
@@ -55,9 +56,11 @@ public:
                     std::erase_if(here, [&](std::size_t k) { return undetermined_in(k) == spoken; });
                     law_ = has_masses() || !spoken.empty() ? with_multipliers(spoken) : any_motion(e_, m_);
                     spoken_ = spoken;
+                    known_.reset();
                     settle(part, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
                 }
         }
+        withdraw();
         tell_kinematics();
         settle_apart();
         for (CheckedClaim& c : result_.claims)
@@ -75,7 +78,47 @@ private:
                 mistakes.push_back(mistake.diagnostic);
             }
         if (!mistakes.empty()) fail(scene_, mistakes);
+        define_constants();
         if (sheets_) positive_ = sheets_->positive();
+    }
+
+    /// Constants of the motion in claims that are not linear in them, from claims that give such a constant alone.
+    void define_constants() {
+        std::map<int, std::size_t> by;  // open name → the claim that gives it
+        std::vector<std::size_t> nonlinear;
+        for (std::size_t k = 0; k < forms_.size(); ++k) {
+            if (forms_[k].linear || scene_.claims[k].at != "motion") continue;
+            nonlinear.push_back(k);
+            for (const int o : forms_[k].open)
+                for (std::size_t j = 0; j < forms_.size() && claims_.open()[static_cast<std::size_t>(o)].constant;
+                     ++j)
+                    if (forms_[j].linear && forms_[j].open == std::vector<int>{o} &&
+                        scene_.claims[j].at == "motion")
+                        by.emplace(o, j);
+        }
+        for (const auto& [o, j] : by) {
+            const GiNaC::symbol constant = claims_.open()[static_cast<std::size_t>(o)].symbol;
+            const ex slope = m_.z->pull_back({{forms_[j].residual, 1}}, {constant})[0];
+            const ex rest = substitute(*m_.z, {forms_[j].residual}, {{constant, 0}})[0];
+            claims_.define(constant, m_.z->name(-rest / slope));
+        }
+        for (const std::size_t k : nonlinear) {
+            for (const int o : forms_[k].open)
+                if (by.contains(o)) rests_on_[k].push_back(by.at(o));
+            if (!rests_on_[k].empty()) forms_[k] = claims_.read(scene_.claims[k]);
+        }
+    }
+
+    /// A claim into which constants were put says nothing if the claims that give them are not right.
+    void withdraw() {
+        for (const auto& [k, claims] : rests_on_)
+            for (const std::size_t j : claims)
+                if (result_.claims[j].verdict != Verdict::proved) {
+                    result_.claims[k] = {};
+                    result_.claims[k].reason =
+                        fmt::format("it is not linear in a constant that only '{}' gives, which is not proved",
+                                    text_of(scene_.claims[j].equation));
+                }
     }
 
     /// Claims that need no states: motions in closed form, first approximations.
@@ -164,7 +207,7 @@ private:
         for (std::size_t k = 0; k < forms_.size(); ++k) {
             const CheckedClaim& c = result_.claims[k];
             if (scene_.claims[k].at == "motion" && c.verdict == Verdict::proved && c.where.empty() &&
-                forms_[k].open.empty() && !m_.z->depends(forms_[k].residual, multipliers))
+                forms_[k].open.empty() && !forms_[k].third && !m_.z->depends(forms_[k].residual, multipliers))
                 here.push_back(k);
         }
         if (here.empty()) return;
@@ -348,7 +391,8 @@ private:
                                           .wrong = wrong_,
                                           .claim = k,
                                           .in_motion = when_ == "motion",
-                                          .at_impact = when_ == "impact"},
+                                          .at_impact = when_ == "impact",
+                                          .known = known_},
                                          states);
         CheckedClaim& c = result_.claims[k];
         if (!found.reason.empty()) c.reason = found.reason;
@@ -436,12 +480,14 @@ private:
     const Scene& scene_;
     const Mechanism& m_;
     const Equations& e_;
-    Equations law_;                    // the equations for the current claims
+    Equations law_;  // the equations for the current claims
+    std::optional<EquationTerms> known_;
     std::vector<std::size_t> spoken_;  // the multipliers of m_.undetermined() in them
     Claims claims_;
     std::shared_ptr<RootSheets> sheets_;
     std::vector<ex> positive_;  // on the sheet of the scene and its claims, not of repairs that are tried
     std::vector<ClaimForm> forms_;
+    std::map<std::size_t, std::vector<std::size_t>> rests_on_;  // claim → claims that give constants in it
     std::string when_;
     std::set<std::size_t> wrong_;  // the wrong claims of the current group
     Checked result_;

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "derive/derive.hpp"
+#include "formalism/elements.hpp"
 #include "lower/lower.hpp"
+#include "model/held_functions.hpp"
 #include "notation/text.hpp"
 
 namespace alembert {
@@ -168,11 +170,9 @@ ex Claims::without_third_derivatives(const ex& residual, Place at) const {
                       K.determinant(GiNaC::determinant_algo::laplace));
 }
 
-ClaimForm Claims::read(const Claim& claim) {
-    ClaimForm form;
-    form.residual = without_third_derivatives(
-        m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs)), claim.place);
-    if (claim.at == "impact" && after_impact()) form.residual = at_impact(form.residual);
+bool Claims::find_open(ClaimForm& form) const {
+    form.open.clear();
+    form.linear = true;
     bool constants = false;
     const std::vector<GiNaC::symbol> symbols = open_symbols();
     const std::vector<ex> slopes = m_.z->pull_back({{form.residual, 1}}, symbols);
@@ -181,6 +181,20 @@ ClaimForm Claims::read(const Claim& claim) {
         form.open.push_back(static_cast<int>(k));
         form.linear = form.linear && !m_.z->depends(slopes[k], symbols);
         constants = constants || open_[k].constant;
+    }
+    return constants;
+}
+
+ClaimForm Claims::read(const Claim& claim) {
+    ClaimForm form;
+    const ex residual = m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs));
+    form.residual = without_third_derivatives(residual, claim.place);
+    form.third = !form.residual.is_equal(residual);
+    if (claim.at == "impact" && after_impact()) form.residual = at_impact(form.residual);
+    bool constants = find_open(form);
+    if (!form.linear && !defined_.empty()) {
+        form.residual = substitute(*m_.z, {form.residual}, defined_)[0];
+        constants = find_open(form);
     }
     form.order = order_of(form.residual, m_);
     if (constants) {
@@ -201,6 +215,8 @@ std::vector<int> Claims::lower(Program& program, const std::vector<ex>& list) co
     for (const Mechanism::Constraint* c : m_.undetermined())
         given.emplace_back(c->multiplier, program.variable({Variable::Kind::unknown, next_unknown++}));
     for (const Open& o : open_) given.emplace_back(o.symbol, program.variable(o.variable));
+    for (const auto& [call, value] : held_functions(m_))
+        given.emplace_back(call, lower_expressions(program, m_, {value})[0]);
     return lower_expressions(program, m_, list, given);
 }
 

@@ -21,6 +21,7 @@ struct ClaimForm {
     std::vector<int> open;  ///< positions in Claims::open of the names that occur
     bool linear = true;     ///< whether it is linear in these names
     int order = 0;          ///< highest derivative of a coordinate
+    bool third = false;     ///< whether it held third derivatives, which the equations of motion have replaced
 };
 
 /// A name that a claim leaves open: an unknown function or a constant of the motion.
@@ -39,6 +40,9 @@ public:
 
     /// Reads a claim of the scene. Throws SceneMistake.
     ClaimForm read(const Claim& claim);
+    /// From now on `read` puts the value of a constant of the motion, which another claim gives, into claims that
+    /// are not linear in what they leave open: L = m r² θ' into m r'' − L²/(m r³) = …
+    void define(const GiNaC::symbol& constant, const GiNaC::ex& value) { defined_[constant] = value; }
     GiNaC::ex read(const Expression& expression) { return m_.z->name(formulas_.value(expression)); }
 
     /// The rates after the scene's impulses (contact/impact.hpp), as expressions at the initial pose. Nothing if
@@ -56,6 +60,8 @@ public:
 
 private:
     GiNaC::ex at_impact(const GiNaC::ex& e) const;
+    /// Which names the form leaves open; returns whether constants are among them.
+    bool find_open(ClaimForm& form) const;
     void know_what_derive_prints(const Scene& scene, const std::string& by);
     void open_name(const std::string& name, bool constant);
     GiNaC::ex without_third_derivatives(const GiNaC::ex& residual, Place at) const;
@@ -64,6 +70,7 @@ private:
     const Equations& e_;
     Formulas formulas_;
     std::vector<Open> open_;
+    GiNaC::exmap defined_;
     std::vector<GiNaC::symbol> third_;  ///< q'''
     bool has_struck_ = false;
     std::optional<Impact::Exact> after_;

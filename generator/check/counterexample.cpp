@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "exact/expression_of.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -28,6 +32,34 @@ void describe_impact(const Told& told, const RealState& state, Counterexample& r
     for (std::size_t i = 0; i < q.size(); ++i) add(q[i].get_name() + "'(-)", impact.before[i]);
     for (std::size_t i = 0; i < q.size(); ++i) add(q[i].get_name() + "'", impact.after[i]);
     for (const auto& [multiplier, impulse] : impact.reactions) add(multiplier.get_name(), impulse);
+}
+
+/// The values that the functions of [functions] and their derivatives have there, in the claim and in the
+/// equations.
+void add_unspecified(const Told& told, const Program& p, const std::vector<int>& roots, const RealState& state,
+                     Counterexample& result) {
+    std::vector<int> calls;
+    for (const int id : p.needed(roots))
+        if (p[id].op == Op::unspecified) calls.push_back(id);
+    const auto value = evaluate(p, state, calls);
+    for (std::size_t k = 0; value && k < calls.size(); ++k) {
+        const auto call = expression_of(p, calls[k], told.mechanism, told.equations.lambda);
+        if (!call) continue;
+        const auto normal = fourier(told.mechanism.z->expand(*call), *told.mechanism.symbols);
+        if (!normal) continue;
+        const std::string name = text(readable(*normal));
+        const bool is_new = std::none_of(result.values.begin(), result.values.end(),
+                                         [&](const auto& known) { return known.first == name; });
+        if (is_new) result.values.emplace_back(name, text_of((*value)[k]));
+    }
+}
+
+void add_unspecified(const Told& told, const Motions& motions, const Program& p, const std::vector<int>& roots,
+                     const RealState& state, Counterexample& result) {
+    add_unspecified(told, p, roots, state, result);
+    const Motions::System& system = motions.entries();
+    for (const auto* entries : {&system.M, &system.f, &system.A, &system.drift, &system.gamma})
+        add_unspecified(told, motions.program(), *entries, state, result);
 }
 
 Counterexample described(const Told& told, const RealState& state, const numeric& residual,
@@ -89,7 +121,10 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
         const auto state = real_state(motions, p, {root}, seed);
         if (!state || !is_on_sheet(*state)) continue;
         const auto value = evaluate(p, *state, {root});
-        if (value && !is_small((*value)[0])) return described(told, *state, (*value)[0]);
+        if (!value || is_small((*value)[0])) continue;
+        Counterexample result = described(told, *state, (*value)[0]);
+        add_unspecified(told, motions, p, {root}, *state, result);
+        return result;
     }
     return std::nullopt;
 }
@@ -154,6 +189,7 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
                     state->value[{names[pivots[p]].variable.kind, names[pivots[p]].variable.index}] = x;
                 }
                 Counterexample result = described(told, *state, -row[columns], of.open);
+                add_unspecified(told, motions, rows.program, roots, *state, result);
                 result.of_derivative = rows.list[r].derived;
                 return result;
             }

@@ -5,7 +5,6 @@
 
 #include <array>
 
-#include "check/absent.hpp"
 #include "check/dimensions.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
@@ -87,7 +86,10 @@ private:
         std::vector<std::string> texts;
         std::vector<int> nodes;
         std::vector<Diagnostic> mistakes;
-        if (terms.empty()) terms = terms_of_mechanics(claim, m_, asked_.law);
+        if (terms.empty()) {
+            if (!asked_.known) asked_.known = equation_terms(m_, asked_.law);
+            terms = terms_of_mechanics(claim, m_, asked_.law, *asked_.known);
+        }
         for (std::string& text : terms) {
             const Expression value = parse_expression(text, {}, mistakes);
             const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 
+#include "check/absent.hpp"
 #include "check/claims.hpp"
 #include "check/slip.hpp"
 #include "exact/exact_states.hpp"
@@ -34,6 +35,7 @@ struct WrongClaim {
         wrong;          ///< other claims known to be wrong, of those that share open names with it
     std::size_t claim;  ///< position of the wrong claim
     bool in_motion, at_impact;
+    std::optional<EquationTerms>& known;  ///< of the law; made when it is first needed
 };
 
 /// `states`: the states at which the claim was compared with the equations.

@@ -12,6 +12,7 @@
 #include "formalism/joint_tree.hpp"
 #include "formalism/recursive.hpp"
 #include "lower/lower.hpp"
+#include "model/sample_functions.hpp"
 #include "state/assemble.hpp"
 #include "state/diagnose.hpp"
 #include "state/gimbal.hpp"
@@ -57,9 +58,10 @@ std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) 
 /// later, by the computations that use them.
 void refuse_contradiction(const Mechanism& m) {
     if (m.constraints.empty()) return;
-    Start start = start_of(m);
+    const Mechanism sampled = with_sample_functions(m);
+    Start start = start_of(sampled);
     try {
-        assemble(start, m, lower_constraints(m), {});
+        assemble(start, sampled, lower_constraints(sampled), {});
     } catch (const std::runtime_error&) {
         const Audit found = audit_of(m);
         if (found.contradictory.size() > 1) throw ModelError(found.problem);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "symbolic/functions.hpp"
+#include "symbolic/unspecified.hpp"
 
 namespace alembert {
 
@@ -51,6 +52,15 @@ private:
             }
             case Op::pow:
                 return ex(pow(args[0], args[1]));
+            case Op::unspecified: {
+                const auto position = GiNaC::ex_to<GiNaC::numeric>(args[0]).to_int();
+                UnspecifiedCall call{m_.symbols->functions().at(static_cast<std::size_t>(position)), {}, {}};
+                for (std::size_t k = 1; k < args.size(); k += 2) {
+                    call.orders.push_back(GiNaC::ex_to<GiNaC::numeric>(args[k]).to_int());
+                    call.arguments.push_back(args[k + 1]);
+                }
+                return unspecified_value(call);
+            }
             default:
                 return apply_function(name_of(node.op), args);
         }

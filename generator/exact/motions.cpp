@@ -11,6 +11,7 @@
 #include "exact/solve_condition.hpp"
 #include "formalism/rest.hpp"
 #include "lower/lower.hpp"
+#include "model/held_functions.hpp"
 #include "program/reduce_rows.hpp"
 
 namespace alembert {
@@ -46,6 +47,8 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     int next_unknown = m_;
     for (const Mechanism::Constraint* c : m.undetermined())
         given.emplace_back(c->multiplier, program_.variable({Variable::Kind::unknown, next_unknown++}));
+    for (const auto& [call, value] : held_functions(m))
+        given.emplace_back(call, lower_expressions(program_, m, {value})[0]);
     const std::vector<int> nodes = lower_expressions(program_, m, list, given);
     auto next = nodes.begin();
     const auto take = [&](int count) {
@@ -63,6 +66,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     std::vector<int> conditions(next, nodes.begin() + static_cast<std::ptrdiff_t>(own) - redundant);
     system_.redundant.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own) - redundant,
                              nodes.begin() + static_cast<std::ptrdiff_t>(own));
+    std::erase_if(conditions, [&](int node) { return program_.is_zero(node); });
     implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own), nodes.end());
 
     std::set<int> irreducible;

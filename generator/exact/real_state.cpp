@@ -16,20 +16,32 @@ namespace {
 
 using Key = RealState::Key;
 
-/// Finds the variables inside angles, and those outside.
+/// Finds the variables inside angles, and those outside. A variable of which only functions of [functions] hold
+/// more than angles is an angle too, because these functions take any value.
 void find_variables(const Program& p, const std::vector<int>& roots, std::set<Key>& angles, std::set<Key>& plain) {
-    std::set<std::pair<int, bool>> seen;
-    std::vector<std::pair<int, bool>> stack;
-    for (const int root : roots) stack.emplace_back(root, false);
+    enum class Where { outside, in_angle, in_unspecified };
+    std::set<Key> unspecified;
+    std::set<std::pair<int, Where>> seen;
+    std::vector<std::pair<int, Where>> stack;
+    for (const int root : roots) stack.emplace_back(root, Where::outside);
     while (!stack.empty()) {
-        const auto [id, inside] = stack.back();
+        const auto [id, where] = stack.back();
         stack.pop_back();
-        if (!seen.emplace(id, inside).second) continue;
+        if (!seen.emplace(id, where).second) continue;
         const Node& node = p[id];
-        if (node.op == Op::variable) (inside ? angles : plain).insert({node.variable.kind, node.variable.index});
+        if (node.op == Op::variable)
+            (where == Where::in_angle  ? angles
+             : where == Where::outside ? plain
+                                       : unspecified)
+                .insert({node.variable.kind, node.variable.index});
         const bool turns = node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
-        for (const int arg : node.args) stack.emplace_back(arg, inside || turns);
+        const Where inside = turns                                                   ? Where::in_angle
+                             : node.op == Op::unspecified && where == Where::outside ? Where::in_unspecified
+                                                                                     : where;
+        for (const int arg : node.args) stack.emplace_back(arg, inside);
     }
+    for (const Key& key : unspecified)
+        if (!angles.contains(key)) plain.insert(key);
 }
 
 /// Small numbers for the first seeds, less simple ones for larger seeds.

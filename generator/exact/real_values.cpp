@@ -2,6 +2,8 @@
 #include "exact/real_values.hpp"
 
 #include <cln/integer.h>
+#include <cln/integer_io.h>
+#include <cln/real.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -110,10 +112,31 @@ private:
                 return std::min(arg(0), arg(1));
             case Op::max:
                 return std::max(arg(0), arg(1));
+            case Op::unspecified: {
+                std::vector<numeric> args;
+                for (const int a : node.args) args.push_back(value_[a]);
+                return unspecified_sample(args);
+            }
         }
         return std::nullopt;
     } catch (const std::exception&) {  // a pole
         return std::nullopt;
+    }
+
+    /// A small fraction that depends on the arguments alone, of which those that are floats are rounded.
+    static numeric unspecified_sample(const std::vector<numeric>& args) {
+        std::uint64_t h = 0;
+        for (const numeric& x : args) {
+            std::ostringstream digits;
+            if (x.is_rational())
+                digits << x;
+            else
+                digits << cln::round1(cln::realpart((x * GiNaC::pow(numeric(10), numeric(30))).to_cl_N()));
+            for (const char c : digits.str() + ';') h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+        }
+        h ^= h >> 29;
+        const auto above = static_cast<int>(1 + h % 7), below = static_cast<int>(1 + h / 7 % 4);
+        return numeric(h / 28 % 2 == 0 ? above : -above) / numeric(below);
     }
 
     static numeric real(const numeric& x) { return GiNaC::ex_to<numeric>(GiNaC::ex(x).evalf()); }

@@ -38,7 +38,12 @@ Occurrences occurrences(const Program& p, int root) {
         }
         const bool inside = turned || node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
         const bool under = rooted || node.op == Op::sqrt;
-        for (const int arg : node.args) stack.emplace_back(arg, inside, under);
+        for (const int arg : node.args) {
+            stack.emplace_back(arg, inside, under);
+            // Inside a function of [functions]: outside and inside of sines, so that no condition is solved for
+            // it.
+            if (node.op == Op::unspecified) stack.emplace_back(arg, !inside, under);
+        }
     }
     return result;
 }

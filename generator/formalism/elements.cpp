@@ -136,8 +136,14 @@ std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, cons
 
 ex short_form(const ex& e, const Mechanism& m) {
     if (m.z->tree_size(e) > 3000) return e;
-    const auto f = fourier(m.z->expand(e), *m.symbols, 200);
-    return f && f->size() <= 20 ? m.z->name(expression(readable(*f))) : e;
+    const ex plain = m.z->expand(e);
+    if (const auto known = m.symbols->short_forms.find(plain); known != m.symbols->short_forms.end())
+        return m.z->name(known->second);
+    const auto f = fourier(plain, *m.symbols, 200);
+    if (!f || f->size() > 20) return e;
+    const ex result = expression(readable(*f));
+    m.symbols->short_forms.emplace(plain, result);
+    return m.z->name(result);
 }
 
 Equations equations_without_terms(const std::string& formalism, const Mechanism& m) {

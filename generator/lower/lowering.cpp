@@ -19,7 +19,7 @@ namespace {
 const std::map<std::string, Op>& operations() {
     static const std::map<std::string, Op> table = [] {
         std::map<std::string, Op> made;
-        for (int op = static_cast<int>(Op::sin); op <= static_cast<int>(Op::max); ++op)
+        for (int op = static_cast<int>(Op::sin); op <= static_cast<int>(Op::unspecified); ++op)
             made[name_of(static_cast<Op>(op))] = static_cast<Op>(op);
         return made;
     }();
@@ -126,6 +126,12 @@ int Lowering::symbol(const GiNaC::symbol& s) {
                               : info.order == 1 ? Variable::Kind::rate
                                                 : Variable::Kind::acceleration;
             return program_.variable({kind, info.index});
+        }
+        case SymbolInfo::Kind::function: {  // the first argument of a call
+            const auto position = static_cast<std::size_t>(info.index);
+            if (program_.functions.size() <= position) program_.functions.resize(position + 1);
+            program_.functions[position] = info.name;
+            return program_.number(info.index);
         }
         default:
             break;

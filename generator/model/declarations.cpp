@@ -76,6 +76,12 @@ void declare_coordinates(Building& here) {
     }
 }
 
+void declare_functions(Building& here) {
+    for (std::size_t i = 0; i < here.scene.functions.size(); ++i)
+        here.translator.know_function(here.m.symbols->declare(here.scene.functions[i].name.text,
+                                                              SymbolInfo::Kind::function, static_cast<int>(i)));
+}
+
 void define(Building& here) {
     for (const Speed& s : here.scene.speeds)
         here.translator.know_later(s.name.text, [&here, &s] {
@@ -142,6 +148,7 @@ void declare(Building& here) {
     declare_parameters(here);
     declare_inputs(here);
     declare_coordinates(here);
+    declare_functions(here);
     if (here.on_sheets) here.translator.go_on(here.sheets = std::make_shared<RootSheets>(here.m));
     define(here);
     if (!here.mistakes.empty()) fail(here.scene, here.mistakes);

@@ -9,7 +9,6 @@
 #include "alembert/error.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
-#include "symbolic/functions.hpp"
 
 namespace alembert {
 
@@ -82,7 +81,7 @@ void add_friction(Building& here, const FrictionRule& rule, int index) {
     if (rule.on) {
         const Pressing by = pressing_on(here, rule);
         made.multiplier = by.multiplier;
-        made.normal = by.may_pull ? *apply_function("abs", {by.multiplier}) : by.multiplier;
+        made.normal = by.may_pull ? *here.translator.applied("abs", {by.multiplier}) : by.multiplier;
     } else {
         made.normal = here.translator.scalar(rule.normal);
     }
@@ -90,7 +89,7 @@ void add_friction(Building& here, const FrictionRule& rule, int index) {
     if (all_zero(row))
         throw SceneMistake{
             {rule.slip.place(), fmt::format("the slip of {} contains no rate, so nothing slides there", what)}};
-    const ex side = *apply_function("sign", {made.slip});
+    const ex side = *here.translator.applied("sign", {made.slip});
     here.m.loads.push_back(
         {.origin = origin, .pairs = {{made.slip, here.m.z->name(-made.coefficient * made.normal * side)}}});
     here.m.frictions.push_back(std::move(made));

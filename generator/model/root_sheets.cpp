@@ -8,6 +8,7 @@
 #include "notation/factor.hpp"
 #include "notation/readable.hpp"
 #include "symbolic/fourier.hpp"
+#include "symbolic/functions.hpp"
 
 namespace alembert {
 
@@ -40,6 +41,13 @@ std::optional<ex> root_of_product(const ex& e) {
         product *= *root;
     }
     return product;
+}
+
+bool is_steady(const Polynomial& polynomial) {
+    for (const Term& term : polynomial.terms())
+        for (const Factor& factor : term.monomial)
+            if (!factor.atom->steady) return false;
+    return true;
 }
 
 /// The root of number · monomial · Π sumᵉ with even exponents.
@@ -101,12 +109,36 @@ std::optional<ex> RootSheets::root(const ex& square, Intermediates& z) {
     return z.name(e);
 }
 
+/// Nothing if the expression has no factor of numbers and parameters, or that factor is zero.
+std::optional<RootSheets::Split> RootSheets::split(const ex& e, const Intermediates& z) const {
+    if (z.tree_size(e) > largest_square) return std::nullopt;
+    const auto f = fourier(z.expand(e), *symbols_);
+    if (!f || f->polynomial().is_zero()) return std::nullopt;
+    const Factorization factors = Factorizer()(f->polynomial());
+    Split result{.constant = expression(factors.unit), .rest = 1};
+    for (const Factor& factor : factors.monomial)
+        (factor.atom->steady ? result.constant : result.rest) *=
+            expression(Polynomial(factor.atom, factor.exponent));
+    for (const auto& [sum, exponent] : factors.sums) {
+        const ex value = expression(sum);
+        (is_steady(sum) ? result.constant : result.rest) *= pow(value, exponent);
+    }
+    const double size = at_start(result.constant);
+    if (result.constant.is_equal(1) || !std::isfinite(size) || size == 0) return std::nullopt;
+    if (size < 0) result = {.constant = -result.constant, .rest = -result.rest};
+    return result;
+}
+
 std::optional<ex> RootSheets::magnitude(const ex& e, Intermediates& z) const {
-    if (z.depends(e, moving_)) return std::nullopt;
-    const ex plain = z.expand(e);
-    const double size = at_start(plain);
-    if (!std::isfinite(size) || size == 0) return std::nullopt;
-    return z.name(size > 0 ? plain : ex(-plain));
+    const auto parts = split(e, z);
+    if (!parts) return std::nullopt;
+    return z.name(parts->constant * *apply_function("abs", {z.name(parts->rest)}));
+}
+
+std::optional<ex> RootSheets::sign(const ex& e, Intermediates& z) const {
+    const auto parts = split(e, z);
+    if (!parts) return std::nullopt;
+    return z.name(*apply_function("sign", {z.name(parts->rest)}));
 }
 
 }  // namespace alembert

@@ -8,8 +8,9 @@
 ///     if (const auto e = sheets.root(r*r, *mechanism.z)) …  // r
 ///     sheets.positive();                      // r
 ///
-/// Nothing is assumed if e vanishes at the initial state or if a square is not recognized. |e| is kept unless e
-/// consists of parameters only, because a coordinate may pass zero. Simulations keep their roots.
+/// Nothing is assumed if e vanishes at the initial state or if a square is not recognized. |e| and sign e are kept
+/// but for factors that consist of parameters only, because a coordinate may pass zero: |r θ'| is r |θ'|.
+/// Simulations keep their roots.
 
 #include <memory>
 #include <optional>
@@ -26,14 +27,20 @@ public:
     /// e with e² = `square`, positive at the start. `z` has the intermediate symbols in `square` and gets those of
     /// the root.
     std::optional<GiNaC::ex> root(const GiNaC::ex& square, Intermediates& z);
-    /// |e|, if e consists of parameters only.
+    /// |e| and sign e, with the factors of numbers and parameters outside; nothing if there are none.
     std::optional<GiNaC::ex> magnitude(const GiNaC::ex& e, Intermediates& z) const;
+    std::optional<GiNaC::ex> sign(const GiNaC::ex& e, Intermediates& z) const;
 
     /// The expressions that are positive on the sheet and could be negative elsewhere, each once. They depend on
     /// coordinates or are differences of parameters.
     const std::vector<GiNaC::ex>& positive() const { return positive_; }
 
 private:
+    /// `constant` is positive at the scene's values.
+    struct Split {
+        GiNaC::ex constant, rest;
+    };
+    std::optional<Split> split(const GiNaC::ex& e, const Intermediates& z) const;
     double at_start(const GiNaC::ex& e) const;
     std::optional<GiNaC::ex> square_root(const GiNaC::ex& square, const Intermediates& z) const;
 

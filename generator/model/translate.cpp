@@ -5,7 +5,9 @@
 
 #include <cctype>
 
+#include "scene/functions.hpp"
 #include "symbolic/functions.hpp"
+#include "symbolic/unspecified.hpp"
 
 namespace alembert {
 
@@ -74,6 +76,46 @@ ex Translator::differentiated(ex value, int times, const Tree& tree) {
     return value;
 }
 
+/// diff(e, x, 2, y): the partial derivative, all other quantities of the scene being held.
+ex Translator::partial(const Tree& tree) {
+    ex value = scalar_of(*tree.args[0]);
+    for (const auto& [by, times] : derivative_steps(tree)) {
+        const ex variable = mechanism_.z->name(scalar_of(*by));
+        const bool is_free = GiNaC::is_a<GiNaC::symbol>(variable) &&
+                             mechanism_.z->find(GiNaC::ex_to<GiNaC::symbol>(variable)) == nullptr;
+        for (int i = 0; i < times; ++i)
+            value = is_free ? mechanism_.z->push_forward({value}, {{GiNaC::ex_to<GiNaC::symbol>(variable), 1}})[0]
+                            : by_argument(value, *by);
+        if (is_free && variable.is_equal(mechanism_.t) && value.is_zero())
+            throw SceneMistake{{current_->place(tree.offset),
+                                "this does not depend on t by itself; a derivative in the course of the motion is "
+                                "written with a prime: x' or (…)'"}};
+    }
+    return value;
+}
+
+/// The derivative of a call of a function of [functions] by one of its arguments, which `by` is equal to, or whose
+/// position it is.
+ex Translator::by_argument(const ex& value, const Tree& by) {
+    ex call = value;
+    if (GiNaC::is_a<GiNaC::symbol>(call))
+        if (const auto* entry = mechanism_.z->find(GiNaC::ex_to<GiNaC::symbol>(call))) call = entry->definition;
+    const auto of = unspecified_call(call);
+    const ex argument = mechanism_.z->name(scalar_of(by));
+    ex result = 0;
+    for (std::size_t k = 0; of && k < of->arguments.size(); ++k) {
+        const bool is_it = by.kind == Tree::Kind::number ? argument.is_equal(static_cast<int>(k + 1))
+                                                         : argument.is_equal(of->arguments[k]);
+        if (is_it) result += unspecified_value(differentiated_by(*of, k));
+    }
+    if (result.is_zero())
+        throw SceneMistake{
+            {current_->place(by.offset),
+             "expected by what is differentiated: a coordinate, a rate, a parameter, an input or t, or "
+             "for a function of [functions] one of its arguments or the position of one"}};
+    return result;
+}
+
 Value Translator::named(const Tree& tree) {
     const auto place = current_->place(tree.offset);
     if (tree.text == "pi") return GiNaC::Pi;
@@ -132,6 +174,15 @@ ex Translator::length(const Vector3& v) {
     return norm(v, z);
 }
 
+std::optional<ex> Translator::applied(const std::string& function, const std::vector<ex>& args) {
+    Intermediates& z = *mechanism_.z;
+    std::optional<ex> on_sheet;
+    if (sheets_ && function == "sqrt") on_sheet = sheets_->root(args[0], z);
+    if (sheets_ && function == "abs") on_sheet = sheets_->magnitude(args[0], z);
+    if (sheets_ && function == "sign") on_sheet = sheets_->sign(args[0], z);
+    return on_sheet ? on_sheet : apply_function(function, args);
+}
+
 ex Translator::power(const ex& base, const ex& exponent) {
     const ex twice = 2 * exponent;
     if (sheets_ && twice.info(GiNaC::info_flags::odd))
@@ -168,11 +219,12 @@ Value Translator::call(const Tree& tree) {
     if (tree.text == "cross") return cross(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
     if (tree.text == "norm") return length(vector_of(*tree.args[0]));
     std::vector<ex> args;
+    if (tree.text == "diff") return partial(tree);
     for (const TreePtr& arg : tree.args) args.push_back(z.name(scalar_of(*arg)));
-    if (sheets_ && (tree.text == "sqrt" || tree.text == "abs"))
-        if (const auto e = tree.text == "sqrt" ? sheets_->root(args[0], z) : sheets_->magnitude(args[0], z))
-            return *e;
-    if (const auto value = apply_function(tree.text, args)) return *value;
+    if (const auto open = functions_.find(tree.text); open != functions_.end())
+        return unspecified_value(
+            {.function = open->second, .arguments = args, .orders = std::vector<int>(args.size(), 0)});
+    if (const auto value = applied(tree.text, args)) return *value;
     throw SceneMistake{{current_->place(tree.offset), fmt::format("unknown function '{}'", tree.text)}};
 }
 

@@ -33,6 +33,9 @@ public:
     /// Declares a name whose value is computed when it is first asked for (definitions, in any order).
     void know_later(const std::string& name, std::function<Value()> value) { later_[name] = std::move(value); }
 
+    /// Declares a function of [functions].
+    void know_function(const GiNaC::symbol& function) { functions_.emplace(function.get_name(), function); }
+
     /// Declares a symbol whose time derivative is not known (an acceleration, a multiplier). Differentiating it is
     /// a mistake.
     void has_no_derivative(const GiNaC::symbol& symbol) { without_derivative_.push_back(symbol); }
@@ -41,6 +44,9 @@ public:
     void go_on(std::shared_ptr<RootSheets> sheets) { sheets_ = std::move(sheets); }
     /// |v|, on the sheet.
     GiNaC::ex length(const Vector3& v);
+    /// A function of the scene language (`sqrt`, `abs`, `sign` on the sheet); nothing if there is none of this
+    /// name.
+    std::optional<GiNaC::ex> applied(const std::string& function, const std::vector<GiNaC::ex>& args);
 
     /// Throws SceneMistake for mistakes that the reader could not see.
     GiNaC::ex scalar(const Expression& expression);
@@ -58,11 +64,14 @@ private:
     /// dot(omega(B), ex(B)) and the like of alpha, which are known without going by N.
     std::optional<GiNaC::ex> own_component(const Tree& u, const Tree& v) const;
     GiNaC::ex differentiated(GiNaC::ex value, int times, const Tree& tree);
+    GiNaC::ex partial(const Tree& tree);
+    GiNaC::ex by_argument(const GiNaC::ex& value, const Tree& by);
 
     const Mechanism& mechanism_;
     GeometryQueries queries_;
     std::map<std::string, Value> values_;
     std::map<std::string, std::function<Value()>> later_;
+    std::map<std::string, GiNaC::symbol> functions_;
     std::vector<GiNaC::symbol> without_derivative_;
     std::shared_ptr<RootSheets> sheets_;
     const Expression* current_ = nullptr;

@@ -12,6 +12,7 @@
 
 #include "notation/lettering.hpp"
 #include "notation/text.hpp"
+#include "notation/unspecified.hpp"
 
 namespace alembert {
 
@@ -29,6 +30,7 @@ bool is_fraction(const Phrase& phrase) {
 bool is_tall(const Phrase& phrase) {
     if (phrase.kind == Kind::quotient || is_fraction(phrase)) return true;
     if (phrase.kind == Kind::call && phrase.name == "sqrt") return true;
+    if (const auto call = unspecified_phrase(phrase); call && call->order > 0 && call->by_symbols) return true;
     if (phrase.kind == Kind::power) return is_tall(phrase.args[0]);
     return std::any_of(phrase.args.begin(), phrase.args.end(), is_tall);
 }
@@ -120,8 +122,40 @@ bool takes_exponent(const std::string& name) {
     return function_latex(name) == fmt::format("\\{}", name);
 }
 
+/// dV/dr, f'(x - c), ∂²f/∂x∂y; ∂₁f(x, 2x) where no letter says by which argument is differentiated.
+std::string write_unspecified(const UnspecifiedPhrase& call) {
+    std::string args;
+    for (const Phrase* arg : call.arguments) args += fmt::format("{}{}", args.empty() ? "" : ", ", write(*arg));
+    const bool tall =
+        std::any_of(call.arguments.begin(), call.arguments.end(), [](const Phrase* a) { return is_tall(*a); });
+    const std::string letter = symbol_latex(call.function->info), of = in_parentheses(args, tall);
+    if (call.order == 0) return letter + of;
+    const auto raised = [](int order) { return order == 1 ? "" : fmt::format("^{{{}}}", order); };
+    const bool alone = call.arguments.size() == 1;
+    if (call.by_symbols) {
+        const std::string d = alone ? "\\mathrm{d}" : "\\partial";
+        const std::string gap = alone ? "" : " ";
+        std::string below;
+        for (std::size_t k = 0; k < call.orders.size(); ++k)
+            if (call.orders[k] > 0)
+                below += fmt::format("{}{}{}{}{}", below.empty() ? "" : " \\, ", d, gap, write(*call.arguments[k]),
+                                     raised(call.orders[k]));
+        return fraction(d + raised(call.order) + gap + letter, below);
+    }
+    if (alone)
+        return letter +
+               (call.order <= 3 ? std::string(static_cast<std::size_t>(call.order), '\'')
+                                : fmt::format("^{{({})}}", call.order)) +
+               of;
+    std::string result;
+    for (std::size_t k = 0; k < call.orders.size(); ++k)
+        if (call.orders[k] > 0) result += fmt::format("\\partial_{{{}}}{} ", k + 1, raised(call.orders[k]));
+    return result + letter + of;
+}
+
 /// f^{e}(x); sin θ without parentheses.
 std::string write_call(const Phrase& phrase, const std::string& exponent) {
+    if (const auto call = unspecified_phrase(phrase)) return write_unspecified(*call);
     if (phrase.name == "sqrt") return fmt::format("\\sqrt{{{}}}", write(phrase.args[0]));
     if (phrase.name == "exp") return fmt::format("\\mathrm{{e}}^{{{}}}", write(phrase.args[0]));
     if (phrase.name == "abs") return fmt::format("\\left|{}\\right|", write(phrase.args[0]));

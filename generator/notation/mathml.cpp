@@ -12,6 +12,7 @@
 
 #include "notation/lettering.hpp"
 #include "notation/text.hpp"
+#include "notation/unspecified.hpp"
 
 namespace alembert {
 
@@ -114,7 +115,38 @@ bool takes_exponent(const std::string& name) {
     return false;
 }
 
+/// As in LaTeX: dV/dr, f′(x − c), ∂²f/∂x∂y.
+std::string write_unspecified(const UnspecifiedPhrase& call) {
+    std::string args;
+    for (const Phrase* arg : call.arguments) args += (args.empty() ? "" : "<mo>,</mo>") + write(*arg);
+    const std::string letter = symbol_mathml(call.function->info), of = applied + parenthesized(args);
+    if (call.order == 0) return row(letter + of);
+    const auto raised = [](const std::string& base, int order) {
+        return order == 1 ? base : element("msup", base + element("mn", std::to_string(order)));
+    };
+    const bool alone = call.arguments.size() == 1;
+    if (call.by_symbols) {
+        const std::string d = alone ? "<mi mathvariant=\"normal\">d</mi>" : operation("&#x2202;");
+        std::string below;
+        for (std::size_t k = 0; k < call.orders.size(); ++k)
+            if (call.orders[k] > 0) below += d + raised(write(*call.arguments[k]), call.orders[k]);
+        return element("mfrac", row(raised(d, call.order) + letter) + row(below));
+    }
+    if (alone) {
+        std::string primes;
+        for (int k = 0; k < call.order; ++k) primes += "&#x2032;";
+        return row(element("msup", letter + operation(primes)) + of);
+    }
+    std::string result;
+    for (std::size_t k = 0; k < call.orders.size(); ++k)
+        if (call.orders[k] > 0)
+            result += raised(element("msub", operation("&#x2202;") + element("mn", std::to_string(k + 1))),
+                             call.orders[k]);
+    return row(result + letter + of);
+}
+
 std::string write_call(const Phrase& phrase, const std::string& name) {
+    if (const auto call = unspecified_phrase(phrase)) return write_unspecified(*call);
     if (phrase.name == "sqrt") return element("msqrt", write(phrase.args[0]));
     if (phrase.name == "exp") return element("msup", "<mi mathvariant=\"normal\">e</mi>" + write(phrase.args[0]));
     if (phrase.name == "abs") return row(operation("|") + write(phrase.args[0]) + operation("|"));

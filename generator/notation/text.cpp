@@ -8,6 +8,8 @@
 #include <cln/integer.h>
 #include <cln/integer_io.h>
 
+#include "notation/unspecified.hpp"
+
 namespace alembert {
 
 namespace {
@@ -62,7 +64,26 @@ std::string language_name(const std::string& name) {
     return name == "csgn" ? "sign" : name == "minimum" ? "min" : name == "maximum" ? "max" : name;
 }
 
+/// V(r), diff(V(r),r), diff(f(x,c*t),x,2): as the scene language has it. diff(f(a,b),1,1) is by the first
+/// argument, where its own expression would say more or less than that.
+std::string write_unspecified(const UnspecifiedPhrase& call) {
+    std::string args;
+    for (const Phrase* arg : call.arguments) args += fmt::format("{}{}", args.empty() ? "" : ",", write(*arg));
+    std::string value = fmt::format("{}({})", call.function->info.name, args);
+    if (call.order == 0) return value;
+    for (std::size_t k = 0; k < call.orders.size(); ++k) {
+        if (call.orders[k] == 0) continue;
+        const Phrase& by = *call.arguments[k];
+        const bool by_itself =
+            call.by_symbols || (call.by_different && by.kind != Kind::symbol && by.kind != Kind::number);
+        value += by_itself ? fmt::format(",{}", write(by)) : fmt::format(",{}", k + 1);
+        if (call.orders[k] > 1 || !by_itself) value += fmt::format(",{}", call.orders[k]);
+    }
+    return fmt::format("diff({})", value);
+}
+
 std::string write_call(const Phrase& phrase) {
+    if (const auto call = unspecified_phrase(phrase)) return write_unspecified(*call);
     std::string args;
     for (const Phrase& arg : phrase.args) args += fmt::format("{}{}", args.empty() ? "" : ",", write(arg));
     return fmt::format("{}({})", language_name(phrase.name), args);

@@ -159,6 +159,8 @@ std::vector<Real> interpret(const Program& program, const State<Real>& state) {
             case Op::max:
                 value[id] = greater(arg(0), arg(1));
                 break;
+            case Op::unspecified:
+                program.refuse_unspecified(node);
         }
     }
     return value;

@@ -97,6 +97,14 @@ private:
                 const bool first = (point_.random(400, low.bits(), high.bits()).bits() & 1U) != 0;
                 return first == (node.op == Op::min) ? low : high;
             }
+            case Op::unspecified: {  // no identity relates its values at different arguments and its derivatives
+                std::uint64_t key = 0;
+                for (const int a : node.args)
+                    for (const Prime part : {value(a), value(a) * Prime::i()})
+                        key = point_.random(500, part.bits(), key).bits();
+                degree += 1;
+                return point_.random(501, key);
+            }
             case Op::log:
                 if (const Node& inner = program_[node.args[0]]; inner.op == Op::exp) return value(inner.args[0]);
                 break;
@@ -186,7 +194,7 @@ private:
     ModularAngle angle_or_leaf(int id) {
         if (auto result = angle_at(program_, result_.value, pi_, id)) return *result;
         result_.exact = false;
-        return ModularAngle{{value(id), 1}};
+        return angle_of_value(value(id));
     }
 
     Prime leaf(Prime monomial) const { return monomial.is_zero() ? pi_ : monomial; }

@@ -16,6 +16,10 @@ void add_term(ModularAngle& angle, Prime monomial, const Rational& c) {
 
 }  // namespace
 
+ModularAngle angle_of_value(Prime value) {
+    return value.is_zero() ? ModularAngle{} : ModularAngle{{value, 1}};
+}
+
 std::optional<ModularAngle> angle_at(const Program& program, const std::vector<Prime>& values, Prime pi, int id) {
     const Node& node = program[id];
     if (node.is_number()) return ModularAngle{{1, node.number}};
@@ -43,7 +47,7 @@ std::optional<ModularAngle> angle_at(const Program& program, const std::vector<P
         }
         return result;
     } else {
-        return ModularAngle{{values[static_cast<std::size_t>(id)], 1}};
+        return angle_of_value(values[static_cast<std::size_t>(id)]);
     }
     return result.size() > most_angle_terms ? std::nullopt : std::optional(result);
 }

@@ -16,6 +16,10 @@ namespace alembert {
 /// A polynomial in values: monomial's value → coefficient. The key 0 stands for π, and 1 for a plain number.
 using ModularAngle = std::map<Prime, Rational>;
 
+/// A value that is no sum or product, as an angle. One that is 0, as a constraint may hold a coordinate, is no
+/// angle at all: the key 0 is taken.
+ModularAngle angle_of_value(Prime value);
+
 /// Node `id` as such a polynomial in the values of its leaves; nothing if it has too many terms. `values` are
 /// those of the nodes on which it depends, `pi` the value of π.
 std::optional<ModularAngle> angle_at(const Program& program, const std::vector<Prime>& values, Prime pi, int id);

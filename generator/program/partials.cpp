@@ -62,6 +62,12 @@ public:
                 const Rational half = Rational(1) / 2;
                 return p_.sum(half, {{node.op == Op::min ? -half : half, above}});
             }
+            case Op::unspecified: {
+                if (k == 0 || k % 2 == 1) break;  // the function, or an order
+                std::vector<int> args = node.args;
+                args[k - 1] = p_.sum(1, {{1, args[k - 1]}});
+                return p_.call(Op::unspecified, std::move(args));
+            }
             case Op::number:
             case Op::pi:
             case Op::variable:

@@ -8,13 +8,15 @@
 #include <map>
 #include <stdexcept>
 
+#include "alembert/error.hpp"
+
 namespace alembert {
 
 namespace {
 
 constexpr std::array op_names{"number", "pi",   "variable", "sum",  "product", "sin",  "cos", "tan",
                               "asin",   "acos", "atan",     "sinh", "cosh",    "tanh", "exp", "log",
-                              "sqrt",   "abs",  "sign",     "pow",  "atan2",   "min",  "max"};
+                              "sqrt",   "abs",  "sign",     "pow",  "atan2",   "min",  "max", "unspecified"};
 
 bool is_odd_function(Op op) {
     switch (op) {
@@ -284,12 +286,22 @@ std::vector<int> Program::right_hand_side() const {
     return nodes;
 }
 
+void Program::refuse_unspecified(const Node& node) const {
+    const auto index = static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(nodes_[node.args[0]].number)));
+    const std::string name = index < functions.size() ? "'" + functions[index] + "'" : "a function";
+    throw ModelError(
+        "[functions] leaves " + name +
+        " open, so that what depends on it has no values; `derive`, `check`, `agree` and `audit` need "
+        "none. For numbers write its formula in place of it, for example as a name in [definitions]");
+}
+
 Program Program::shell() const {
     Program result;
     result.source_labels = source_labels;
     result.name = name;
     result.parameters = parameters;
     result.coordinates = coordinates;
+    result.functions = functions;
     result.speeds = speeds;
     result.formulation = formulation;
     result.is_textbook = is_textbook;

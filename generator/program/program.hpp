@@ -53,6 +53,7 @@ enum class Op : unsigned char {
     atan2,
     min,
     max,
+    unspecified,  ///< a call as in symbolic/unspecified.hpp; its first argument is the position of the function
 };
 
 /// The scene language's name: "sin" for Op::sin …
@@ -199,12 +200,16 @@ public:
     std::vector<std::string> source_labels;
     std::string name;                               ///< the name of the scene, that of its file without ending
     std::vector<Quantity> parameters, coordinates;  ///< the quantities to which the indices of variables refer
+    std::vector<std::string> functions;             ///< names of [functions], to which Op::unspecified refers
     std::vector<Quantity> speeds;  ///< the speeds in the state; if empty, the rates of the coordinates
     std::string formulation;       ///< formalism and form, for people
     /// Whether the equations are in their readable form, with the order of terms of a book.
     bool is_textbook = false;
     /// Whether the mass matrix is singular at every state, so that there are no accelerations.
     bool singular = false;
+
+    /// Throws ModelError for a node with Op::unspecified: the function has no values, and is named.
+    [[noreturn]] void refuse_unspecified(const Node& node) const;
 
 private:
     int intern(Node node);

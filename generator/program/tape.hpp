@@ -43,6 +43,7 @@ public:
                              .first = terms_.size(),
                              .count = 0,
                              .number = real_of<Real>(node.number)};
+            if (node.op == Op::unspecified) program.refuse_unspecified(node);
             for (std::size_t k = 0; k < node.args.size(); ++k) {
                 const bool is_sum = node.op == Op::sum;
                 terms_.push_back({node.args[k], is_sum ? real_of<Real>(node.coefficients[k]) : Real(0),
@@ -178,6 +179,8 @@ private:
                 break;
             case Op::max:
                 to = greater(arg(0), arg(1));
+                break;
+            case Op::unspecified:  // refused when the tape is made
                 break;
         }
     }

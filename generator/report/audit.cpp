@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "notation/text.hpp"
 #include "report/page.hpp"
 
@@ -30,7 +32,7 @@ Json as_json(const Audited& audited) {
         one["integrable_alone"] = or_null(c.alone);
         one["integral"] = c.integral ? Json(text(*c.integral)) : Json(nullptr);
         one["redundant"] = c.redundant;
-        one["residual"] = c.residual;
+        one["residual"] = std::isfinite(c.residual[0]) ? Json(c.residual) : Json(nullptr);
         one["notes"] = c.notes;
         json["constraints"].push_back(one);
     }
@@ -89,11 +91,14 @@ std::string as_text(const Audited& audited) {
     for (const AuditedConstraint& c : audit.constraints) width = std::max(width, c.name.size());
     put(page, "\n{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9}\n", "constraint", width, "kind",
         "time", "integrable", "alone", "redundant", "position", "velocity");
+    const auto size = [](double residual) {
+        return std::isfinite(residual) ? fmt::format("{:.2g}", residual) : std::string("unknown");
+    };
     for (const AuditedConstraint& c : audit.constraints)
-        put(page, "{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9.2g}\n", c.name, width,
+        put(page, "{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9}\n", c.name, width,
             c.holonomic ? "holonomic" : "nonholonomic", c.rheonomic ? "rheonomic" : "scleronomic",
             answer(c.integrable), answer(c.alone), c.redundant ? "yes" : "no",
-            c.holonomic ? fmt::format("{:.2g}", c.residual[0]) : "-", c.residual[1]);
+            c.holonomic ? size(c.residual[0]) : "-", size(c.residual[1]));
     put(page, "\n");
     for (const AuditedConstraint& c : audit.constraints) {
         if (c.integral) put(page, "{}: {} = const\n", c.name, text(*c.integral));

@@ -250,7 +250,6 @@ private:
         const Token name = now();
         const Function* const function = find_function(words_.word(name));
         next();
-        if (!function) refuse_function(words_, name);
         if (now().kind == Token::Kind::primes)
             stop(now().offset,
                  fmt::format("a function has no prime; differentiate what it gives: ({})'", function->usage));
@@ -270,8 +269,8 @@ private:
             stop(now().offset,
                  fmt::format("a function's value is differentiated in parentheses of its own: ({})'",
                              escaped(words_.text.substr(name.offset, words_.end() - name.offset), 30)));
-        check_arguments(*function, args, name.offset);
-        return {make(Kind::call, name.offset, std::string(function->name), std::move(args)), {}};
+        if (function) check_arguments(*function, args, name.offset);
+        return {make(Kind::call, name.offset, words_.word(name), std::move(args)), {}};
     }
 };
 

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "scene/expression.hpp"
-
 namespace alembert {
 namespace {
 
@@ -42,6 +40,7 @@ constexpr Function functions[] = {
     {"ex", 1, 1, Takes::frames, true, "ex(B)"},
     {"ey", 1, 1, Takes::frames, true, "ey(B)"},
     {"ez", 1, 1, Takes::frames, true, "ez(B)"},
+    {"diff", 2, any, Takes::derivative, false, "diff(V(r), r)"},
 };
 
 }  // namespace
@@ -55,6 +54,16 @@ const Function* find_function(std::string_view name) {
 bool is_reserved_function(std::string_view name) {
     const Function* const function = find_function(name);
     return function != nullptr && function->takes == Takes::scalars;
+}
+
+std::vector<DerivativeStep> derivative_steps(const Tree& call) {
+    std::vector<DerivativeStep> steps;
+    for (std::size_t k = 1; k < call.args.size(); ++k) {
+        const bool counted = k + 1 < call.args.size() && call.args[k + 1]->kind == Tree::Kind::number;
+        steps.push_back({call.args[k], counted ? std::stoi(call.args[k + 1]->text) : 1});
+        if (counted) ++k;
+    }
+    return steps;
 }
 
 const std::vector<std::string>& function_names() {

@@ -29,17 +29,21 @@ std::string argument_text(const Words& words) {
     return "(…)";
 }
 
+/// The numbers in a call of diff are orders of derivatives or positions of arguments.
+void check_derivative(const std::vector<TreePtr>& args) {
+    for (std::size_t k = 1; k < args.size(); ++k) {
+        const Tree& arg = *args[k];
+        const bool is_whole = arg.text.size() == 1 && arg.text[0] >= '1' && arg.text[0] <= '9';
+        if (arg.kind == Tree::Kind::number && !is_whole)
+            stop(arg.offset,
+                 "diff takes whole numbers from 1 to 9: how often, or by which argument, is differentiated");
+    }
+}
+
 }  // namespace
 
 void stop(int offset, std::string message) {
     throw Mistake{offset, std::move(message)};
-}
-
-void refuse_function(const Words& words, const Token& name) {
-    const std::string word = words.word(name), meant = nearest(word, function_names());
-    stop(name.offset,
-         fmt::format("unknown function {}{}; if a product was meant write {}*{}", in_quotes(word),
-                     meant.empty() ? "" : "; did you mean '" + meant + "'?", escaped(word), argument_text(words)));
 }
 
 void refuse_power_of_function(Words words, const Token& name) {
@@ -61,8 +65,11 @@ void refuse_neighbour(const Words& words, int begin) {
     std::string left = words.text.substr(begin, words.end() - begin);
     if (left.size() > 24) left = words.word(words.last());
     const std::string right = is_open ? argument_text(words) : words.word(next);
-    stop(next.offset, fmt::format("an operator is missing here; if a product was meant write {}*{}", escaped(left),
-                                  escaped(right)));
+    const bool is_primed = is_open && words.last().kind == Token::Kind::primes;
+    stop(next.offset,
+         fmt::format("an operator is missing here; if a product was meant write {}*{}{}", escaped(left),
+                     escaped(right),
+                     is_primed ? "; the derivative of a function of [functions] is diff(f(x), x)" : ""));
 }
 
 void refuse_missing_operand(const Words& words) {
@@ -96,6 +103,7 @@ void check_arguments(const Function& function, const std::vector<TreePtr>& args,
         stop(begin, fmt::format("'{}' takes {} argument{}, not {}: {}", function.name, expected, is_one ? "" : "s",
                                 count, function.usage));
     }
+    if (function.takes == Function::Takes::derivative) check_derivative(args);
     if (function.takes != Function::Takes::points && function.takes != Function::Takes::frames) return;
     const char* const expected = function.takes == Function::Takes::points ? "point" : "frame or body";
     for (const TreePtr& arg : args)

@@ -14,9 +14,6 @@ namespace alembert {
 
 [[noreturn]] void stop(int offset, std::string message);
 
-/// For `l(x)` where l is no function; the name has been read.
-[[noreturn]] void refuse_function(const Words& words, const Token& name);
-
 /// For `sin^2(x)`; the name has been read.
 [[noreturn]] void refuse_power_of_function(Words words, const Token& name);
 

@@ -45,6 +45,7 @@ inline constexpr TableKeys table_keys[] = {
     {"speeds", TableKeys::Shape::one},
     {"speeds.*", TableKeys::Shape::inner, {"form", "initial", "unit", "about"}},
     {"definitions", TableKeys::Shape::one},
+    {"functions", TableKeys::Shape::one},
     {"frame", TableKeys::Shape::list, {"name", "parent", "rotate", "quaternion"}},
     {"point", TableKeys::Shape::list, {"name", "from", "offset", "axes"}},
     {"particle", TableKeys::Shape::list, {"name", "mass", "at", "position", "from", "axes"}},

@@ -37,6 +37,8 @@ bool is_reserved(const std::string& name, DeclaredAs kind) {
             return name == "O";
         case DeclaredAs::body:
             return name == "N" || name == "O";
+        case DeclaredAs::function:
+            return name == "t" || name == "pi" || find_function(name) != nullptr;
         default:
             return name == "t" || name == "pi" || is_reserved_function(name);
     }
@@ -87,6 +89,12 @@ std::array<Name, 3> multipliers_of(const RollingRule& rule) {
             Name{stem + "_z", rule.name.place}};
 }
 
+std::string UnspecifiedFunction::usage() const {
+    std::string list;
+    for (const Name& argument : arguments) list += (list.empty() ? "" : ", ") + argument.text;
+    return fmt::format("{}({})", name.text, list);
+}
+
 std::string described(DeclaredAs kind) {
     switch (kind) {
         case DeclaredAs::coordinate:
@@ -99,6 +107,8 @@ std::string described(DeclaredAs kind) {
             return "an input";
         case DeclaredAs::definition:
             return "a definition";
+        case DeclaredAs::function:
+            return "a function";
         case DeclaredAs::frame:
             return "a frame";
         case DeclaredAs::point:
@@ -119,6 +129,7 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     add(values, scene.parameters, DeclaredAs::parameter);
     add(values, scene.inputs, DeclaredAs::input);
     add(values, scene.definitions, DeclaredAs::definition);
+    add(values, scene.functions, DeclaredAs::function);
     std::vector<Name> multipliers;
     for (const ConstraintRule& rule : scene.constraints)
         multipliers.push_back(rule.multiplier ? *rule.multiplier
@@ -149,7 +160,7 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     refuse(bodies);
     frames.insert(frames.end(), bodies.begin(), bodies.end());
     points.insert(points.end(), bodies.begin(), bodies.end());
-    return {enter(values, diagnostics), enter(frames, diagnostics), enter(points, diagnostics)};
+    return {enter(values, diagnostics), enter(frames, diagnostics), enter(points, diagnostics), scene.functions};
 }
 
 std::vector<std::string> spellings(const NameSpaces::Space& space) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The three name spaces of a scene: values (coordinates, speeds, parameters, inputs, definitions), frames (and
-/// bodies), points (and particles and bodies' mass centres).
+/// The three name spaces of a scene: values (coordinates, speeds, parameters, inputs, definitions, functions),
+/// frames (and bodies), points (and particles and bodies' mass centres).
 
 #include <string>
 #include <unordered_map>
@@ -13,7 +13,19 @@
 namespace alembert {
 
 struct Declared {
-    enum class Kind { coordinate, speed, parameter, input, definition, frame, point, particle, body, multiplier };
+    enum class Kind {
+        coordinate,
+        speed,
+        parameter,
+        input,
+        definition,
+        function,
+        frame,
+        point,
+        particle,
+        body,
+        multiplier
+    };
     Kind kind;
     std::size_t index;  ///< the position in the scene's list of that kind
     Place place;
@@ -25,6 +37,7 @@ std::string described(Declared::Kind kind);
 struct NameSpaces {
     using Space = std::unordered_map<std::string, Declared>;
     Space values, frames, points;
+    std::vector<UnspecifiedFunction> functions;
 
     static const Declared* find(const Space& space, const std::string& name) {
         const auto found = space.find(name);

@@ -50,9 +50,16 @@ void Quantities::describe(const Definition& definition) {
     const Legal anything{.subject = "a definition", .order = 2, .input_order = 2, .time = true};
     const Legal motion{.subject = "a prescribed motion", .input_order = 0, .time = true};
     Context context{definition.value, definition.is_motion ? motion : anything};
-    if (definition.is_motion)
+    if (definition.is_motion) {
         need_scalar(context, *definition.value.tree, 0);
-    else if (rank(context, *definition.value.tree, 0) == Rank::vector)
+    } else if (definition.has_components) {
+        for (const TreePtr& term : definition.value.tree->args)
+            if (rank(context, *term->args[0], 0) == Rank::vector)
+                complain(context, *term->args[0],
+                         "a component of a vector is a number, and this is a vector; take its component "
+                         "with dot(…, ex(N)), or write a sum of vectors without brackets");
+        vectors_.insert(definition.name.text);
+    } else if (rank(context, *definition.value.tree, 0) == Rank::vector)
         vectors_.insert(definition.name.text);
     definitions_[definition.name.text] = context.contents;
 }
@@ -141,11 +148,13 @@ Quantities::Rank Quantities::rank_of_product(Context& context, const Tree& tree,
 
 Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, int raised) {
     const Function* const function = find_function(tree.text);
-    if (!function) {  // x'(-)
+    if (!function) {
+        if (tree.text != "(-)") meet_function(context, tree);
         for (const TreePtr& arg : tree.args) need_scalar(context, *arg, raised);
         return Rank::number;
     }
     for (const TreePtr& arg : tree.args) switch (function->takes) {
+            case Function::Takes::derivative:
             case Function::Takes::scalars:
                 if (rank(context, *arg, raised) == Rank::vector)
                     complain(context, *arg,
@@ -169,6 +178,35 @@ Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, in
     if (function->takes == Function::Takes::points || function->takes == Function::Takes::frames)
         meet(context, tree, {.order = function->order}, raised);
     return function->gives_vector ? Rank::vector : Rank::number;
+}
+
+/// A call of a function of [functions].
+void Quantities::meet_function(Context& context, const Tree& tree) {
+    const Declared* const declared = NameSpaces::find(names_.values, tree.text);
+    if (!declared || declared->kind != Declared::Kind::function) {
+        const std::string& text = context.expression.text;
+        const std::size_t opening = text.find('(', static_cast<std::size_t>(tree.offset));
+        const std::size_t end = static_cast<std::size_t>(tree.offset + tree.length);
+        const std::string argument =
+            opening < end && end - opening <= 24 ? escaped(text.substr(opening, end - opening)) : "(…)";
+        std::vector<std::string> known = function_names();
+        for (const UnspecifiedFunction& f : names_.functions) known.push_back(f.name.text);
+        const std::string meant = nearest(tree.text, known);
+        return complain(
+            context, tree,
+            fmt::format("unknown function {}{}; if a product was meant write {}*{}", in_quotes(tree.text),
+                        meant.empty() ? "" : "; did you mean '" + meant + "'?", escaped(tree.text), argument));
+    }
+    const UnspecifiedFunction& function = names_.functions[declared->index];
+    if (tree.args.size() != function.arguments.size())
+        complain(context, tree,
+                 fmt::format("{} takes {} argument{}, not {}: {}", in_quotes(tree.text), function.arguments.size(),
+                             function.arguments.size() == 1 ? "" : "s", tree.args.size(), function.usage()));
+    if (context.legal.order < 0)
+        complain(context, tree,
+                 fmt::format("{} needs a value, and {} has none: [functions] leaves it open",
+                             context.legal.subject, in_quotes(tree.text)));
+    context.contents.order = std::max(context.contents.order, 0);  // where it is open, so are values
 }
 
 void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
@@ -202,6 +240,11 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
             contents.order = 1;
             return meet(context, tree, contents, raised + tree.primes);
         }
+        case Declared::Kind::function:
+            return complain(context, tree,
+                            fmt::format("{} is a function; write {}{}", in_quotes(tree.text),
+                                        names_.functions[declared->index].usage(),
+                                        tree.primes > 0 ? ", and diff(…) for its derivative" : ""));
         case Declared::Kind::multiplier:
             if (!context.legal.multipliers)
                 complain(context, tree,

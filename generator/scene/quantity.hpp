@@ -86,6 +86,7 @@ private:
     Rank rank_of_sum(Context& context, const Tree& tree, int raised);
     Rank rank_of_product(Context& context, const Tree& tree, int raised);
     Rank rank_of_call(Context& context, const Tree& tree, int raised);
+    void meet_function(Context& context, const Tree& tree);
     void meet_name(Context& context, const Tree& tree, int raised);
     void meet_unknown(Context& context, const Tree& tree);
     void meet(Context& context, const Tree& tree, Contents found, int raised);

@@ -42,6 +42,7 @@ constexpr Section sections[] = {
     {"coordinates", one<read_coordinates>},
     {"speeds", one<read_speeds>},
     {"definitions", one<read_definitions>},
+    {"functions", one<read_functions>},
     {"frame", each<read_frame>},
     {"point", each<read_point>},
     {"particle", each<read_particle>},

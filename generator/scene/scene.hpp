@@ -57,6 +57,15 @@ struct Definition {
     Expression value;
     /// Whether this prescribes a joint's coordinate; then it depends on t, inputs and parameters only.
     bool is_motion = false;
+    bool has_components =
+        false;  ///< whether it was given as [x, y, z]; `value` is then x*ex(N) + y*ey(N) + z*ez(N)
+};
+
+/// A function that the scene leaves open: V(r).
+struct UnspecifiedFunction {
+    Name name;
+    std::vector<Name> arguments;  ///< only their number counts
+    std::string usage() const;    ///< "V(r)"
 };
 
 /// A generalized speed, which is linear in the rates.
@@ -258,6 +267,7 @@ struct Scene {
     std::vector<Coordinate> coordinates;
     std::vector<Speed> speeds;
     std::vector<Definition> definitions;
+    std::vector<UnspecifiedFunction> functions;
     std::vector<Frame> frames;
     std::vector<Point> points;
     std::vector<Particle> particles;

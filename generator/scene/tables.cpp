@@ -120,10 +120,26 @@ Expression along_N(const Vector& vector, const Reading& reading) {
 void read_definitions(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries()) {
         const std::string what = labelled("definition", entry.key);
+        const bool has_components = entry.node->is_array();
         scene.definitions.push_back(
-            {{entry.key, entry.place},
-             entry.node->is_array() ? along_N(read_vector(table.reading(), *entry.node, what), table.reading())
-                                    : read_expression(table.reading(), *entry.node, what)});
+            {.name = {entry.key, entry.place},
+             .value = has_components ? along_N(read_vector(table.reading(), *entry.node, what), table.reading())
+                                     : read_expression(table.reading(), *entry.node, what),
+             .has_components = has_components});
+    }
+}
+
+void read_functions(const Table& table, Scene& scene) {
+    constexpr std::size_t most_arguments = 4;
+    for (const Entry& entry : table.entries()) {
+        UnspecifiedFunction made{
+            {entry.key, entry.place},
+            read_names(table.reading(), *entry.node, labelled("the arguments of function", entry.key))};
+        if (made.arguments.size() > most_arguments || (made.arguments.empty() && entry.node->is_array()))
+            table.reading().complain(
+                entry.place, fmt::format("a function has one to {} arguments, as in V = [\"r\"]; {} has {}",
+                                         most_arguments, in_quotes(entry.key), made.arguments.size()));
+        scene.functions.push_back(std::move(made));
     }
 }
 

@@ -12,6 +12,7 @@
 #include "alembert/tolerances.hpp"
 #include "formalism/elements.hpp"
 #include "lower/lower.hpp"
+#include "model/sample_functions.hpp"
 #include "state/assemble.hpp"
 #include "state/contradiction.hpp"
 
@@ -53,6 +54,7 @@ std::vector<int> order_of_keeping(const Mechanism& mechanism, const Eigen::Matri
 }  // namespace
 
 std::vector<int> redundant_constraints(const Mechanism& mechanism) {
+    if (constraints_are_open(mechanism)) return redundant_constraints(with_sample_functions(mechanism));
     if (mechanism.constraints.size() < 2 && static_cast<int>(mechanism.constraints.size()) < mechanism.size())
         return {};
     const Program program = lower_constraints(mechanism);
@@ -166,11 +168,12 @@ Mechanism with_regular_rows(Mechanism mechanism) {
             return mechanism.constraints[k].rolling == static_cast<int>(r);
         });
         if (own == redundant.end()) continue;
+        const Mechanism sampled = with_sample_functions(mechanism);
         const std::vector<State<double>> places =
-            states_that_obey(without_constraints(mechanism, redundant), start_of(mechanism), states);
+            states_that_obey(without_constraints(sampled, redundant), start_of(sampled), states);
         if (std::any_of(own, redundant.end(), [&](int k) {
                 return mechanism.constraints[k].rolling == static_cast<int>(r) &&
-                       factors_change(mechanism, k, redundant, places);
+                       factors_change(sampled, k, redundant, places);
             }))
             mechanism = along_axes(std::move(mechanism), static_cast<int>(r));
     }
@@ -215,7 +218,7 @@ Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& posit
 }
 
 void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant) {
-    if (redundant.empty()) return;
+    if (redundant.empty() || constraints_are_open(mechanism)) return;
     Mechanism others = without_constraints(mechanism, redundant);
     others.q_is_guess.assign(mechanism.q.size(), true);
     others.qdot_is_guess.assign(mechanism.q.size(), true);

@@ -11,6 +11,7 @@
 #include "formalism/kinematics.hpp"
 #include "lower/lower.hpp"
 #include "lower/start.hpp"
+#include "model/sample_functions.hpp"
 
 namespace alembert {
 
@@ -33,6 +34,7 @@ int first_dependent(const Eigen::MatrixXd& rows) {
 }  // namespace
 
 std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
+    if (constraints_are_open(m)) return mistake_in_speeds(with_sample_functions(m));
     if (m.speeds.empty()) return std::nullopt;
     const int n = m.size(), count = static_cast<int>(m.speeds.size());
     const std::vector<int> allowed = allowed_speeds(m);

@@ -4,6 +4,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "symbolic/unspecified.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -99,7 +101,7 @@ std::optional<ex> apply_function(const std::string& name, const std::vector<ex>&
 
 std::string function_name(const ex& call) {
     const std::string name = GiNaC::ex_to<GiNaC::function>(call).get_name();
-    if (name == "atan2") return name;
+    if (name == "atan2" || name == unspecified_name) return name;
     if (name == "minimum") return "min";
     if (name == "maximum") return "max";
     return find_unary(name).name;
@@ -107,6 +109,10 @@ std::string function_name(const ex& call) {
 
 ex function_derivative(const ex& call, int k) {
     const std::string name = GiNaC::ex_to<GiNaC::function>(call).get_name();
+    if (name == unspecified_name) {
+        if (k == 0 || k % 2 == 1) return 0;  // the function, or an order
+        return unspecified_value(differentiated_by(*unspecified_call(call), static_cast<std::size_t>(k / 2 - 1)));
+    }
     if (name == "atan2") {
         const ex &y = call.op(0), &x = call.op(1);
         return (k == 0 ? x : -y) / (x * x + y * y);

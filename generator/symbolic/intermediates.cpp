@@ -65,6 +65,16 @@ void Intermediates::adopt(const Intermediates& other) {
     }
 }
 
+void Intermediates::redefine(const std::function<std::optional<ex>(const ex& definition)>& by) {
+    for (Entry& entry : entries_)
+        if (const std::optional<ex> definition = by(entry.definition)) {
+            entry.definition = *definition;
+            entry.uses = symbols_in(*definition);
+        }
+    partials_.clear();
+    last_flow_ = {};
+}
+
 const Intermediates::Entry* Intermediates::find(const symbol& s) const {
     const auto found = position_.find(s.gethash());
     return found == position_.end() ? nullptr : &entries_[found->second];

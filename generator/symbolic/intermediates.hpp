@@ -16,7 +16,9 @@
 /// Reverse and forward differentiation on the resulting graph: Griewank & Walther, Evaluating Derivatives (2008),
 /// chapter 3. Without intermediate symbols the derivation of a chain of 32 rods has 4·10²⁰ tree nodes.
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -46,6 +48,9 @@ public:
     /// Adds the entries of another table of the same scene that this one does not have, so that expressions in the
     /// symbols of either can be used with this one.
     void adopt(const Intermediates& other);
+
+    /// Replaces the definitions for which `by` gives something, a polynomial in the same atoms.
+    void redefine(const std::function<std::optional<GiNaC::ex>(const GiNaC::ex& definition)>& by);
 
     /// Sets the source of all symbols that are named from now on ("body M2", "spring 1"); returns the index of the
     /// former label.

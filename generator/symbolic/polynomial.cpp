@@ -88,7 +88,7 @@ Atom symbol_atom(const GiNaC::symbol& symbol, const SymbolInfo& info) {
     auto node = std::make_shared<AtomNode>();
     node->info = info;
     node->symbol = symbol;
-    node->steady = info.kind == SymbolInfo::Kind::parameter;
+    node->steady = info.kind == SymbolInfo::Kind::parameter || info.kind == SymbolInfo::Kind::function;
     return node;
 }
 

@@ -10,6 +10,7 @@ GiNaC::symbol Symbols::declare(std::string name, SymbolInfo::Kind kind, int inde
     const auto rank = static_cast<int>(by_rank_.size());
     position_.emplace(symbol.gethash(), by_rank_.size());
     by_rank_.push_back(symbol);
+    if (kind == SymbolInfo::Kind::function) functions_.push_back(symbol);
     infos_.push_back({.name = std::move(name), .kind = kind, .index = index, .order = order, .rank = rank});
     return symbol;
 }

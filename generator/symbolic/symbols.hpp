@@ -22,6 +22,7 @@ struct SymbolInfo {
         coordinate,  ///< order 0: q, 1: q', 2: q''
         speed,       ///< a generalized speed; order 0: u, 1: u'
         definition,  ///< a name of the scene's [definitions], kept as a symbol
+        function,    ///< a function of the scene's [functions]; stands only in its calls (unspecified.hpp)
         other,       ///< multipliers, claim unknowns, intermediate symbols
     };
     std::string name;  ///< as the user wrote it, without primes
@@ -50,11 +51,18 @@ public:
     /// Throws std::out_of_range for a symbol that was not declared here.
     const SymbolInfo& info(const GiNaC::symbol& symbol) const;
 
+    /// The functions of [functions], by their index.
+    const std::vector<GiNaC::symbol>& functions() const { return functions_; }
+
     /// All symbols by rank.
     const std::vector<GiNaC::symbol>& all() const { return by_rank_; }
 
+    /// Expressions in these symbols with the short forms that were found for them, which takes long for some, as
+    /// formalisms meet the same ones several times.
+    GiNaC::exmap short_forms;
+
 private:
-    std::vector<GiNaC::symbol> by_rank_;
+    std::vector<GiNaC::symbol> by_rank_, functions_;
     std::vector<SymbolInfo> infos_;
     std::unordered_map<unsigned, std::size_t>
         position_;  // the key is gethash(), which corresponds one to one to a symbol's serial number
