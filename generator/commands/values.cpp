@@ -26,6 +26,7 @@ std::vector<ValueKind> all_kinds() {
             {.name = values::formalism, .plural = "Formalisms", .words = formalism_words()},
             {.name = values::method, .plural = "Methods", .words = method_words()},
             {.name = values::format, .words = {"text", "latex", "mathml"}},
+            {.name = values::reading, .words = {"en", "zh"}},
             {.name = values::language, .words = {"cpp", "c"}},
             {.name = values::shell, .words = {"bash", "zsh", "fish"}}};
 }

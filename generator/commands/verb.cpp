@@ -98,6 +98,11 @@ void add_by_option(Verb& verb, std::string& by) {
 Verb add_verb(CLI::App& app, const VerbText& text) {
     CLI::App* const verb = app.add_subcommand(text.name, text.about);
     verb->footer(text.example);
+    if (verb->get_name() != "emit")  // whose --language is that of the code; choose_language takes "zh" out before
+        AddedOption(verb->add_option("--language", [](const CLI::results_t&) { return true; },
+                                     say("of what is printed for people: en or zh")))
+            .type_name(values::reading)
+            .one_of({"en", "zh"});
     return Verb(*verb);
 }
 
