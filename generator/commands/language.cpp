@@ -27,15 +27,16 @@ std::optional<std::string> taken_from(std::vector<std::string>& words) {
     std::optional<std::string> result;
     for (std::size_t k = 0; k < words.size() && words[k] != "--";) {
         const std::size_t count = words[k] == option ? 2 : words[k].starts_with(with_value) ? 1 : 0;
-        const std::string value = count == 1                            ? words[k].substr(with_value.size())
+        const std::string value = count == 1                           ? words[k].substr(with_value.size())
                                   : count == 2 && k + 1 < words.size() ? words[k + 1]
-                                                                        : std::string();
+                                                                       : std::string();
         if (!is_language(value)) {
             ++k;
             continue;
         }
         result = value;
-        words.erase(words.begin() + static_cast<std::ptrdiff_t>(k), words.begin() + static_cast<std::ptrdiff_t>(k + count));
+        words.erase(words.begin() + static_cast<std::ptrdiff_t>(k),
+                    words.begin() + static_cast<std::ptrdiff_t>(k + count));
     }
     return result;
 }
@@ -55,7 +56,8 @@ std::string of_the_environment() {
         list.remove_prefix(std::min(list.size(), first.size() + 1));
     }
     for (const char* const name : {"LC_ALL", "LC_MESSAGES", "LANG"})
-        if (const std::string_view locale = variable(name); !locale.empty()) return std::string(locale.substr(0, 2));
+        if (const std::string_view locale = variable(name); !locale.empty())
+            return std::string(locale.substr(0, 2));
     return "en";
 }
 
@@ -65,7 +67,8 @@ void choose_language(std::vector<std::string>& words) {
     const std::optional<std::string> asked = taken_from(words);
     if (asked == "zh" && chinese_catalogue.empty())
         throw CompileError(
-            "Chinese is missing: this program was built without msgfmt; install gettext, configure and build again");
+            say("Chinese is missing: this program was built without msgfmt; install gettext, configure and build "
+                "again"));
     const bool is_for_programs = std::find(words.begin(), words.end(), "--json") != words.end();
     if (is_for_programs || asked.value_or(of_the_environment()) != "zh" || chinese_catalogue.empty()) return;
     static const MessageCatalogue chinese(chinese_catalogue);

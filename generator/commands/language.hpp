@@ -8,9 +8,9 @@
 
 namespace alembert {
 
-/// Chooses the language by `--language en` or `--language zh`, which are removed from the words of the command line,
-/// or by the environment: LANGUAGE, LC_ALL, LC_MESSAGES, LANG. What is printed as JSON is English. Throws CompileError
-/// if --language asks for Chinese and the program was built without it.
+/// Chooses the language by `--language en` or `--language zh`, which are removed from the words of the command
+/// line, or by the environment: LANGUAGE, LC_ALL, LC_MESSAGES, LANG. What is printed as JSON is English. Throws
+/// CompileError if --language asks for Chinese and the program was built without it.
 void choose_language(std::vector<std::string>& words);
 
 }  // namespace alembert

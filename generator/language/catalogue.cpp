@@ -37,8 +37,9 @@ MessageCatalogue::MessageCatalogue(std::string_view file) {
 
 std::string_view MessageCatalogue::translation(std::string_view english) const {
     if (english.empty()) return {};  // that entry holds the properties of the catalogue
-    const auto found = std::lower_bound(entries_.begin(), entries_.end(), english,
-                                        [](const auto& entry, std::string_view text) { return entry.first < text; });
+    const auto found =
+        std::lower_bound(entries_.begin(), entries_.end(), english,
+                         [](const auto& entry, std::string_view text) { return entry.first < text; });
     return found != entries_.end() && found->first == english ? found->second : std::string_view();
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A compiled catalogue of messages: the file that msgfmt writes from a .po file. It is read here because gettext's
-/// own functions translate only where the system has generated the locale, which bare Debian has not.
+/// A compiled catalogue of messages: the file that msgfmt writes from a .po file. It is read here because
+/// gettext's own functions translate only where the system has generated the locale, which bare Debian has not.
 
 #include <string_view>
 #include <utility>

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "language/catalogue.hpp"
 
 namespace alembert {
@@ -20,6 +22,16 @@ void use_catalogue(const MessageCatalogue* catalogue) {
 std::string translated(std::string_view english) {
     const std::string_view other = in_use == nullptr ? std::string_view() : in_use->translation(english);
     return std::string(other.empty() ? english : other);
+}
+
+std::string translated_parts(std::string_view english) {
+    std::string result;
+    for (std::size_t at = 0; at <= english.size();) {
+        const std::size_t end = std::min(english.find(", ", at), english.size());
+        result += (at == 0 ? "" : ", ") + translated(english.substr(at, end - at));
+        at = end + 2;
+    }
+    return result;
 }
 
 std::string translated_with(fmt::string_view english, fmt::format_args values) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What people read, in the language that they have chosen. The sources have the English text; a catalogue of gettext
-/// (po/zh.po) has its translation.
+/// What people read, in the language that they have chosen. The sources have the English text; a catalogue of
+/// gettext (po/zh.po) has its translation.
 ///
 ///     throw ModelError(say("the mass of {} is {}", body, mass));
 ///     constexpr const char* title = to_say("Routh's equations");  // in a table, translated where it is shown
@@ -16,6 +16,8 @@
 #include <string>
 #include <string_view>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 class MessageCatalogue;
@@ -26,6 +28,9 @@ void use_catalogue(const MessageCatalogue* catalogue);
 
 /// The translation of a text without values, or the text itself where there is none.
 std::string translated(std::string_view english);
+
+/// Of a list between ", ", each part by itself: "lagrange, textbook form" of an emitted file, which is English.
+std::string translated_parts(std::string_view english);
 
 /// The translation of `english` with its values, or the English text where there is none that takes them.
 std::string translated_with(fmt::string_view english, fmt::format_args values);
