@@ -5,6 +5,7 @@
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
+#include "language/say.hpp"
 #include "report/scene_page.hpp"
 
 namespace alembert {
@@ -42,27 +43,29 @@ int run(const ReportVerb& verb) {
     if (verb.json)
         show(Json{{"file", verb.output}});
     else
-        show("wrote " + verb.output + "\n");
+        show(say("wrote {}\n", verb.output));
     return 0;
 }
 
 }  // namespace
 
 void add_report(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<ReportVerb>(
-        app, chosen,
-        {.name = "report",
-         .about = "writes one page about the scene, with a figure that moves",
-         .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
-        run, [](Verb& verb, ReportVerb& options) {
-            verb.add_option("-o,--output", options.output, "the page, HTML").type_name(values::file).required();
-            add_by_option(verb, options.by);
-            add_duration_option(verb, options.wishes);
-            verb.add_option("--budget", options.wishes.budget, "evaluations of the motion, at most")
-                .type_name(values::count)
-                .positive();
-            verb.add_flag("!--no-motion", options.moves, "leaves the motion out");
-        });
+    add_scene_verb<ReportVerb>(app, chosen,
+                               {.name = "report",
+                                .about = say("writes one page about the scene, with a figure that moves"),
+                                .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
+                               run, [](Verb& verb, ReportVerb& options) {
+                                   verb.add_option("-o,--output", options.output, say("the page, HTML"))
+                                       .type_name(values::file)
+                                       .required();
+                                   add_by_option(verb, options.by);
+                                   add_duration_option(verb, options.wishes);
+                                   verb.add_option("--budget", options.wishes.budget,
+                                                   say("evaluations of the motion, at most"))
+                                       .type_name(values::count)
+                                       .positive();
+                                   verb.add_flag("!--no-motion", options.moves, say("leaves the motion out"));
+                               });
 }
 
 }  // namespace alembert

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
+#include "language/say.hpp"
 #include "notation/readable.hpp"
 #include "program/constants.hpp"
 #include "program/flatten.hpp"
@@ -152,7 +153,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
         }
     if (programs.size() == before && !has_matrix)
         throw ModelError(
-            "no inertia resists some motion of the joints; give every body a mass and moments of inertia");
+            say("no inertia resists some motion of the joints; give every body a mass and moments of inertia"));
     if (programs.size() == before) programs.push_back({lower(m, equations, energy, options)});
 }
 

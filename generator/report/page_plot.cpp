@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/figure_shapes.hpp"
 #include "report/html.hpp"
 #include "report/page.hpp"
@@ -50,7 +51,7 @@ std::string tick_text(double value, double step) {
 }
 
 std::string axis_label(const std::string& name, const std::string& unit) {
-    const std::string in = name.empty() || unit.empty() ? "" : " in ";
+    const std::string in = name.empty() || unit.empty() ? "" : say(" in ");
     return "<tspan class=\"letters\">" + svg_letters(name) + "</tspan>" + "<tspan" +
            (name.find_first_of("_0123456789") == std::string::npos ? "" : " dy=\"-4\"") + ">" + in + html(unit) +
            "</tspan>";
@@ -101,8 +102,8 @@ std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x
     put(page,
         "<figure class=\"plot\">\n<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" data-columns=\"{}\" "
         "data-x-column=\"{}\" data-x=\"{:.17g},{:.17g}\" data-y=\"{:.17g},{:.17g}\">\n",
-        width, height, html(labels.title + " over " + labels.x_name), columns, x_column, xs.low, xs.high, ys.low,
-        ys.high);
+        width, height, html(say("{} over {}", labels.title, labels.x_name)), columns, x_column, xs.low, xs.high,
+        ys.low, ys.high);
     const auto to_x = [&](double v) { return left + (v - xs.low) / (xs.high - xs.low) * (width - left - right); };
     const auto to_y = [&](double v) {
         return height - bottom - (v - ys.low) / (ys.high - ys.low) * (height - top - bottom);

@@ -8,6 +8,7 @@
 #include "alembert/drift.hpp"
 #include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
 #include "run/method.hpp"
@@ -234,7 +235,7 @@ private:
             failure.kind == FailureKind::no_side)
             return failure.message;
         const auto there = failure_at(modes(run_.motion.phases.back().closed).derived, state_at(first_, failure));
-        return failure.message + (there ? "\n  there: " + *there : "");
+        return failure.message + (there ? say("\n  there: {}", *there) : "");
     }
 
     Run& run_;
@@ -258,9 +259,9 @@ Run simulate(Scene scene, const RunOptions& wishes) {
     Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
         result.warn(
-            fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
-                        "gives those after\n",
-                        result.scene.file));
+            say("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
+                "gives those after\n",
+                result.scene.file));
     Simulating(result, wishes).run();
     return result;
 }

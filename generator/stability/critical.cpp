@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "stability/field.hpp"
 
 namespace alembert {
@@ -111,12 +112,11 @@ Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
         if (!G.is_zero()) {
             if (!G.sign()) return {};
             const bool attracts = order % 2 == 1 && G.sign() == -1;
-            return {
-                attracts ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
-                StabilityTheorem::one_zero_root,
-                fmt::format("one eigenvalue is zero and the others have negative real parts; along the critical "
-                            "direction c' = {:.6g} c^{} + ...",
-                            G.number(), order)};
+            return {attracts ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
+                    StabilityTheorem::one_zero_root,
+                    say("one eigenvalue is zero and the others have negative real parts; along the critical "
+                        "direction c' = {:.6g} c^{} + ...",
+                        G.number(), order)};
         }
         for (int i = 0; i < n; ++i)
             if (!(*step)(i, 0).is_zero()) x[i] += Expansion((*step)(i, 0)) * power;
@@ -155,12 +155,11 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
         size += std::abs(part) / (2 * omega);
     }
     if (!(std::abs(l1) > 1e-8 * size)) return {};
-    return {
-        l1 < 0 ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
-        StabilityTheorem::pair_on_axis,
-        fmt::format("one pair of eigenvalues +-{:.8g}i is on the imaginary axis and the others have negative real "
-                    "parts; the first Lyapunov coefficient is {}",
-                    omega, l1 < 0 ? "negative" : "positive")};
+    return {l1 < 0 ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
+            StabilityTheorem::pair_on_axis,
+            say("one pair of eigenvalues +-{:.8g}i is on the imaginary axis and the others have negative real "
+                "parts; the first Lyapunov coefficient is {}",
+                omega, l1 < 0 ? "negative" : "positive")};
 }
 
 Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots) {
@@ -223,8 +222,7 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
         }
     return {
         StabilityVerdict::stable, StabilityTheorem::malkin,
-        fmt::format(
-            "{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters (found "
+        say("{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters (found "
             "by Newton's method along each), and all others have negative real parts: disturbed motions tend "
             "to steady motions near this one",
             zeros, zeros == 1 ? "is" : "are")};
