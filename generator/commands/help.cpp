@@ -60,8 +60,8 @@ void append(std::vector<std::string>& lines, std::vector<std::string> more) {
 std::vector<std::string> about_exit_codes() {
     std::string text = say("Exit codes:");
     for (const auto& [code, meaning] : exit_codes())
-        text += fmt::format("{} {} {}", code > 0 ? ";" : "", code, meaning);
-    return filled(text + ".", columns);
+        text += fmt::format("{} {} {}", code > 0 ? say(";") : "", code, meaning);
+    return filled(say("{}.", text), columns);
 }
 
 std::vector<std::string> entries_of(const CLI::App& app) {
@@ -81,7 +81,7 @@ std::vector<std::string> lists_of(const CLI::App& app, std::size_t lines_until_n
     for (const OptionText& option : options_of(app)) {
         const ValueKind* const kind = value_kind(option.value);
         if (kind != nullptr && !kind->plural.empty())
-            append(lines, filled(fmt::format("{}: {}.", kind->plural, fmt::join(kind->words, ", ")), columns));
+            append(lines, filled(say("{}: {}.", kind->plural, fmt::join(kind->words, ", ")), columns));
     }
     if (lines.empty() || lines_until_now + lines.size() <= lines_of_a_screen) return lines;
     return {say("All formalisms and methods: alembert man {}", app.get_name())};
@@ -107,7 +107,7 @@ std::vector<Piece> pieces_of(const std::string& words) {
         }
         const bool is_wide = width(c) == 2, is_closing = closing.find(c) != closing.npos;
         if (pieces.empty() || space || (!is_closing && (is_wide || pieces.back().is_wide)))
-            pieces.push_back({.after_space = space && !pieces.empty(), .is_wide = is_wide});
+            pieces.push_back({.text = {}, .after_space = space && !pieces.empty(), .is_wide = is_wide});
         pieces.back().text += words.substr(begin, i - begin);
         pieces.back().columns += static_cast<std::size_t>(width(c));
         pieces.back().is_wide = is_wide;
@@ -123,7 +123,7 @@ std::string joined(const std::vector<std::string>& lines) {
 std::string help_of_verb(const CLI::App& verb) {
     std::vector<std::string> lines{say("Example: {}", verb.get_footer()), ""};
     append(lines, filled(usage_of(verb), columns));
-    append(lines, filled(verb.get_description() + ".", columns));
+    append(lines, filled(say("{}.", verb.get_description()), columns));
     append(lines, entries_of(verb));
     const std::vector<std::string> codes = about_exit_codes();
     append(lines, lists_of(verb, lines.size() + codes.size()));

@@ -12,9 +12,6 @@
 
 namespace alembert {
 
-/// The bytes of po/zh.po as msgfmt compiles it; empty if there was no msgfmt (made by cmake/catalogue.cmake).
-extern const std::string_view chinese_catalogue;
-
 namespace {
 
 bool is_language(std::string_view word) {

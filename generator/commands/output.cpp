@@ -139,7 +139,7 @@ void write_beside(const std::string& path, const fs::path& file, const std::stri
     fs::path part;
     int made = -1;
     for (int k = 0; k < 100 && made < 0; ++k) {  // names left by processes that were killed are skipped
-        part = file.parent_path() / say(".alembert-{}-{}.part", getpid(), k);
+        part = file.parent_path() / fmt::format(".alembert-{}-{}.part", getpid(), k);
         made = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (made < 0 && errno != EEXIST) break;
     }

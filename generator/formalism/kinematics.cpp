@@ -418,7 +418,7 @@ Kinematics rates_as_speeds(const Mechanism& m) {
         .u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}, .h = {m.qdot.begin(), m.qdot.end()}};
 }
 
-Possible<Kinematics> kinematics_of_masses(const Mechanism& m, const char* title) {
+Possible<Kinematics> kinematics_of_masses(const Mechanism& m, const std::string& title) {
     if (const auto unknown = masses_unknown(m, title)) return Obstacle{*unknown};
     return kinematics(m);
 }

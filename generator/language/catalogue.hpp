@@ -19,8 +19,12 @@ public:
     /// The translation, empty if there is none.
     std::string_view translation(std::string_view english) const;
 
+    /// Each English text with its translation, in the order of the texts; the first holds properties of the
+    /// catalogue.
+    const std::vector<std::pair<std::string_view, std::string_view>>& entries() const { return entries_; }
+
 private:
-    std::vector<std::pair<std::string_view, std::string_view>> entries_;  // ordered by the English text
+    std::vector<std::pair<std::string_view, std::string_view>> entries_;
 };
 
 }  // namespace alembert

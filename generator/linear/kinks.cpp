@@ -179,8 +179,9 @@ private:
             return say(
                 "has no value at this state: it divides by 0, or an argument is outside its function's domain");
         const auto side = [&](bool up) {
-            return by.empty() ? std::string(say("in some directions"))
-                              : say("where {} {}", by, up ? "grows" : "falls");
+            return by.empty() ? say("in some directions")
+                   : up       ? say("where {} grows", by)
+                              : say("where {} falls", by);
         };
         for (const bool up : {true, false}) {
             const Germ& x = up ? above : below;

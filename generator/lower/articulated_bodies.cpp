@@ -117,7 +117,7 @@ std::string RecursionForm::text() const {
     const std::string name = solve == Solve::matrix        ? to_say("composite bodies")
                              : solve == Solve::articulated ? to_say("articulated bodies")
                                                            : to_say("chain from both ends");
-    return name + (axes == LinkAxes::still ? ", parallel axes" : "");
+    return name + (axes == LinkAxes::still ? std::string(", ") + to_say("parallel axes") : "");
 }
 
 RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,

@@ -25,7 +25,7 @@ std::size_t widest_name(const Evaluation& e) {
 }
 
 /// The name that `audit` gives to a mode of dry friction.
-const char* mode_of(int side) {
+std::string mode_of(int side) {
     return side == 0 ? say("stick") : side > 0 ? say("slip +") : say("slip -");
 }
 

@@ -164,10 +164,11 @@ void add_agreement(PageParts& page, const Overview& all) {
     std::string names;
     for (const Equations& e : agreed.derivations.equations) names += (names.empty() ? "" : ", ") + e.formalism;
     const bool alone = agreed.derivations.equations.size() < 2;
-    put(page.body, "<p><strong class=\"verdict {}\">{}</strong> {}: {}.</p>\n<p>{}</p>\n", name_of(a.verdict),
+    put(page.body, "<p><strong class=\"verdict {}\">{}</strong> {}</p>\n<p>{}</p>\n", name_of(a.verdict),
         translated(name_of(a.verdict)),
-        alone ? say("for the only formalism that applies") : say("These formalisms give the same equations"),
-        html(names), html(a.verdict == Agreement::Verdict::proved ? how_it_was_proved(a) : a.reason));
+        html(alone ? say("for the only formalism that applies: {}.", names)
+                   : say("These formalisms give the same equations: {}.", names)),
+        html(a.verdict == Agreement::Verdict::proved ? how_it_was_proved(a) : a.reason));
     if (!agreed.derivations.refused.empty()) {
         put(page.body, "<details><summary>{}</summary><ul>\n", say("Formalisms that do not apply here"));
         for (const auto& [name, reason] : agreed.derivations.refused)

@@ -128,7 +128,7 @@ Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
     return result;
 }
 
-const char* word(SideChange::Kind kind) {
+std::string word(SideChange::Kind kind) {
     switch (kind) {
         case SideChange::Kind::sliding:
             return say("stays zero");

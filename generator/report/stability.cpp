@@ -82,7 +82,7 @@ Json as_json(const Stability& s) {
 std::string as_text(const Stability& s, bool with_modes) {
     std::string page;
     if (!s.title.empty()) put(page, "{}\n\n", s.title);
-    put(page, "{}: {}.\n", translated(name_of(s.verdict)), s.reason);
+    say_on(page, "{}: {}.\n", translated(name_of(s.verdict)), s.reason);
     if (s.theorem != StabilityTheorem::none) say_on(page, "By: {}\n", translated(name_of(s.theorem)));
     if (!s.states.empty())
         say_on(page, "With respect to {}{}\n", fmt::join(s.states, ", "),

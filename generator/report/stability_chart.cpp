@@ -37,7 +37,7 @@ const char* colour_of_kind(SpectrumKind kind) {
     return "#d0d0d0";
 }
 
-const char* meaning(SpectrumKind kind, SpectrumOf of) {
+std::string meaning(SpectrumKind kind, SpectrumOf of) {
     const bool circle = of == SpectrumOf::multipliers;
     switch (kind) {
         case SpectrumKind::inside:
@@ -56,7 +56,7 @@ const char* meaning(SpectrumKind kind, SpectrumOf of) {
     return say("nothing to judge found");
 }
 
-const char* roots_in_words(SpectrumOf of) {
+std::string roots_in_words(SpectrumOf of) {
     return of == SpectrumOf::multipliers ? say("Floquet multipliers")
            : of == SpectrumOf::roots     ? say("roots of the polynomial")
                                          : say("eigenvalues of the first approximation");

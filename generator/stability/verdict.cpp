@@ -66,7 +66,7 @@ std::optional<bool> axis_is_semisimple(const CertainMatrix& A) {
 }  // namespace
 
 Decision decide_linear(const std::vector<RootOf>& roots, const CertainMatrix* A) {
-    const char* const what = A ? "eigenvalue" : "root";
+    const std::string what = A ? say("eigenvalue") : say("root");
     if (const RootOf* const right = first_on(roots, Side::right))
         return {StabilityVerdict::unstable, StabilityTheorem::hurwitz,
                 say("the {} {} has a positive real part", what, shown(*right))};
