@@ -138,7 +138,7 @@ std::string as_text(const RootLocus& locus) {
     for (const RootLocus::Crossing& one : locus.crossings)
         say_on(page, "{} = {:.15g}: {} cross{} {} ({}), beyond it are {} before and {} after\n", locus.name,
                one.value, shown_root(one.root), one.root.imag() == 0 ? "es" : "", edge_in_words(locus.of),
-               name_of(one.kind), one.before, one.after);
+               translated(name_of(one.kind)), one.before, one.after);
     return page;
 }
 

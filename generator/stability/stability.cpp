@@ -44,15 +44,15 @@ const char* name_of(StabilityTheorem theorem) {
         case StabilityTheorem::none:
             return "none";
         case StabilityTheorem::hurwitz:
-            return "Routh-Hurwitz";
+            return to_say("Routh-Hurwitz");
         case StabilityTheorem::jordan:
             return to_say("roots on the axis and their Jordan blocks");
         case StabilityTheorem::first_approximation:
             return to_say("Lyapunov's first approximation");
         case StabilityTheorem::malkin:
-            return "Lyapunov-Malkin";
+            return to_say("Lyapunov-Malkin");
         case StabilityTheorem::lagrange_dirichlet:
-            return "Lagrange-Dirichlet";
+            return to_say("Lagrange-Dirichlet");
         case StabilityTheorem::routh:
             return to_say("Routh (amended potential)");
         case StabilityTheorem::jacobi:
@@ -76,7 +76,7 @@ const char* name_of(StabilityTheorem theorem) {
         case StabilityTheorem::lyapunov_asymptotic:
             return to_say("Lyapunov's theorem on asymptotic stability");
         case StabilityTheorem::lasalle:
-            return "Barbashin-Krasovskii-LaSalle";
+            return to_say("Barbashin-Krasovskii-LaSalle");
         case StabilityTheorem::lyapunov_instability:
             return to_say("Lyapunov's theorem on instability");
         case StabilityTheorem::chetaev_instability:
