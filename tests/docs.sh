@@ -157,6 +157,12 @@ for verb in '' $verbs; do
     }
 done
 
+# Messages name only tables of the scene language.
+tables=$(grep -oE '^### `\[+[a-z]+' "$root/docs/scene-language.md" | grep -oE '[a-z]+')
+for name in $(grep -oE '\[\[[a-z]+\]\]' "$root/po/zh.po" | tr -d '[]' | sort -u); do
+    grep -qx "$name" <<<"$tables" || { echo "a message names [[$name]], which is no table of the scene language"; failed=1; }
+done
+
 rooms=$(sed -e '/^#/d' -e 's/ .*//' "$root/generator/rooms.txt")
 # shellcheck disable=SC2016
 shown=$(section 'The rooms of the generator' design.md | grep -oE '^\| `[a-z]+`' | tr -d '|` ')

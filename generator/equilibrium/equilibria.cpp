@@ -51,7 +51,7 @@ void check_contacts(const Derived& d, const Start& start) {
     throw ModelError(
         say("contact {} is closed at this state; equilibria are searched with all contacts open. Give a "
             "state by --at in which it is open, or write it as a [[constraint]] in place of the "
-            "[[contact]]",
+            "[[unilateral]]",
             fmt::join(names, ", ")));
 }
 
