@@ -136,7 +136,7 @@ private:
                 : say("constraints {} contradict each other: {}no state that obeys {} was found from {} places; "
                       "remove or correct one of them",
                       names, dependent ? say("they constrain the same rates differently; ") : "",
-                      clash.size() == 2 ? "both" : "all", places_tried);
+                      clash.size() == 2 ? say("both") : say("all"), places_tried);
         if (std::all_of(clash.begin(), clash.end(), [&](int k) { return m_.constraints[k].joint.has_value(); })) {
             std::vector<std::string> joints;
             for (const int k : clash) {

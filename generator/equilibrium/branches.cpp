@@ -40,7 +40,7 @@ public:
             // not in the order of the parameter, and not at round values, where curves often cross
             const double part = k == 0 ? 0 : k == 1 ? 1 : std::fmod(0.381966 + 0.618034 * k, 1.0);
             const double p = options_.from + part * (options_.to - options_.from);
-            if (options_.progress) options_.progress("searching", static_cast<double>(k) / places);
+            if (options_.progress) options_.progress(say("searching"), static_cast<double>(k) / places);
             problem_.set_start(at(p));
             const SteadySearch found = search_steady(problem_, result_.mechanism, start_at(p), {});
             result_.is_angle = found.is_angle;
@@ -111,7 +111,7 @@ private:
             result_.cut = true;
             return;
         }
-        if (options_.progress) options_.progress("following", 0.5);
+        if (options_.progress) options_.progress(say("following"), 0.5);
         Followed followed = follow(tracer, start, {options_.from, options_.to}, result_.is_angle, conservative_);
         result_.cut = result_.cut || followed.cut;
         crossings_.insert(crossings_.end(), followed.crossings.begin(), followed.crossings.end());

@@ -175,7 +175,7 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
     SteadyProblem problem(result.mechanism, result.equations, start);
     check_inputs(result.mechanism, problem.residuals(), start);
     SearchOptions wishes{.starts = options.starts};
-    if (options.progress) wishes.progress = [&](double part) { options.progress("searching", part); };
+    if (options.progress) wishes.progress = [&](double part) { options.progress(say("searching"), part); };
     result.search = search_steady(problem, result.mechanism, start, wishes);
     result.cyclic.clear();
     for (int i = 0; i < result.mechanism.size(); ++i)

@@ -173,7 +173,7 @@ private:
         joint.link.R = seat.to_link * (R * C);
         joint.link.p = seat.at;
         joint.parallel = seat.link >= 0 && is_unity(joint.link.R);
-        set_motion(joint, by, "turns");
+        set_motion(joint, by, say("turns"));
         tree_.joints.push_back(std::move(joint));
         return {static_cast<int>(tree_.joints.size()) - 1, transposed(C), {0, 0, 0}};
     }

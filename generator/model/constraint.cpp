@@ -72,8 +72,8 @@ Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& m) {
         if (!rule.drifts) made.drift = 0;
     }
     if (all_zero(made.row))
-        throw SceneMistake{
-            {rule.at, say("constraint '{}' contains no {}", rule.name, rule.holonomic ? "coordinate" : "rate")}};
+        throw SceneMistake{{rule.at, say("constraint '{}' contains no {}", rule.name,
+                                         rule.holonomic ? say("coordinate") : say("rate"))}};
     made.acceleration = z.name(-m.time_derivative_without_acceleration({velocity})[0]);
     return made;
 }

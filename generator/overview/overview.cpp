@@ -133,12 +133,13 @@ Overview overview(Scene scene, const OverviewOptions& options) {
     all.checked = s.claims.empty() ? left_out<CheckedScene>(say("The scene makes no claims."))
                                    : attempted([&] { return check(s, options.by); });
     tell(say("comparing formalisms"));
-    const std::string too_large =
-        say("Left out here, as the scene is large; the program does it when asked: alembert ");
+    const auto too_large = [](const char* verb) {
+        return say("Left out here, as the scene is large; the program does it when asked: alembert {}", verb);
+    };
     all.agreed = is_readable ? attempted([&] { return agree(s, seconds_for_agreement); })
-                             : left_out<Agreed>(too_large + "agree");
+                             : left_out<Agreed>(too_large("agree"));
     tell(say("auditing constraints"));
-    all.audited = is_readable ? attempted([&] { return audit(s); }) : left_out<Audited>(too_large + "audit");
+    all.audited = is_readable ? attempted([&] { return audit(s); }) : left_out<Audited>(too_large("audit"));
     tell(say("drawing"));
     all.drawing = attempted([&] { return draw(s, all.mechanism); });
     all.struck = s.impulses.empty() && s.generalized_impulses.empty()

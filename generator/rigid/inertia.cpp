@@ -59,7 +59,7 @@ void check_point(const Scene& scene, const std::string& point) {
     for (const Point& p : scene.points) known.push_back(p.name.text);
     for (const Particle& p : scene.particles) known.push_back(p.name.text);
     for (const Body& b : scene.bodies) known.push_back(b.name.text);
-    refuse_unknown("point", point, known);
+    refuse_unknown(say("point"), point, known);
 }
 
 /// plain + over/m, with m the whole mass. The part that is divided by a sum is kept separate, so that it can be

@@ -108,8 +108,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
         if (!request.method.empty() && name(method) != request.method) continue;
         for (int decade = 3; decade <= 13; ++decade) {
             if (request.progress)
-                request.progress("measuring", (static_cast<double>(k) + (decade - 3) / 11.0) /
-                                                  static_cast<double>(methods.size()));
+                request.progress(say("measuring"), (static_cast<double>(k) + (decade - 3) / 11.0) /
+                                                       static_cast<double>(methods.size()));
             Measured one{.method = std::string(name(method)), .tolerance = std::pow(10.0, -decade)};
             std::vector<double> all;
             PhasedMotion motion;

@@ -127,7 +127,7 @@ private:
             watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
         // A report costs more than a step of a small system.
         if (wishes_.progress && ++watch.steps % 1000 == 0)
-            wishes_.progress("integrating", (t - options_.start) / options_.duration);
+            wishes_.progress(say("integrating"), (t - options_.start) / options_.duration);
     }
 
     void look_at_jump(Watch& watch, const LoadedMode& free, double t, const double* before, const double* after,

@@ -235,7 +235,7 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     if (!has_fixed_step(options.method)) find_quick_times(program, begin.ensemble, s.warnings);
     const double integrate_begin = process_seconds();
     s.timings.start = integrate_begin - compile_begin - s.timings.compile;
-    if (wishes.progress) begin.ensemble.progress = [&](double part) { wishes.progress("sweeping", part); };
+    if (wishes.progress) begin.ensemble.progress = [&](double part) { wishes.progress(say("sweeping"), part); };
     const Outcomes ends = integrate(begin.ensemble, options);
     s.timings.integrate = process_seconds() - integrate_begin;
     s.method = ends.method;

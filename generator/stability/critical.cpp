@@ -159,7 +159,7 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
             StabilityTheorem::pair_on_axis,
             say("one pair of eigenvalues +-{:.8g}i is on the imaginary axis and the others have negative real "
                 "parts; the first Lyapunov coefficient is {}",
-                omega, l1 < 0 ? "negative" : "positive")};
+                omega, l1 < 0 ? say("negative") : say("positive"))};
 }
 
 Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots) {

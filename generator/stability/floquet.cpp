@@ -90,7 +90,7 @@ Decision judged(const FloquetResult& found, const std::vector<RootOf>& roots, bo
     return {StabilityVerdict::undecided, StabilityTheorem::none,
             say("critical: no multiplier is surely beyond the unit circle, and some are on it{}; the first "
                 "approximation over a period says nothing about {} equations",
-                has(Place::unclear) ? say(" or too near to tell") : "", linear ? "these" : "nonlinear")};
+                has(Place::unclear) ? say(" or too near to tell") : "", linear ? say("these") : say("nonlinear"))};
 }
 
 /// Numbers as exactly as the scene and the options have them.

@@ -125,7 +125,7 @@ Decision by_potential(const Local& local, const PowerSign& power) {
             StabilityTheorem::potential_form,
             say("the second derivatives of the {}potential do not decide; its first term beyond them, of degree "
                 "{}, makes it {}",
-                local.cyclic_momenta.empty() ? "" : "amended ", degenerate->degree,
+                local.cyclic_momenta.empty() ? "" : say("amended "), degenerate->degree,
                 degenerate->minimum ? say("a strict minimum") : say("no minimum, and the position is left"))};
 }
 
@@ -156,7 +156,7 @@ void name_forces(Decision& decision, const Local& local, const PowerSign& power)
         proof_by_integrals(local, power)) {
         decision.theorem = StabilityTheorem::kelvin_chetaev;
         decision.reason += say("; the potential has a strict minimum, and the damping is {}",
-                               damping_is_complete(local, power) ? "complete" : "pervasive");
+                               damping_is_complete(local, power) ? say("complete") : say("pervasive"));
     }
     if (decision.verdict != StabilityVerdict::unstable || !local.near.matrices.moving.empty()) return;
     std::vector<int> rows;
@@ -262,7 +262,7 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
     const auto [answer, decision] = by_lyapunov_function(V, *result.near, local);
     const std::string without =
         result.verdict == StabilityVerdict::undecided
-            ? "undecided"
+            ? say("undecided")
             : say("{}, by {}", translated(name_of(result.verdict)), translated(name_of(result.theorem)));
     take(result, decision);
     result.reason += say(" (without V: {})", without);

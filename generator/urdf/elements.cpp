@@ -143,8 +143,7 @@ RobotPose Elements::pose(const TiXmlElement* origin) {
 double Elements::needed_moment(const TiXmlElement& inertia, const char* attribute) const {
     if (inertia.Attribute(attribute) == nullptr)
         refuse(place_of(inertia),
-               fmt::format("<inertia> has no {}; expected ixx, iyy and izz (products that are missing are 0)",
-                           attribute));
+               say("<inertia> has no {}; expected ixx, iyy and izz (products that are missing are 0)", attribute));
     return *number(inertia, attribute);
 }
 
@@ -153,15 +152,14 @@ void Elements::read_inertial(const TiXmlElement& inertial, Robot::Link& link) {
     link.centre = at.shift;
     const TiXmlElement *mass = only(inertial, "mass"), *inertia = only(inertial, "inertia");
     if (mass == nullptr)
-        refuse(place_of(inertial), fmt::format("<inertial> of link {} has no mass; expected <mass value=\"…\"/>",
-                                               in_quotes(link.name)));
+        refuse(place_of(inertial),
+               say("<inertial> of link {} has no mass; expected <mass value=\"…\"/>", in_quotes(link.name)));
     link.mass = needed_number(*mass, "value");
     if (link.mass < 0)
         refuse(place_of(*mass),
                say("the mass of link {} is {}; expected zero or more", in_quotes(link.name), link.mass));
     if (inertia == nullptr) {
-        remark(place_of(inertial),
-               fmt::format("link {} has no <inertia>: its mass is a point", in_quotes(link.name)));
+        remark(place_of(inertial), say("link {} has no <inertia>: its mass is a point", in_quotes(link.name)));
         return;
     }
     std::vector<std::string> missing;
@@ -226,7 +224,8 @@ TiXmlDocument checkable(const TiXmlDocument& document, Elements& elements) {
     TiXmlElement& robot = *result.RootElement();
     if (const char* name = robot.Attribute("name"); name == nullptr || squeezed(name).empty()) {
         robot.SetAttribute("name", "robot");
-        elements.remark(Elements::place_of(*document.RootElement()), "<robot> has no name; it is called robot");
+        elements.remark(Elements::place_of(*document.RootElement()),
+                        say("<robot> has no name; it is called robot"));
     }
     remove_children(robot, {"link", "joint"});
     squeeze_attributes(robot);

@@ -42,13 +42,12 @@ public:
         document_.Parse(text_.c_str(), nullptr, TIXML_ENCODING_UTF8);
         if (document_.Error())
             refuse({document_.ErrorRow(), document_.ErrorCol()},
-                   fmt::format("this is no XML: {}; expected a robot description, <robot name=…>",
-                               document_.ErrorDesc()));
+                   say("this is no XML: {}; expected a robot description, <robot name=…>", document_.ErrorDesc()));
         const TiXmlElement* root = document_.RootElement();
         if (root == nullptr || root->ValueStr() != "robot")
             refuse(root != nullptr ? place_of(*root) : Place{},
-                   fmt::format("the outermost element is {}; expected <robot>",
-                               root != nullptr ? shown(*root) : "missing"));
+                   say("the outermost element is {}; expected <robot>",
+                       root != nullptr ? shown(*root) : say("missing")));
         refuse_macros(*root);
         for (const TiXmlElement* e = root->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
             const std::string& tag = e->ValueStr();
@@ -185,7 +184,7 @@ private:
                 refuse(joint.place, say("the damping of joint {} is {}; expected zero or more",
                                         in_quotes(joint.name), joint.damping));
             if (elements_.number(*dynamics, "friction").value_or(0) != 0)
-                drop("Coulomb friction, <dynamics friction=…>", joint.name);
+                drop(say("Coulomb friction, <dynamics friction=…>"), joint.name);
         }
         if (const TiXmlElement* const limit = elements_.only(e, "limit"))
             if (limit->Attribute("lower") != nullptr || limit->Attribute("upper") != nullptr)
