@@ -48,9 +48,9 @@ has '未知命令' deriv
 
 # The same for programs.
 same() { # COMMAND...
-    "$program" "$@" --json --language en >"$work/en" 2>&1
-    "$program" "$@" --json --language zh >"$work/zh" 2>&1
-    cmp -s "$work/en" "$work/zh" || fail "the JSON of 'alembert $*' changes with the language:" "$(diff "$work/en" "$work/zh")"
+    "$program" "$@" --json --language en >"$work/en.json" 2>&1
+    "$program" "$@" --json --language zh >"$work/zh.json" 2>&1
+    cmp -s "$work/en.json" "$work/zh.json" || fail "the JSON of 'alembert $*' changes with the language:" "$(diff "$work/en.json" "$work/zh.json")"
 }
 same derive $textbook/double_pendulum.toml --steps
 same check $textbook/double_pendulum.toml
