@@ -137,8 +137,7 @@ std::string help_of_program(const CLI::App& app) {
     lines.emplace_back(say("Verbs:"));
     for (const CLI::App* verb : app.get_subcommands({}))
         append(lines, entry(verb->get_name(), verb->get_description(), 14));
-    lines.emplace_back(say("'alembert VERB --help' has the options of a verb, --version prints the version."));
-    lines.emplace_back(say("--language zh, with any verb, prints Chinese; so does LANG=zh_CN.UTF-8."));
+    lines.emplace_back(say("'alembert VERB --help' has its options; --version; --language zh prints Chinese."));
     append(lines, about_exit_codes());
     return joined(lines);
 }
