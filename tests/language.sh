@@ -21,7 +21,7 @@ msgcmp po/zh.po "$work/all.pot" >"$work/missing" 2>&1 ||
         "$(grep -v 'header field' "$work/missing")"
 
 # {fmt} takes values that are all numbered or all not; for other translations the English text would be shown.
-mixed=$(awk 'BEGIN { RS = "" } { sub(/.*\nmsgstr/, ""); gsub(/{{|}}/, "") } /{[:}]/ && /{[0-9]/' po/zh.po)
+mixed=$(awk 'BEGIN { RS = "" } { sub(/.*\nmsgstr/, ""); gsub(/[{][{]|[}][}]/, "") } /[{][}:]/ && /[{][0-9]/' po/zh.po)
 [ -z "$mixed" ] || fail 'translations in which some values are numbered and some are not:' "$mixed"
 
 # What is run, and what must be Chinese in its output.
