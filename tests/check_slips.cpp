@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Slips of students over all scenes: each that is wrong by an evaluation in 60 digits is refuted, and most are
-// named rightly. A fourth of the equations get one slip of each kind; ALEMBERT_SLIPS sets how many slips every
-// equation gets.
+// Slips of students over a third of the scenes: each that is wrong by an evaluation in 60 digits is refuted, and
+// most are named rightly. An eighth of the slips are tried; ALEMBERT_SLIPS sets how many slips every equation
+// gets.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -23,15 +23,14 @@ namespace check_slips {
 using namespace alembert;
 using namespace alembert::test;
 
-TEST_CASE(
-    "check: slips made on the equations of every textbook scene are refuted, and at least four of five named") {
+TEST_CASE("check: slips made on the equations of textbook scenes are refuted, and nine of ten named") {
     constexpr unsigned seed = 20240607;
     const char* const wanted = std::getenv("ALEMBERT_SLIPS");
     const std::size_t each = wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 1;
     std::mt19937 random(seed);
     std::map<std::string, std::map<std::string, int>> named;  // the kind that was made → the kind that was named
     std::string misnamed;
-    for (const std::string& file : scenes_in("scenes/textbook")) {
+    for (const std::string& file : every_third(scenes_in("scenes/textbook"), 0)) {
         CAPTURE(file);
         const Scene scene = read_scene(file);
         const Mechanism m = prepared(scene).mechanism;
@@ -48,7 +47,7 @@ TEST_CASE(
                 const Equality equation = parse_equality(slip.equation, {}, mistakes);
                 CAPTURE(slip.equation);
                 REQUIRE(mistakes.empty());
-                if (wanted == nullptr && slip.kind != "wrong_row" && random() % 14 != 0) continue;
+                if (wanted == nullptr && slip.kind != "wrong_row" && random() % 8 != 0) continue;
                 if (oracle.holds(equation) != false) continue;
                 slips.push_back(slip);
                 claims += slip.equation + "\n";
@@ -90,7 +89,7 @@ TEST_CASE(
         CHECK(10 * (entry.second.contains(kind) ? entry.second.at(kind) : 0) >= 6 * sum);
     }
     CHECK(10 * right >= 9 * all);
-    CHECK(all >= 350);
+    CHECK(all >= 200);
 }
 
 }  // namespace check_slips

@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include "agree/agree.hpp"
+#include "audit/audit.hpp"
 #include "check/check.hpp"
 #include "derive/derivation.hpp"
 #include "formalism/formalisms.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/routh.hpp"
+#include "lower/choose.hpp"
+#include "lower/inverse.hpp"
 #include "lower/lower.hpp"
 #include "lower/start.hpp"
 #include "model/energy.hpp"
@@ -29,7 +32,7 @@ namespace {
 std::vector<std::string> all_scenes() {
     std::vector<std::string> files;
     for (const char* folder : {"scenes/textbook", "tests/odd"})
-        for (const std::string& file : test::scenes_in(folder)) files.push_back(file);
+        for (const std::string& file : test::every_third(test::scenes_in(folder), 1)) files.push_back(file);
     return files;
 }
 
@@ -67,7 +70,7 @@ TEST_CASE("formalisms: a derivation throws if and only if there is an obstacle")
 TEST_CASE("formalisms: a mechanism is the same after derivations, comparisons and checks") {
     for (const char* const name : {"double_pendulum", "chaplygin_sleigh_in_speeds", "rolling_disc_in_space",
                                    "watt_governor", "coin", "rolling_disc"}) {
-        CAPTURE(name);
+        CAPTURE(std::string(name));
         const Scene scene = read_scene(test::source_path(fmt::format("scenes/textbook/{}.toml", name)));
         const Mechanism m = prepared(scene).mechanism;
         const std::size_t entries = m.z->entries().size(), labels = m.z->source_labels().size();
@@ -87,6 +90,22 @@ TEST_CASE("formalisms: a mechanism is the same after derivations, comparisons an
         }
         CHECK(agree(derive_all(m).equations, m).verdict == Agreement::Verdict::proved);
         CHECK(same());
+        const Equations equations = routh(m);
+        const std::size_t own = equations.z->entries().size();
+        const Energy energy = energy_of(m);
+        CHECK(energy.z->entries().size() > entries);
+        CHECK(same());
+        CHECK(lower(m, equations, energy).size() > 0);
+        CHECK(same());
+        CHECK(choose(m, equations).program.size() > 0);
+        CHECK(same());
+        CHECK(lower_inverse(m).size() > 0);
+        CHECK(same());
+        CHECK(start_of(m).q.size() == m.q.size());
+        CHECK(same());
+        CHECK(audit_of(m).degrees_of_freedom > 0);
+        CHECK(same());
+        CHECK(equations.z->entries().size() == own);
         CHECK_FALSE(check(scene, m).claims.empty());
         CHECK(same());
         // After all this, Lagrange's equations are the same as those of a new mechanism.

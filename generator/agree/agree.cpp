@@ -102,17 +102,17 @@ std::optional<long double> residual(const System& a, const System& b, std::mt199
     return worst;
 }
 
-/// Do all entries have equal normal forms? False also if that takes too long to decide.
-bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanism& mechanism, double seconds) {
+/// Do all entries have equal normal forms? False also if deciding that takes more work than `left`, the size of
+/// the expressions that may still be compared. It is reduced by those that are.
+bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanism& mechanism, double& left) {
     if (a.speeds_are_rates() != b.speeds_are_rates() || a.A.size() != b.A.size()) return false;
-    const Mechanism m = with_own_intermediates(in_terms_of(a, mechanism));
+    const Mechanism m = in_terms_of(a, mechanism);
     m.z->adopt(*b.z);
-    const auto start = std::chrono::steady_clock::now();
     const auto equal = [&](const ex& x, const ex& y) {
         if (x.is_equal(y)) return true;
-        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
-        return used.count() < seconds && m.z->tree_size(x) + m.z->tree_size(y) < 20000 &&
-               vanishes(x - y, m) == true;
+        const double size = m.z->tree_size(x) + m.z->tree_size(y);
+        left -= size;
+        return left >= 0 && size < 20000 && vanishes(x - y, m) == true;
     };
     for (int i = 0; i < a.size(); ++i) {
         for (int j = 0; j <= i; ++j)
@@ -148,7 +148,7 @@ Derivations derive_all(const Mechanism& mechanism) {
     return result;
 }
 
-Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, double seconds) {
+Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, double work) {
     constexpr int most_unusable = 2000;
     Agreement result;
     if (equations.size() < 2) {
@@ -233,22 +233,20 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
     }
     result.verdict = Agreement::Verdict::proved;
     result.normal_form = true;
-    const auto start = std::chrono::steady_clock::now();
-    for (std::size_t k = 1; k < equations.size() && result.normal_form; ++k) {
-        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
-        result.normal_form = equal_by_normal_form(equations[0], equations[k], m, seconds - used.count());
-    }
+    double left = work;
+    for (std::size_t k = 1; k < equations.size() && result.normal_form; ++k)
+        result.normal_form = equal_by_normal_form(equations[0], equations[k], m, left);
     return result;
 }
 
-Agreed agree(Scene scene, double seconds) {
+Agreed agree(Scene scene, double work) {
     const auto start = std::chrono::steady_clock::now();
     Agreed result{prepared(std::move(scene))};
     Mechanism& m = result.mechanism;
     m = without_constraints(std::move(m), redundant_constraints(m));  // as in `derive`
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(m)) fail(result.scene, {*mistake});
     result.derivations = derive_all(m);
-    result.agreement = agree(result.derivations.equations, m, seconds);
+    result.agreement = agree(result.derivations.equations, m, work);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

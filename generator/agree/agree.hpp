@@ -37,8 +37,13 @@ struct Agreement {
     std::string reason;  ///< if refuted, which two differ and how; if undecided, why
 };
 
-/// Compares all equations with the first. `seconds` limits the time for normal forms.
-Agreement agree(const std::vector<Equations>& equations, const Mechanism& mechanism, double seconds = 10);
+/// The size (nodes of expressions, with what their intermediate symbols stand for) of what is compared by normal
+/// forms at most; these take some microseconds a node. After that sampling decides.
+constexpr double work_of_normal_forms = 1e6;
+
+/// Compares all equations with the first, by normal forms as far as `work` allows.
+Agreement agree(const std::vector<Equations>& equations, const Mechanism& mechanism,
+                double work = work_of_normal_forms);
 
 /// The result of the verb: a scene's formalisms and their agreement.
 struct Agreed : Prepared {
@@ -48,6 +53,6 @@ struct Agreed : Prepared {
 };
 
 /// Derives by every formalism that applies, and compares. Throws SceneError for a mistake in the scene.
-Agreed agree(Scene scene, double seconds = 10);
+Agreed agree(Scene scene, double work = work_of_normal_forms);
 
 }  // namespace alembert

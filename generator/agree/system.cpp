@@ -9,6 +9,7 @@ namespace alembert {
 System system_of(const Equations& e, const Mechanism& m, const std::vector<int>& somewhere_eliminated) {
     Energy none;
     none.kinetic = none.potential = none.energy = none.jacobi = none.power = 0;
+    none.z = m.z;
     System s;
     s.formalism = e.formalism;
     s.program = lower(m, e, none);

@@ -371,7 +371,8 @@ private:
 }  // namespace
 
 Audit audit_of(const Mechanism& mechanism) {
-    return Auditing(mechanism).go();
+    const Mechanism own = with_own_intermediates(mechanism);
+    return Auditing(own).go();
 }
 
 Audited audit(Scene scene) {

@@ -2,7 +2,6 @@
 #include "check/counterexample.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
 namespace alembert {
@@ -82,10 +81,11 @@ private:
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& p,
                                              int root) {
     const OnSheet is_on_sheet(told);
-    const auto start = std::chrono::steady_clock::now();
-    for (unsigned seed = 0; seed < 1200; ++seed) {
-        if (std::chrono::steady_clock::now() - start > std::chrono::seconds(4) && seed > 40)
-            break;  // much longer than a right answer takes
+    // Operations in exact numbers, which take microseconds each. Nearly always one of the first few states will
+    // do.
+    constexpr int most_operations = 1'000'000;
+    const auto tries = static_cast<unsigned>(std::clamp(most_operations / std::max(1, p.size()), 40, 1200));
+    for (unsigned seed = 0; seed < tries; ++seed) {
         const auto state = real_state(motions, p, {root}, seed);
         if (!state || !is_on_sheet(*state)) continue;
         const auto value = evaluate(p, *state, {root});

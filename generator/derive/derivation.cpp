@@ -193,6 +193,7 @@ private:
             if (!add(result_.energies, {Kind::energy, "V", shown_label(part.origin), {}, {}}, part.value))
                 return false;
         const Energy energy = energy_of(m_);
+        m_.z->adopt(*energy.z);
         const auto T = normal(energy.kinetic), V = normal(energy.potential), L = normal(m_.lagrangian());
         if (!T || !V || !L) return false;
         result_.kinetic = readable(*T);
@@ -273,6 +274,7 @@ private:
 
     Derivation with_definitions() {
         Energy energy = energy_of(m_);
+        m_.z->adopt(*energy.z);
         energy.kinetic = unit_(energy.kinetic);
         energy.potential = unit_(energy.potential);
         IntermediateForm form = intermediate_form(lower(m_, e_, energy), m_, e_);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equilibrium/crossing.hpp"
 
-#include <Eigen/SVD>
 #include <array>
 #include <cmath>
 
 #include "alembert/error.hpp"
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 
 namespace alembert {
 
@@ -23,10 +23,10 @@ struct Kernel {
     Column left;
 };
 
-Kernel kernel_of(const MatrixOf<long double>& F) {
-    const Eigen::JacobiSVD<MatrixOf<long double>> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+Kernel kernel_at_crossing(const MatrixOf<long double>& F) {
+    const LongSingularValues svd = singular_values(F);
     const Index last = F.cols() - 1;
-    return {.right = {svd.matrixV().col(last), svd.matrixV().col(last - 1)}, .left = svd.matrixU().col(last - 1)};
+    return {.right = {svd.right.col(last), svd.right.col(last - 1)}, .left = svd.left.col(last - 1)};
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ BranchCrossing crossing_at(const Tracer& tracer, const TracedPoint& point) try {
     const TracedSystem here = tracer.linearized_at(point.at, point.p, &point.split);
     const MatrixOf<long double> F = tracer.independent_rows(here);
     if (F.cols() < 2 || F.rows() + 1 != F.cols()) return {};
-    const Kernel kernel = kernel_of(F);
+    const Kernel kernel = kernel_at_crossing(F);
     const auto& [v1, v2] = kernel.right;
     const auto at = [&](const Column& change) -> long double {
         const auto F = tracer.moved(point, change);

@@ -5,11 +5,10 @@
 // as the stiffness of the reduced system. (Pars, A Treatise on Analytical Dynamics (1965), §9.6.)
 #include "equilibrium/judge.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 #include "linear/paths.hpp"
 #include "symbolic/fourier.hpp"
 
@@ -68,22 +67,17 @@ bool is_minimum(const Reduced& r, const Tangent<long double>& t, Index nr) {
     if (!r.others.empty()) {
         const Matrix forces = part(P, r.others, r.e);
         if (forces.cwiseAbs().maxCoeff() > 1e-12L * (1 + K.cwiseAbs().maxCoeff())) return false;
-        K -= part(D, r.own, r.others) *
-             part(t.mass, r.others, r.others).partialPivLu().solve(part(D, r.others, r.own));
+        K -= part(D, r.own, r.others) * solve(part(t.mass, r.others, r.others), part(D, r.others, r.own));
     }
     const long double size = K.cwiseAbs().maxCoeff();
     if ((K - K.transpose()).cwiseAbs().maxCoeff() > 1e-12L * size) return false;
-    const Eigen::SelfAdjointEigenSolver<Matrix> values((K + K.transpose()) / 2, Eigen::EigenvaluesOnly);
-    return values.eigenvalues().minCoeff() > 1e-10L * size;
+    return least_eigenvalue((K + K.transpose()) / 2) > 1e-10L * size;
 }
 
 /// Does some inertia vanish here but not close to this state, as at a pole of spherical coordinates?
 bool is_singular(const SteadyProblem& problem, const Instant<long double>& at, const Matrix& mass) {
     constexpr long double beside = 0.1L, nothing = 1e-11L;
-    const auto least = [](const Matrix& m) {
-        if (m.rows() == 0) return 1.0L;
-        return Eigen::SelfAdjointEigenSolver<Matrix>(m, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
-    };
+    const auto least = [](const Matrix& m) { return m.rows() == 0 ? 1.0L : least_eigenvalue(m); };
     Instant<long double> other = at;
     for (std::size_t i = 0; i < other.q.size(); ++i)
         other.q[i] += beside * problem.scales()[i] / static_cast<long double>(i + 1);
@@ -98,10 +92,7 @@ bool zeros_are_rates(const SteadyProblem& problem, const Reduced& r, const Stead
     constexpr long double no_pivot = 1e-9L, change = 1e-2L;
     const MatrixOf<long double>& kept = problem.kept_speeds();
     if (zeros != kept.rows()) return false;
-    Eigen::FullPivLU<Matrix> of_root(here.by), of_motion(r.A);
-    of_root.setThreshold(no_pivot);
-    of_motion.setThreshold(no_pivot);
-    if (of_root.rank() != here.by.cols() || of_motion.dimensionOfKernel() != zeros) return false;
+    if (kernel_of(here.by, no_pivot).cols() != 0 || kernel_of(r.A, no_pivot).cols() != zeros) return false;
     for (Index k = 0; k < kept.rows(); ++k)
         for (const long double sign : {1.0L, -1.0L}) {
             Instant<long double> other = at;
@@ -163,11 +154,10 @@ StabilityHint judge(const SteadyProblem& problem, bool conservative, const Insta
         return {.because = say("the mass matrix is singular here")};
     const Reduced r = reduced(problem, here.split, t);
     if (r.A.rows() == 0) return {.stable = Stable::yes, .because = say("nothing can move")};
-    const Eigen::EigenSolver<Matrix> solver(r.A, false);
-    if (solver.info() != Eigen::Success) return {.because = say("the eigenvalues do not converge")};
+    const auto found = eigenvalues(r.A);
+    if (!found) return {.because = say("the eigenvalues do not converge")};
     StabilityHint result;
-    std::vector<std::complex<long double>> values(solver.eigenvalues().data(),
-                                                  solver.eigenvalues().data() + r.A.rows());
+    std::vector<std::complex<long double>> values = *found;
     long double size = 0;
     for (const auto& value : values) size = std::max(size, std::abs(value));
     const long double zero = on_axis * size;

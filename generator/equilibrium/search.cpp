@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equilibrium/search.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
 
 #include "alembert/error.hpp"
+#include "linear/dense_long.hpp"
 
 namespace alembert {
 
@@ -56,10 +56,10 @@ bool is_in_family(const SteadyProblem& problem, const std::vector<bool>& is_angl
                   Rates rates) {
     constexpr long double apart = 1e-3L;
     const SteadySystem here = problem.linearized_at(root.at, root.at.u, rates);
-    const Eigen::JacobiSVD<MatrixOf<long double>> svd(here.by, Eigen::ComputeFullV);
+    const LongMatrix right = singular_values(here.by).right;
     VectorOf<long double> local = VectorOf<long double>::Zero(here.tangent.along.cols());
     for (std::size_t j = 0; j < here.unknowns.size(); ++j)
-        local[here.unknowns[j]] = svd.matrixV()(static_cast<Eigen::Index>(j), svd.matrixV().cols() - 1);
+        local[here.unknowns[j]] = right(static_cast<Eigen::Index>(j), right.cols() - 1);
     const VectorOf<long double> whole = here.tangent.along * local;
     const long double length = problem.size(whole.head(problem.residuals().n));
     if (!(length > 0)) return false;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equilibrium/tracer.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "alembert/error.hpp"
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 
 namespace alembert {
 
@@ -27,7 +26,7 @@ Column solved(Matrix M, Column right) {
         const long double row = M.row(i).cwiseAbs().maxCoeff();
         if (row > 0) M.row(i) /= row, right[i] /= row;
     }
-    return M.colPivHouseholderQr().solve(right);
+    return least_norm(M, right, std::numeric_limits<long double>::epsilon()).x;
 }
 
 Matrix bordered(const TracedSystem& here, const Column& direction) {
@@ -89,7 +88,7 @@ long double Tracer::turn_of(const TracedSystem& here, const Column& tangent) con
     Matrix square(F.cols(), F.cols());
     square.topRows(F.rows()) = F;
     square.bottomRows(1) = tangent.transpose() * here.lift;
-    return square.determinant();
+    return determinant(square);
 }
 
 Matrix Tracer::independent_rows(const TracedSystem& here) const {

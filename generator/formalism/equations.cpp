@@ -3,16 +3,10 @@
 
 namespace alembert {
 
-Mechanism with_own_intermediates(const Mechanism& mechanism) {
-    Mechanism result = mechanism;
-    result.z = std::make_shared<Intermediates>(*mechanism.z);
-    return result;
-}
-
 Mechanism in_terms_of(const Equations& equations, const Mechanism& mechanism) {
     Mechanism result = mechanism;
-    equations.z->adopt(*mechanism.z);
-    result.z = equations.z;
+    result.z = std::make_shared<Intermediates>(*equations.z);
+    result.z->adopt(*mechanism.z);
     return result;
 }
 

@@ -74,12 +74,8 @@ struct Equations {
     GiNaC::ex forcing(int i) const { return own[i] + dissipative[i] + applied[i]; }
 };
 
-/// The same mechanism with a copy of its table of intermediate symbols. The intermediate symbols of a derivation
-/// go into the copy, so that the given mechanism does not change.
-Mechanism with_own_intermediates(const Mechanism& mechanism);
-
-/// The mechanism with the table of the equations, to which the further entries of the mechanism's own table are
-/// added. The expressions of both can be used with the result.
+/// The mechanism with a table that has the entries of the equations' table and of its own, so that the expressions
+/// of both can be used with the result. What is named with it changes neither.
 Mechanism in_terms_of(const Equations& equations, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "alembert/error.hpp"
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 #include "linear/dependence.hpp"
 #include "linear/kinks.hpp"
 #include "linear/outputs.hpp"
@@ -70,28 +70,13 @@ std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A)
         for (std::size_t i = 0; i < left.size(); ++i)
             for (std::size_t j = 0; j < left.size(); ++j)
                 rest(static_cast<Index>(i), static_cast<Index>(j)) = A(left[i], left[j]);
-        const Eigen::RealSchur<MatrixOf<long double>> schur(rest, false);
-        if (schur.info() != Eigen::Success) throw IntegrationError(say("the eigenvalues do not converge"), 0, {});
+        const auto values = eigenvalues(rest);
+        if (!values) throw IntegrationError(say("the eigenvalues do not converge"), 0, {});
         const long double size = rest.cwiseAbs().maxCoeff();
-        const auto keep = [&](long double real, long double imaginary) {
-            const auto rounded = [&](long double x) {
-                return std::abs(x) < 1e-17L * size ? 0.0 : static_cast<double>(x);
-            };
-            result.emplace_back(rounded(real), rounded(imaginary));
+        const auto rounded = [&](long double x) {
+            return std::abs(x) < 1e-17L * size ? 0.0 : static_cast<double>(x);
         };
-        const MatrixOf<long double>& T = schur.matrixT();
-        for (Index i = 0; i < T.rows(); ++i) {
-            if (i + 1 == T.rows() || T(i + 1, i) == 0) {
-                keep(T(i, i), 0);
-                continue;
-            }
-            const long double half = (T(i, i) - T(i + 1, i + 1)) / 2,
-                              middle = T(i + 1, i + 1) + half;  // a pair that is not real
-            const long double turn = std::sqrt(std::abs(half * half + T(i + 1, i) * T(i, i + 1)));
-            keep(middle, turn);
-            keep(middle, -turn);
-            ++i;
-        }
+        for (const auto& value : *values) result.emplace_back(rounded(value.real()), rounded(value.imag()));
     }
     std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
         return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());

@@ -2,9 +2,10 @@
 // The vectors are the right singular vectors of A − λ that belong to its vanishing singular values.
 #include "linear/modes.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "linear/dense_long.hpp"
 
 namespace alembert {
 
@@ -15,7 +16,6 @@ constexpr double equal = 1e-7, vanishing = 1e-9;  // of the largest eigenvalue, 
 }  // namespace
 
 std::vector<LinearMode> modes_of(const Eigen::MatrixXd& A, const std::vector<std::complex<double>>& eigenvalues) {
-    using Matrix = Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, Eigen::Dynamic>;
     const Eigen::Index n = A.rows();
     double largest = 0;
     for (const auto& value : eigenvalues) largest = std::max(largest, std::abs(value));
@@ -25,14 +25,14 @@ std::vector<LinearMode> modes_of(const Eigen::MatrixXd& A, const std::vector<std
         Eigen::Index before = 0;  // equal ones, whose vectors are taken
         for (std::size_t j = 0; j < k; ++j)
             before += std::abs(eigenvalues[j] - eigenvalues[k]) <= equal * largest ? 1 : 0;
-        const Matrix shifted = A.cast<std::complex<long double>>() -
-                               std::complex<long double>(eigenvalues[k]) * Matrix::Identity(n, n);
-        const Eigen::JacobiSVD<Matrix> svd(shifted, Eigen::ComputeFullV);
+        LongComplexMatrix shifted = A.cast<std::complex<long double>>();
+        shifted.diagonal().array() -= std::complex<long double>(eigenvalues[k]);
+        const LongRightVectors svd = right_vectors(shifted);
         const Eigen::Index column = n - 1 - before;
         if (column < 0) continue;
-        const long double size = std::max<long double>(svd.singularValues()[0], largest);
-        if (before > 0 && svd.singularValues()[column] > vanishing * size) continue;  // a Jordan block
-        Eigen::VectorXcd vector = svd.matrixV().col(column).cast<std::complex<double>>();
+        const long double size = std::max<long double>(svd.values[0], largest);
+        if (before > 0 && svd.values[column] > vanishing * size) continue;  // a Jordan block
+        Eigen::VectorXcd vector = svd.right.col(column).cast<std::complex<double>>();
         Eigen::Index leading = 0;
         vector.cwiseAbs().maxCoeff(&leading);
         vector /= std::complex<double>(vector[leading]);

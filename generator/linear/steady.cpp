@@ -5,18 +5,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "alembert/error.hpp"
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 
 namespace alembert {
 
 using Index = Eigen::Index;
-using LongMatrix = MatrixOf<long double>;
 using Column = VectorOf<long double>;
 
 namespace {
@@ -40,10 +38,9 @@ Column least_step(const LongMatrix& J, const Column& r, bool& full_rank) {
         const long double row = J.row(i).cwiseAbs().maxCoeff();
         if (row > 0) scaled.row(i) /= row, right[i] /= row;
     }
-    Eigen::JacobiSVD<LongMatrix> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    svd.setThreshold(no_pivot);
-    full_rank = svd.rank() == J.cols();
-    return svd.solve(right);
+    const LongLeastNorm step = least_norm(scaled, right, no_pivot);
+    full_rank = step.rank == J.cols();
+    return step.x;
 }
 
 }  // namespace
@@ -75,10 +72,7 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
     LongMatrix moves(nr, p);
     for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
     LongMatrix free = LongMatrix::Identity(p, p);
-    if (nr > 0 && p > 0 && !moves.isZero(0)) {
-        const Eigen::FullPivLU<LongMatrix> lu(moves);
-        free = lu.dimensionOfKernel() > 0 ? LongMatrix(lu.kernel()) : LongMatrix(p, 0);
-    }
+    if (nr > 0 && p > 0 && !moves.isZero(0)) free = kernel_of(moves);
     kept_speeds_ = LongMatrix::Zero(free.cols(), residuals_.s);
     for (Index k = 0; k < free.cols(); ++k)
         for (Index i = 0; i < p; ++i) kept_speeds_(k, split.u[i]) = free(i, k) / free.col(k).norm();

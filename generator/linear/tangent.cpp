@@ -5,13 +5,13 @@
 //   (UᵀMU) w' = Uᵀ(f − M c),   A_depᵀ λ = (M u' − f)_dep.
 #include "linear/tangent.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "alembert/error.hpp"
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 #include "linear/paths.hpp"
 #include "lower/lower.hpp"
 
@@ -207,10 +207,10 @@ MatrixOf<Real> columns_of(const MatrixOf<Real>& from, const std::vector<int>& wh
     return result;
 }
 
-/// A x = b. Columns of b are right-hand sides.
+/// A x = b, for expressions too.
 template <typename Real>
 MatrixOf<Real> solution(const MatrixOf<Real>& A, const MatrixOf<Real>& b) {
-    return A.partialPivLu().solve(b);
+    return solve(A, b);
 }
 
 /// The solution of dependent·x = right, with zeros for the independent ones, as rows of all.

@@ -182,8 +182,8 @@ std::vector<Program> contenders(std::vector<Candidate> candidates) {
 }  // namespace
 
 Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equations, const LowerOptions& options) {
-    const Mechanism m = in_terms_of(equations.at(0), mechanism);
-    const Energy energy = energy_of(m);
+    const Energy energy = energy_of(in_terms_of(equations.at(0), mechanism));  // in the names that they have
+    const Mechanism m = in_terms_of(energy, mechanism);
     std::vector<Candidate> candidates;
     for (const Equations& e : equations) add_forms(candidates, m, e, energy, options);
     std::vector<Program> programs = contenders(std::move(candidates));

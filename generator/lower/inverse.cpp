@@ -15,9 +15,10 @@ namespace alembert {
 
 using GiNaC::ex;
 
-std::vector<int> inverse_loads(Program& program, const Mechanism& m,
+std::vector<int> inverse_loads(Program& program, const Mechanism& mechanism,
                                const std::vector<std::pair<GiNaC::symbol, int>>& given) {
-    need_given_normal_forces(m, "inverse");
+    need_given_normal_forces(mechanism, "inverse");
+    const Mechanism m = with_own_intermediates(mechanism);
     std::vector<std::pair<GiNaC::symbol, int>> known = given;
     for (const Mechanism::Unilateral& contact : m.unilateral)
         known.emplace_back(contact.gap.multiplier, program.number(0));

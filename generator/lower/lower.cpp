@@ -117,7 +117,7 @@ Program begun(const Mechanism& m, bool fold) {
 
 Program lower(const Mechanism& mechanism, const Equations& equations, const Energy& energy,
               const LowerOptions& options) {
-    const Mechanism m = in_terms_of(equations, mechanism);
+    const Mechanism m = in_terms_of(energy, in_terms_of(equations, mechanism));
     Program program = begun(m, options.fold);
     program.formulation = equations.formalism;
     program.is_textbook = options.is_textbook;

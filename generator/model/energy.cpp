@@ -53,11 +53,19 @@ bool is_identically_zero(const ex& e, const Mechanism& mechanism) {
     return vanishes(e, mechanism).value_or(false);
 }
 
-Energy energy_of(const Mechanism& m) {
+Mechanism in_terms_of(const Energy& energy, const Mechanism& mechanism) {
+    Mechanism result = with_own_intermediates(mechanism);
+    result.z->adopt(*energy.z);
+    return result;
+}
+
+Energy energy_of(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     Intermediates& z = *m.z;
     const int n = m.size();
     const ex L = m.lagrangian();
     Energy result;
+    result.z = m.z;
 
     GiNaC::exvector p_dot_q;  // q'·∂L/∂q'
     const std::vector<ex> p = z.pull_back({{L, 1}}, m.qdot);

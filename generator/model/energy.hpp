@@ -17,13 +17,18 @@ namespace alembert {
 struct Energy {
     GiNaC::ex kinetic, potential;  ///< if a Lagrangian is given: its part of second degree, and −L at rest
     GiNaC::ex energy, jacobi, power;
-    bool conserved = false;         ///< whether E is constant along every motion
-    bool jacobi_conserved = false;  ///< whether h is
+    bool conserved = false;            ///< whether E is constant along every motion
+    bool jacobi_conserved = false;     ///< whether h is
+    std::shared_ptr<Intermediates> z;  ///< the table of the intermediate symbols of these values
 };
 
 /// For expressions of readable size conservation is decided by exact zero tests, for larger ones by structure
 /// (whether t occurs at all, whether there are loads at all).
 Energy energy_of(const Mechanism& mechanism);
+
+/// The mechanism with a table that has the entries of the energy's table and of its own, so that the expressions
+/// of both can be used with the result.
+Mechanism in_terms_of(const Energy& energy, const Mechanism& mechanism);
 
 /// Is `e` zero for all values of its symbols? It is not if its value at one state shows that. Otherwise the
 /// Fourier normal form decides for expressions up to a certain size; larger ones give no answer.

@@ -95,4 +95,10 @@ std::vector<ex> Mechanism::generalized_impulses() const {
     return z->pull_back(targets, qdot);
 }
 
+Mechanism with_own_intermediates(const Mechanism& mechanism) {
+    Mechanism result = mechanism;
+    result.z = std::make_shared<Intermediates>(*mechanism.z);
+    return result;
+}
+
 }  // namespace alembert

@@ -234,6 +234,10 @@ struct Mechanism {
     std::vector<GiNaC::ex> generalized_impulses() const;
 };
 
+/// The same mechanism with a copy of its table of intermediate symbols. Whoever names further expressions does so
+/// in a copy, so that the given mechanism does not change.
+Mechanism with_own_intermediates(const Mechanism& mechanism);
+
 /// A [polynomial]: its parameters, and its coefficients in them, highest power first.
 struct PolynomialScene {
     Mechanism mechanism;  ///< with parameters only

@@ -14,7 +14,7 @@ namespace {
 constexpr int rows_shown = 480;                // of a motion
 constexpr std::size_t poses_shown = 360;       // of a figure
 constexpr std::size_t numbers_shown = 60'000;  // the most points times poses, so that the page stays small
-constexpr double seconds_for_agreement = 1;    // for normal forms; after that time sampling decides
+constexpr double work_of_agreement = 1e5;      // for normal forms; after that sampling decides
 // The most coordinates for which all formalisms are compared and constraints audited.
 constexpr int readable_size = 10;
 
@@ -136,7 +136,7 @@ Overview overview(Scene scene, const OverviewOptions& options) {
     const auto too_large = [](const char* verb) {
         return say("Left out here, as the scene is large; the program does it when asked: alembert {}", verb);
     };
-    all.agreed = is_readable ? attempted([&] { return agree(s, seconds_for_agreement); })
+    all.agreed = is_readable ? attempted([&] { return agree(s, work_of_agreement); })
                              : left_out<Agreed>(too_large("agree"));
     tell(say("auditing constraints"));
     all.audited = is_readable ? attempted([&] { return audit(s); }) : left_out<Audited>(too_large("audit"));

@@ -11,6 +11,7 @@
 
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 
@@ -127,15 +128,17 @@ std::optional<std::pair<Eigen::Matrix4d, std::array<double, 2>>> normal_variable
         J(k, k + 2) = 1;
         J(k + 2, k) = -1;
     }
-    const Eigen::EigenSolver<Eigen::Matrix4d> eigen(J * S);
+    const std::optional<LongEigenpairs> eigen = eigenpairs_of((J * S).cast<long double>());
+    if (!eigen) return {};
     Eigen::Matrix4d basis;
     std::array<double, 2> frequencies{};
     int found = 0;
     for (int k = 0; k < 4; ++k) {
-        const Complex value = eigen.eigenvalues()[k];
+        const Complex value(eigen->values[static_cast<std::size_t>(k)]);
         if (!(value.imag() > 0)) continue;
         if (found == 2 || std::abs(value.real()) > 1e-9 * value.imag()) return {};
-        Eigen::Vector4d a = eigen.eigenvectors().col(k).real(), b = eigen.eigenvectors().col(k).imag();
+        const Eigen::Vector4cd vector = eigen->vectors.col(k).cast<Complex>();
+        Eigen::Vector4d a = vector.real(), b = vector.imag();
         const double s = a.dot(J * b), sign = s > 0 ? 1 : -1;
         if (std::abs(s) < 1e-9) return {};
         a /= std::sqrt(std::abs(s));

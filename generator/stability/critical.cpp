@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/dense.hpp"
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 #include "stability/field.hpp"
 
 namespace alembert {
@@ -139,14 +141,19 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
     const Eigen::MatrixXcd A = numbers(local.A).cast<Complex>(), one = Eigen::MatrixXcd::Identity(n, n);
     const Complex i_omega(0, omega);
     const auto kernel = [&](const Eigen::MatrixXcd& m) {
-        const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(m, Eigen::ComputeFullV);
-        return ComplexVector(svd.matrixV().col(n - 1));
+        const LongComplexMatrix right = right_vectors(m.cast<std::complex<long double>>()).right;
+        return ComplexVector(right.col(n - 1).cast<Complex>());
     };
     const ComplexVector q = kernel(A - i_omega * one), q_bar = q.conjugate();
     ComplexVector p = kernel(A.transpose() + i_omega * one);
     p /= std::conj(p.dot(q));  // dot conjugates its first argument: ⟨p, q⟩ = 1
-    const ComplexVector first = A.partialPivLu().solve(form({q, q_bar}));
-    const ComplexVector second = (2.0 * i_omega * one - A).partialPivLu().solve(form({q, q}));
+    const auto solved = [](const Eigen::MatrixXcd& m, const ComplexVector& right) {
+        using Long = std::complex<long double>;
+        const LongComplexMatrix A = m.cast<Long>(), b = right.cast<Long>(), x = solve(A, b);
+        return ComplexVector(x.cast<Complex>());
+    };
+    const ComplexVector first = solved(A, form({q, q_bar})),
+                        second = solved(2.0 * i_omega * one - A, form({q, q}));
     const Complex parts[] = {p.dot(form({q, q, q_bar})), -2.0 * p.dot(form({q, first})),
                              p.dot(form({q_bar, second}))};
     double l1 = 0, size = 0;
@@ -171,13 +178,13 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
         zeros += zero ? 1 : 0;
     }
     if (zeros == 0 || n == 0) return {};
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(numbers(local.A), Eigen::ComputeFullV | Eigen::ComputeFullU);
-    const double largest = svd.singularValues()[0];
-    if (zeros < n && svd.singularValues()[n - zeros - 1] < 1e-8 * largest) return {};
-    if (svd.singularValues()[n - zeros] > 1e-12 * std::max(1.0, largest)) return {};
+    const LongSingularValues svd = singular_values(LongMatrix(numbers(local.A).cast<long double>()));
+    const long double largest = svd.values[0];
+    if (zeros < n && svd.values[n - zeros - 1] < 1e-8L * largest) return {};
+    if (svd.values[n - zeros] > 1e-12L * std::max(1.0L, largest)) return {};
     const int p = static_cast<int>(local.split.u.size());
     if (!local.cyclic_momenta.empty()) return {};
-    const Eigen::MatrixXd V = svd.matrixV();
+    const Eigen::MatrixXd V = svd.right.cast<double>();
     const std::size_t ne = local.essential.size();
     const auto moved = [&](CertainPoint at, const Eigen::VectorXd& by) {
         const auto shift = [](Certain& x, double d) { x = Certain::about(x.middle() + static_cast<Quad>(d), 0); };
@@ -215,7 +222,7 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
                 const Eigen::VectorXd F = rate(local.tangent_at(at));
                 residual = F.norm();
                 if (zeros == n) break;
-                const Eigen::VectorXd y = (numbers(local.A) * across).colPivHouseholderQr().solve(-F);
+                const Eigen::VectorXd y = least_norm(numbers(local.A) * across, -F).x;
                 at = moved(at, across * y);
             }
             if (!(residual < 1e-22)) return {};

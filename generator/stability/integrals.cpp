@@ -254,6 +254,7 @@ PowerSign power_sign(const Local& local) {
     const Mechanism& m = local.mechanism;
     PowerSign result;
     const Energy energy = energy_of(m);
+    m.z->adopt(*energy.z);
     result.H = energy.jacobi;
     const int p = static_cast<int>(local.split.u.size());
     result.damping = CertainMatrix(p, p);
@@ -328,7 +329,8 @@ bool damping_is_complete(const Local& local, const PowerSign& power) {
 std::optional<IntegralProof> proof_by_integrals(const Local& local, const PowerSign& power) {
     if (!power.known || !constraints_hold_none(local)) return {};
     const Mechanism& m = local.mechanism;
-    IntegralProof proof{.relative = !is_identically_zero(power.H - energy_of(m).energy, m)};
+    const Energy energy = energy_of(m);
+    IntegralProof proof{.relative = !is_identically_zero(power.H - energy.energy, in_terms_of(energy, m))};
     std::vector<ex> functions{power.H};
     if (definite(local, functions, power.is_zero)) return proof;
     if (!local.cyclic_momenta.empty()) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/dense.hpp"
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
 #include "language/say.hpp"
@@ -187,7 +188,7 @@ bool PeriodicSystem::shoot(PeriodicMotion<Real>& motion) const {
             g[i] = static_cast<double>((end.state[row] - motion.x[row]) / largest);
             if (autonomous_) J(i, N) = static_cast<double>(rate[row]);
         }
-        const Eigen::VectorXd step = J.completeOrthogonalDecomposition().solve(-g);
+        const Eigen::VectorXd step = least_norm(J, -g).x;
         if (!step.allFinite() || step.norm() * motion.misfit > 1e3) return false;
         for (Index i = 0; i < N; ++i)
             motion.x[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] +=

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stability/signs.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "alembert/dense.hpp"
 #include "language/say.hpp"
 #include "stability/spectrum.hpp"
 
@@ -251,9 +251,7 @@ std::optional<std::vector<double>> definite_combination(const CertainMatrix& Q0,
     const auto least = [&] {
         Eigen::MatrixXd sum = base;
         for (std::size_t k = 0; k < s.size(); ++k) sum += s[k] * others[k];
-        return sum.size() == 0
-                   ? 1.0
-                   : Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(sum, Eigen::EigenvaluesOnly).eigenvalues()[0];
+        return sum.size() == 0 ? 1.0 : eigenpairs(sum).values[0];
     };
     for (int round = 0; round < (more.size() > 1 ? 8 : 1) && least() <= 0; ++round)
         for (std::size_t k = 0; k < s.size(); ++k) {

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "alembert/error.hpp"
 #include "equilibrium/judge.hpp"
 #include "language/say.hpp"
+#include "linear/dense_long.hpp"
 #include "lower/lower.hpp"
 #include "model/friction.hpp"
 #include "stability/periodic.hpp"
@@ -25,16 +25,11 @@ Spectra::Roots sorted(Spectra::Roots roots) {
     return roots;
 }
 
-template <typename Matrix>
-std::optional<Spectra::Roots> eigenvalues(const Matrix& A) {
+std::optional<Spectra::Roots> roots_of(const LongMatrix& A) {
     if (A.rows() == 0 || !A.allFinite()) return {};
-    const Eigen::EigenSolver<Matrix> solver(A, false);
-    if (solver.info() != Eigen::Success) return {};
-    Spectra::Roots result;
-    for (Eigen::Index k = 0; k < A.rows(); ++k)
-        result.emplace_back(static_cast<double>(solver.eigenvalues()[k].real()),
-                            static_cast<double>(solver.eigenvalues()[k].imag()));
-    return sorted(std::move(result));
+    const auto values = eigenvalues(A);
+    if (!values) return {};
+    return sorted(Spectra::Roots(values->begin(), values->end()));
 }
 
 void check_names(const std::vector<std::string>& names, const StabilityOptions& options, const Scene& scene) {
@@ -156,7 +151,7 @@ void Spectra::take_polynomial(const Scene& scene, const StabilityOptions&) {
             companion(0, k) = -static_cast<long double>(c(k + 1)) / c(0);
             if (k > 0) companion(k, k - 1) = 1;
         }
-        return eigenvalues(companion);
+        return roots_of(companion);
     };
 }
 
@@ -175,7 +170,7 @@ void Spectra::take_equilibrium(const std::shared_ptr<const Derived>& d, const st
         const auto root = problem->solve(
             instant_of<long double>(problem->residuals(), state_of(start.value(), d->mechanism, d->equations)));
         if (!root) return {};
-        return eigenvalues(essential_motion(*problem, root->at));
+        return roots_of(essential_motion(*problem, root->at));
     };
 }
 
@@ -194,7 +189,7 @@ void Spectra::take_motion(const std::shared_ptr<const Derived>& d, const Stabili
         const PeriodEnd<double> end = system->monodromy(motion, 1e-11);
         if (!end.finished) return {};
         const auto size = static_cast<Eigen::Index>(std::lround(std::sqrt(static_cast<double>(end.Phi.size()))));
-        return eigenvalues(Eigen::MatrixXd(Eigen::Map<const Eigen::MatrixXd>(end.Phi.data(), size, size)));
+        return roots_of(Eigen::Map<const Eigen::MatrixXd>(end.Phi.data(), size, size).cast<long double>());
     };
 }
 
