@@ -13,6 +13,7 @@
 #include "commands/streams.hpp"
 #include "commands/terminal.hpp"
 #include "commands/verb.hpp"
+#include "language/libraries.hpp"
 #include "language/say.hpp"
 
 namespace {
@@ -34,13 +35,16 @@ int guarded(const alembert::Chosen& chosen) {
     } catch (const alembert::SceneError& e) {
         return complain(e.what(), input_is_wrong);
     } catch (const alembert::ModelError& e) {
-        return complain(fmt::format("{}: {}", subject, e.what()), input_is_wrong);
+        return complain(fmt::format("{}: {}", subject, alembert::translated_from_library(e.what())),
+                        input_is_wrong);
     } catch (const std::invalid_argument& e) {
-        return complain(fmt::format("{}: {}", subject, e.what()), input_is_wrong);
+        return complain(fmt::format("{}: {}", subject, alembert::translated_from_library(e.what())),
+                        input_is_wrong);
     } catch (const alembert::IntegrationError& e) {
-        return complain(fmt::format("{}: {}", subject, e.what()), numbers_failed);
+        return complain(fmt::format("{}: {}", subject, alembert::translated_from_library(e.what())),
+                        numbers_failed);
     } catch (const alembert::CompileError& e) {
-        return complain(e.what(), environment_failed);
+        return complain(alembert::translated_from_library(e.what()), environment_failed);
     } catch (const std::bad_alloc&) {
         return complain(alembert::say("out of memory"), environment_failed);
     } catch (const std::exception& e) {

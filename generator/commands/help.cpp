@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "commands/values.hpp"
+#include "language/libraries.hpp"
 #include "language/say.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
@@ -204,7 +205,7 @@ void set_help(CLI::App& app) {
 
 std::string failure_message(const CLI::App* app, const CLI::Error& error) {
     const std::vector<CLI::App*> chosen = app->get_subcommands();
-    return say("{}\n'alembert {}--help' says more\n", error.what(),
+    return say("{}\n'alembert {}--help' says more\n", translated_from_library(error.what()),
                chosen.empty() ? "" : chosen[0]->get_name() + " ");
 }
 

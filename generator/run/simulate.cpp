@@ -8,6 +8,7 @@
 #include "alembert/drift.hpp"
 #include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
+#include "language/libraries.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
@@ -233,9 +234,9 @@ private:
     std::string reason_of(const Failure& failure, LoadedModes& modes) const {
         if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks ||
             failure.kind == FailureKind::no_side)
-            return failure.message;
+            return translated_from_library(failure.message);
         const auto there = failure_at(modes(run_.motion.phases.back().closed).derived, state_at(first_, failure));
-        return failure.message + (there ? say("\n  there: {}", *there) : "");
+        return translated_from_library(failure.message) + (there ? say("\n  there: {}", *there) : "");
     }
 
     Run& run_;
