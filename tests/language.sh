@@ -46,6 +46,8 @@ has '估计误差' simulate $textbook/double_pendulum.toml --duration 1
 has '退出码' derive --help
 has '没有这个文件' derive missing.toml
 has '未知命令' deriv
+has '必须给出 scene' derive
+has '次右端求值不足' simulate $textbook/double_pendulum.toml --budget 10
 "$program" report $textbook/double_pendulum.toml --language zh --no-motion -o "$work/page.html" >/dev/null &&
     grep -q '<html lang="zh-CN">' "$work/page.html" && grep -q '坐标与参数' "$work/page.html" ||
     fail 'the page is not Chinese'
