@@ -28,7 +28,7 @@ void prepare(Real* par) {
     const Real k1 = h * h * k;
     const Real k2 = Real(1) / M00;
     const Real k3 = Real(0.5) * M00;
-    const Real k4 = Real(0.5) * k1;
+    const Real k4 = Real(0.5) * k;
 
     // Result
     par[6] = M00;
@@ -98,7 +98,7 @@ void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, R
 template <typename Real>
 void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
-    const Real &k0 = par[7], &k1 = par[8], &k3 = par[10], &k4 = par[11];
+    const Real &h = par[2], &k0 = par[7], &k3 = par[10], &k4 = par[11];
 
     // Trigonometry
     const auto trig0 = sincos(theta1, theta2);
@@ -107,8 +107,8 @@ void energy(const Real&, const Real* state, const Real*, const Real* par, Real* 
 
     // Energy
     const Real T = k3 * (theta1_dot * theta1_dot + theta2_dot * theta2_dot);
-    const Real z0 = (k1 * sin_theta2 - k4 * sin_theta1) * sin_theta1;
-    const Real z1 = k0 * (cos_theta1 + cos_theta2) - (k4 * sin_theta2 * sin_theta2 - z0);
+    const Real z0 = h * (sin_theta1 - sin_theta2);
+    const Real z1 = k0 * (cos_theta1 + cos_theta2) - k4 * z0 * z0;
     const Real V = -z1;
     const Real E = T - z1;
 

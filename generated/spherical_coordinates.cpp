@@ -20,19 +20,17 @@ inline double sin(double x), cos(double x);
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &m = par[0], &k = par[1];
+    const Real &m = par[0];
 
     // Constants
     const Real k0 = Real(2) * m;
     const Real k1 = Real(1) / m;
     const Real k2 = Real(0.5) * m;
-    const Real k3 = Real(0.5) * k;
 
     // Result
     par[3] = k0;
     par[4] = k1;
     par[5] = k2;
-    par[6] = k3;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
@@ -115,7 +113,7 @@ void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, R
 template <typename Real>
 void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &r = state[0], &theta = state[1], &r_dot = state[3], &theta_dot = state[4], &phi_dot = state[5];
-    const Real &r0 = par[2], &k2 = par[5], &k3 = par[6];
+    const Real &k = par[1], &r0 = par[2], &k2 = par[5];
 
     // Trigonometry
     const Real sin_theta = sin(theta);
@@ -124,8 +122,9 @@ void energy(const Real&, const Real* state, const Real*, const Real* par, Real* 
     const Real z0 = sin_theta * phi_dot * phi_dot * sin_theta + theta_dot * theta_dot;
     const Real z1 = r0 - r;
     const Real T = k2 * (r * r * z0 + r_dot * r_dot);
-    const Real V = k3 * z1 * z1;
-    const Real E = T + V;
+    const Real z2 = k * z1 * z1;
+    const Real V = Real(0.5) * z2;
+    const Real E = T + Real(0.5) * z2;
 
     // Result
     energy[0] = T;
@@ -328,7 +327,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 0.5, 3, 1, 0};
 
 constexpr alembert_solver_table table{
-    4, 3, 3, 3, 4, 0, 0, 0, "spherical_coordinates", "lagrange, textbook form",
+    4, 3, 3, 3, 3, 0, 0, 0, "spherical_coordinates", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -27,13 +27,12 @@ void prepare(Real* par) {
     const Real z0 = m * a * a;
     const Real M11 = (Real(16) / Real(3)) * z0;
     const Real k0 = Real(4) * a * k * d;
-    const Real z1 = a * a * k;
-    const Real k1 = Real(16) * z1;
+    const Real k1 = Real(16) * a * a * k;
     const Real k2 = Real(0.1875) * Real(1) / z0;
     const Real k3 = Real(2) * m;
     const Real k4 = (Real(8) / Real(3)) * z0;
-    const Real k5 = Real(0.5) * k * d * d;
-    const Real k6 = Real(8) * z1;
+    const Real k5 = Real(0.5) * k;
+    const Real k6 = Real(4) * a;
 
     // Result
     par[5] = M00;
@@ -97,14 +96,15 @@ void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, R
 template <typename Real>
 void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &alpha = state[1], &x_dot = state[2], &alpha_dot = state[3];
-    const Real &k0 = par[7], &k3 = par[10], &k4 = par[11], &k5 = par[12], &k6 = par[13];
+    const Real &d = par[3], &k3 = par[10], &k4 = par[11], &k5 = par[12], &k6 = par[13];
 
     // Trigonometry
     const Real sin_alpha = sin(alpha);
 
     // Energy
     const Real T = k3 * x_dot * x_dot + k4 * alpha_dot * alpha_dot;
-    const Real V = k5 - (k0 - k6 * sin_alpha) * sin_alpha;
+    const Real z0 = d - k6 * sin_alpha;
+    const Real V = k5 * z0 * z0;
     const Real E = T + V;
 
     // Result

@@ -327,6 +327,46 @@ position = ["l*sin(theta)*cos(phi)", "l*sin(theta)*sin(phi)", "-l*cos(theta)"]
     });
 }
 
+TEST_CASE("stability: terms of high degree and coefficients that cancel are not taken for nothing") {
+    const auto bead = [](const std::string& wire, const std::string& more = "") {
+        return "gravity = [0, -9.81]\n[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition "
+               "= "
+               "[\"x\", \"y\"]\n[[constraint]]\nname = \"wire\"\nholonomic = \"y - (" +
+               wire + ")\"\n" + more;
+    };
+    const std::string damper = rayleigh("x'^2/2");
+    check({
+        {"a zero root, degree 19", one("0*x", forces("x^19 - x'")), {}, V::unstable, T::one_zero_root, true},
+        {"a zero root, tiny", one("0*x", forces("1e-20*x^3 - x'")), {}, V::unstable, T::one_zero_root, true},
+        // 3 x² x' − x'³ does no work over a turn: the first Lyapunov coefficient is zero.
+        {"work that cancels", one("x^2/2", forces("3*x^2*x' - x'^3 + x'^5")), {}, V::undecided, T::none, true},
+        {"a flat hill", bead("-x^20", damper), {}, V::unstable, T::one_zero_root, true},
+        {"a hill that is nearly flat", bead("-1e-12*x^10", damper), {}, V::unstable, T::one_zero_root, true},
+        {"a flat valley", bead("x^20", damper), {}, V::asymptotically_stable, T::one_zero_root, true},
+        {"damping up and down alone",
+         bead("x^2", rayleigh("y'^2/2")),
+         {},
+         V::asymptotically_stable,
+         T::pair_on_axis,
+         true},
+    });
+}
+
+TEST_CASE("stability: rolling bodies of revolution, as long as their motion can be reversed") {
+    const auto disc = [](const std::string& more) { return text_of("rolling_disc") + more; };
+    check({
+        {"a disc", disc(""), {}, V::stable, T::reversible, true},
+        {"a ring", disc(""), {"A=0.125", "C=0.25", "w=2.3"}, V::stable, T::reversible, true},
+        {"a ring, too slow", disc(""), {"A=0.125", "C=0.25", "w=2.2"}, V::unstable, T::first_approximation},
+        // What drives it while it leans: the first approximation is the same, and the motion grows.
+        {"a disc that is driven", disc("[forces]\ntheta = \"theta'^3/50\"\n"), {}, V::undecided, T::none, true},
+        {"a disc that is braked", disc("[forces]\ntheta = \"-theta'^3/50\"\n"), {}, V::undecided, T::none, true},
+        {"a force of position", disc("[forces]\ntheta = \"-theta^3/50\"\n"), {}, V::stable, T::reversible, true},
+        {"a damped lean", disc("[forces]\ntheta = \"-theta'/50\"\n"), {}, V::stable, T::malkin, true},
+        {"a driven lean", disc("[forces]\ntheta = \"theta'/50\"\n"), {}, V::unstable, T::first_approximation},
+    });
+}
+
 TEST_CASE("stability: polynomials without a mechanism") {
     const auto polynomial = [](const std::string& list) {
         return "[polynomial]\ncoefficients = [" + list + "]\n";

@@ -95,7 +95,8 @@ TEST_CASE("lyapunov: an indefinite V proves instability by the theorems of Lyapu
         {one("-x^2/2"), "(x + x')^2", V::unstable, T::chetaev_instability},
         {one("-x^2/2"), "x'^2 + 3*x*x' + x^2", V::unstable, T::lyapunov_instability},
         {one("x^2/2", force("x'^3")), "x'^2 + x^2 - x*x'^3", V::undecided, T::none},
-        {two("(y^2 - x^2)/2"), "x*x'", V::undecided, T::none},
+        {two("(y^2 - x^2)/2"), "x*x'", V::unstable, T::chetaev_instability},
+        {two("(y^2 - x^2)/2"), "x*x' + y^2", V::undecided, T::none},
         // dV/dt = g V with g > 0 but at the state; and with a g that is zero on a line.
         {two("0*x", force("(x^2 + y^2 + x'^2 + y'^2)*x'")), "x'^2", V::unstable, T::chetaev_instability},
         {two("0*x", force("(y - x)^2*x'")), "x'^2", V::undecided, T::none},
@@ -142,6 +143,34 @@ rayleigh = "c*x'^2/2"
     CHECK(s.lyapunov->rate_sign == "negative semidefinite");
     CHECK(s.lyapunov->set == "x' = 0");
     CHECK(s.theorem == T::lasalle);
+}
+
+TEST_CASE("lyapunov: with constraints V is judged on the states that obey them") {
+    const auto on_a_circle = [](const std::string& x, const std::string& y, const std::string& more = "") {
+        return "[coordinates]\nx = " + x + "\ny = " + y +
+               "\n[energy]\nkinetic = \"(x'^2 + y'^2)/2\"\npotential = \"y\"\n[[constraint]]\nname = "
+               "\"rod\"\nholonomic = \"x^2 + y^2 - 1\"\n" +
+               more;
+    };
+    const std::string energy = "(x'^2 + y'^2)/2 + y + 1", damper = rayleigh("(x'^2 + y'^2)/2");
+    check({
+        {on_a_circle("0", "-1"), energy, V::stable, T::lyapunov_stable},
+        {on_a_circle("0", "-1", damper), energy, V::stable, T::lyapunov_stable},
+        {on_a_circle("0", "-1", damper), "x'^2 + x*x'/2 + 2*(y + 1)", V::asymptotically_stable,
+         T::lyapunov_asymptotic},
+        {on_a_circle("0", "-1", rayleigh("-(x'^2 + y'^2)/2")), "x'^2 - x*x'/2 + 2*(y + 1)", V::unstable,
+         T::lyapunov_instability},
+        {on_a_circle("0", "1"), "x*x'", V::unstable, T::lyapunov_instability},
+        {on_a_circle("0", "1"), "-x*x'*y", V::unstable, T::lyapunov_instability},
+        // Definite in x and y, but y is 1 only to second degree: on the circle 1 - y is like x^2/2.
+        {on_a_circle("0", "-1"), "x'^2 + y'^2 + (y + 1)^2", V::undecided, T::none},
+        {on_a_circle("0", "1"), "(x'^2 + y'^2)/2 + y - 1", V::undecided, T::none},
+        // A knife edge that a damped spring turns straight, while it slides without resistance.
+        {"[coordinates]\nx = 0\ny = 0\na = 0\n[energy]\nkinetic = \"(x'^2 + y'^2 + a'^2)/2\"\n"
+         "potential = \"a^2/2\"\n[dissipation]\nrayleigh = \"a'^2/2\"\n[[constraint]]\nname = "
+         "\"edge\"\nnonholonomic = \"y'*cos(a) - x'*sin(a)\"\n",
+         "x'^2 + y'^2 + a'^2 + a^2", V::stable, T::lyapunov_stable},
+    });
 }
 
 TEST_CASE("lyapunov: solutions of Lyapunov's equation decide random linear systems as their eigenvalues do") {
@@ -256,9 +285,9 @@ TEST_CASE("lyapunov: an expression that cannot be a Lyapunov function is refused
     refused("[polynomial]\ncoefficients = [1, 2]\n", "x^2", "leave it out for");
     refused(two("(x^2)/2"), "x^2 + y^2", "it holds y, which nothing in the equations depends on");
     refused(
-        "[coordinates]\nx = 0\ny = 0\n[energy]\nkinetic = \"(x'^2 + y'^2)/2\"\npotential = "
-        "\"x^2\"\n[[constraint]]\nname = \"c\"\nholonomic = \"y - x\"\n",
-        "x^2", "independent coordinates");
+        "[coordinates]\ny = 1\n[energy]\nkinetic = \"y'^2/2\"\npotential = \"(y - "
+        "1)^2\"\n[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n",
+        "(y - 1)^2", "this scene has contacts");
 }
 
 }  // namespace stability_lyapunov

@@ -84,6 +84,12 @@ TEST_CASE("scenes of stability: the verdicts, each by its theorem") {
         {"mathieu", {}, V::unstable, T::floquet},
         {"mathieu", {{"a", "3"}}, V::stable, T::floquet},
         {"rolling_disc", {{"w", "2"}}, V::unstable, T::first_approximation},
+        {"rolling_disc", {{"w", "2.557"}}, V::unstable, T::first_approximation},
+        {"rolling_disc", {{"w", "2.558"}}, V::stable, T::reversible},
+        // On the spot: psi'^2 > 4 g/(5 r) = 15.696 (O'Reilly 1996).
+        {"rolling_disc", {{"w", "6"}, {"psi'", "3"}, {"theta", "-0.7731047471038887"}}, V::stable, T::reversible},
+        {"rolling_disc", {{"w", "0"}, {"psi'", "3.961"}}, V::unstable, T::first_approximation},
+        {"rolling_disc", {{"w", "0"}, {"psi'", "3.962"}}, V::stable, T::reversible},
         {"sleeping_top", {{"psi'", "4.001"}}, V::stable, T::chetaev_integrals},
         {"sleeping_top", {{"psi'", "3.999"}}, V::unstable, T::first_approximation},
         {"standing_double_pendulum", {{"k", "34"}}, V::stable, T::lagrange_dirichlet},

@@ -82,10 +82,51 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
     return equations;
 }
 
+/// Is there a power of a sum in `e` or in what its intermediate symbols stand for?
+bool has_power_of_sum(const ex& e, const Intermediates& z) {
+    if (GiNaC::is_a<GiNaC::symbol>(e)) {
+        const Intermediates::Entry* entry = z.find(GiNaC::ex_to<GiNaC::symbol>(e));
+        return entry != nullptr && has_power_of_sum(entry->definition, z);
+    }
+    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::posint)) {
+        const ex& base = e.op(0);
+        const Intermediates::Entry* entry =
+            GiNaC::is_a<GiNaC::symbol>(base) ? z.find(GiNaC::ex_to<GiNaC::symbol>(base)) : nullptr;
+        if (GiNaC::is_a<GiNaC::add>(entry != nullptr ? entry->definition : base)) return true;
+    }
+    return std::any_of(e.begin(), e.end(), [&](const ex& part) { return has_power_of_sum(part, z); });
+}
+
+/// The parts of V that are not multiplied out: squares of small differences. ½ k (|r| − l)² as the sum of ½ k r²,
+/// −k l |r| and ½ k l² would lose as many digits as a stiff spring is shorter in its extension than in its length.
+/// Nothing if an extension is too long to be written.
+std::optional<ex> potential_of_differences(const Mechanism& m) {
+    ex result = 0;
+    for (const Part& part : m.potential) {
+        if (part.origin.kind == Origin::Kind::given_potential && has_power_of_sum(part.value, *m.z))
+            result += part.value;
+        if (part.origin.kind != Origin::Kind::spring) continue;
+        const auto spring = std::find_if(m.springs.begin(), m.springs.end(), [&](const SpringElement& s) {
+            return s.origin.index == part.origin.index;
+        });
+        if (spring == m.springs.end() || !spring->extension) continue;
+        const std::optional<ex> d = readable_form(*spring->extension, m);
+        if (!d) return std::nullopt;
+        if (GiNaC::is_a<GiNaC::add>(*d)) result += spring->stiffness / 2 * pow(*d, 2);
+    }
+    return result;
+}
+
 Energy readable_energy(const Mechanism& m, const Energy& energy) {
     Energy result = energy;
     const bool same = !m.given_lagrangian && is_identically_zero(energy.energy - energy.jacobi, m);
+    const std::optional<ex> kept = potential_of_differences(m);
+    if (!kept) return energy;
+    result.potential -= *kept;
+    result.jacobi -= *kept;
     if (!make_readable({&result.kinetic, &result.potential, &result.jacobi, &result.power}, m)) return energy;
+    result.potential += *kept;
+    result.jacobi += *kept;
     if (!m.given_lagrangian) result.energy = result.kinetic + result.potential;
     if (same) result.jacobi = result.energy;
     if (m.given_lagrangian) result.energy = result.jacobi;

@@ -120,15 +120,18 @@ ex length_of(Building& here, const Link& link) {
 // V = ½ k (d − d₀)²
 void add_spring(Building& here, const Link& s, const Origin& origin) {
     const ex k = here.translator.scalar(s.constant), free_length = here.translator.scalar(s.length);
+    SpringElement spring{.origin = origin, .stiffness = k, .free_length = free_length};
     ex square;
     if (s.between && free_length.is_zero()) {
         const Vector3 d = across(here, s);
         square = dot(d, d, *here.m.z);
+        if (std::count_if(d.begin(), d.end(), [](const ex& x) { return !x.is_zero(); }) == 1)
+            spring.extension = *std::find_if(d.begin(), d.end(), [](const ex& x) { return !x.is_zero(); });
     } else {
-        square = pow(length_of(here, s) - free_length, 2);
+        spring.extension = length_of(here, s) - free_length;
+        square = pow(*spring.extension, 2);
     }
     here.m.potential.push_back({origin, here.m.z->name(k / 2 * square)});
-    SpringElement spring{.origin = origin, .stiffness = k, .free_length = free_length};
     if (s.between)
         spring.between = {here.places.position(s.between->first.text),
                           here.places.position(s.between->second.text)};

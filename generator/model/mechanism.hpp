@@ -84,6 +84,9 @@ struct SpringElement {
     GiNaC::ex stiffness, free_length;
     std::optional<std::pair<Vector3, Vector3>> between = {};  ///< positions of its ends
     GiNaC::ex along = 0;
+    /// d in V = ½ k d², if V is written so: the length without the free length, or the difference of two positions
+    /// on one axis.
+    std::optional<GiNaC::ex> extension = {};
 };
 
 struct Mechanism {

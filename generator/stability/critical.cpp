@@ -10,6 +10,7 @@
 #include "alembert/dense.hpp"
 #include "language/say.hpp"
 #include "linear/dense_long.hpp"
+#include "stability/exact_field.hpp"
 #include "stability/field.hpp"
 
 namespace alembert {
@@ -20,10 +21,11 @@ using Side = RootOf::Side;
 using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 
-constexpr int highest_degree = 9;
+constexpr int highest_degree = 20;
 
-bool applies(const Local& local) {
-    return local.mechanism.constraints.empty() && local.residuals.rates_are_speeds && local.cyclic_momenta.empty();
+Eigen::MatrixXcd inverse(const Eigen::MatrixXcd& A) {
+    const LongComplexMatrix one = LongComplexMatrix::Identity(A.rows(), A.cols());
+    return solve(LongComplexMatrix(A.cast<std::complex<long double>>()), one).cast<Complex>();
 }
 
 int count(const std::vector<RootOf>& roots, Side side) {
@@ -71,6 +73,16 @@ public:
         return result;
     }
 
+    /// The sums of the sizes of the terms of this derivative: rounding is a small part of them.
+    Eigen::VectorXd bound(const std::vector<Eigen::VectorXd>& along) const {
+        std::vector<ComplexVector> sizes;
+        for (const Eigen::VectorXd& vector : along) sizes.push_back(vector.cwiseAbs().cast<Complex>());
+        TaylorForms positive = *this;
+        for (auto& row : positive.terms_)
+            for (auto& [c, list] : row) c = std::abs(c);
+        return positive(sizes).real();
+    }
+
 private:
     std::vector<std::vector<std::pair<double, std::vector<int>>>> terms_;
 };
@@ -78,7 +90,7 @@ private:
 }  // namespace
 
 Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
-    if (!applies(local) || count(roots, Side::axis) != 1 ||
+    if (!local.cyclic_momenta.empty() || count(roots, Side::axis) != 1 ||
         count(roots, Side::left) + 1 != static_cast<int>(roots.size()))
         return {};
     const int n = local.A.rows;
@@ -105,7 +117,7 @@ Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
     Expansion power = c;
     for (int order = 2; order <= highest_degree; ++order) {
         power = power * c;
-        const std::vector<Expansion> F = field(local, x);
+        const std::vector<Expansion> F = field(local, x, order);
         CertainMatrix known(n + 1, 1);
         for (int i = 0; i < n; ++i) known(i, 0) = -F[i].coefficient(order);
         const auto step = solution(bordered, known);
@@ -128,7 +140,9 @@ Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
 
 Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
     const int n = local.A.rows;
-    if (!applies(local) || n > 8 || count(roots, Side::axis) != 2 || count(roots, Side::left) + 2 != n) return {};
+    if (!local.cyclic_momenta.empty() || n > 8 || count(roots, Side::axis) != 2 ||
+        count(roots, Side::left) + 2 != n)
+        return {};
     const auto critical = std::find_if(roots.begin(), roots.end(),
                                        [](const RootOf& r) { return r.side == Side::axis && r.value.imag() > 0; });
     if (critical == roots.end()) return {};
@@ -137,7 +151,7 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
     std::vector<Expansion> x;
     for (int i = 0; i < n; ++i)
         x.push_back(Expansion::variable(monomials, i, state_value(local, static_cast<std::size_t>(i))));
-    const TaylorForms form(field(local, x), monomials);
+    const TaylorForms form(field(local, x, 3), monomials);
     const Eigen::MatrixXcd A = numbers(local.A).cast<Complex>(), one = Eigen::MatrixXcd::Identity(n, n);
     const Complex i_omega(0, omega);
     const auto kernel = [&](const Eigen::MatrixXcd& m) {
@@ -147,20 +161,19 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
     const ComplexVector q = kernel(A - i_omega * one), q_bar = q.conjugate();
     ComplexVector p = kernel(A.transpose() + i_omega * one);
     p /= std::conj(p.dot(q));  // dot conjugates its first argument: ⟨p, q⟩ = 1
-    const auto solved = [](const Eigen::MatrixXcd& m, const ComplexVector& right) {
-        using Long = std::complex<long double>;
-        const LongComplexMatrix A = m.cast<Long>(), b = right.cast<Long>(), x = solve(A, b);
-        return ComplexVector(x.cast<Complex>());
-    };
-    const ComplexVector first = solved(A, form({q, q_bar})),
-                        second = solved(2.0 * i_omega * one - A, form({q, q}));
-    const Complex parts[] = {p.dot(form({q, q, q_bar})), -2.0 * p.dot(form({q, first})),
-                             p.dot(form({q_bar, second}))};
-    double l1 = 0, size = 0;
-    for (const Complex& part : parts) {
-        l1 += part.real() / (2 * omega);
-        size += std::abs(part) / (2 * omega);
-    }
+    const Eigen::MatrixXcd twice = 2.0 * i_omega * one - A;
+    const Eigen::MatrixXcd A_inverse = inverse(A), twice_inverse = inverse(twice);
+    const ComplexVector first = A_inverse * form({q, q_bar}), second = twice_inverse * form({q, q});
+    const double l1 =
+        (p.dot(form({q, q, q_bar})) - 2.0 * p.dot(form({q, first})) + p.dot(form({q_bar, second}))).real() /
+        (2 * omega);
+    const Eigen::VectorXd large = q.cwiseAbs(), squares = form.bound({large, large});
+    const Eigen::VectorXd size_of_first = A_inverse.cwiseAbs() * squares,
+                          size_of_second = twice_inverse.cwiseAbs() * squares;
+    const double size =
+        p.cwiseAbs().dot(form.bound({large, large, large}) + 2 * form.bound({large, size_of_first}) +
+                         form.bound({large, size_of_second})) /
+        (2 * omega);
     if (!(std::abs(l1) > 1e-8 * size)) return {};
     return {l1 < 0 ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
             StabilityTheorem::pair_on_axis,
@@ -169,22 +182,32 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
                 omega, l1 < 0 ? say("negative") : say("positive"))};
 }
 
-Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots) {
-    const int n = local.A.rows;
-    int zeros = 0;
-    for (const RootOf& r : roots) {
-        const bool zero = std::abs(r.value) + r.radius < 1e-9 && r.side != Side::left && r.side != Side::right;
-        if (!zero && r.side != Side::left) return {};
-        zeros += zero ? 1 : 0;
-    }
-    if (zeros == 0 || n == 0) return {};
-    const LongSingularValues svd = singular_values(LongMatrix(numbers(local.A).cast<long double>()));
-    const long double largest = svd.values[0];
-    if (zeros < n && svd.values[n - zeros - 1] < 1e-8L * largest) return {};
-    if (svd.values[n - zeros] > 1e-12L * std::max(1.0L, largest)) return {};
-    const int p = static_cast<int>(local.split.u.size());
-    if (!local.cyclic_momenta.empty()) return {};
-    const Eigen::MatrixXd V = svd.right.cast<double>();
+namespace {
+
+/// Are there steady motions in all directions of the null space V of A? Proved in exact arithmetic: let some
+/// speeds J be zero. If, whatever the rest of the state is, the rates of the essential coordinates are zero then,
+/// and z′ of the forces along the p speeds, the others are p − z′ equations for the rest of the state, and steady
+/// motions have (essential coordinates) − |J| + z′ parameters: the equations are independent if that many
+/// eigenvalues are zero.
+bool has_family(const Local& local, const Eigen::MatrixXd& V) {
+    const std::size_t ne = local.essential.size();
+    std::vector<std::size_t> still;
+    for (std::size_t j = 0; j < local.split.u.size(); ++j)
+        if (local.point.u[local.split.u[j]].is_zero() &&
+            V.row(static_cast<Eigen::Index>(ne + j)).cwiseAbs().maxCoeff() < 1e-9)
+            still.push_back(j);
+    const std::vector<bool> balanced = ExactField(local.residuals, local.split).balanced_without(still);
+    for (const int r : local.essential)
+        if (!balanced[static_cast<std::size_t>(r)]) return false;
+    const auto forces =
+        std::count(balanced.begin() + static_cast<std::ptrdiff_t>(local.split.q.size()), balanced.end(), true);
+    return static_cast<Eigen::Index>(ne) - static_cast<Eigen::Index>(still.size()) + forces == V.cols();
+}
+
+/// The same in numbers: Newton's method finds steady motions a small distance along each null vector, the last
+/// columns of V.
+bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
+    const int n = local.A.rows, p = static_cast<int>(local.split.u.size());
     const std::size_t ne = local.essential.size();
     const auto moved = [&](CertainPoint at, const Eigen::VectorXd& by) {
         const auto shift = [](Certain& x, double d) { x = Certain::about(x.middle() + static_cast<Quad>(d), 0); };
@@ -218,21 +241,41 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
         for (const double step : {0.05, -0.03}) {
             CertainPoint at = moved(local.point, step * V.col(n - zeros + k));
             double residual = 1;
-            for (int round = 0; round < 60 && residual > 1e-24; ++round) {
+            for (int round = 0; round < 60 && residual > 1e-31; ++round) {
                 const Eigen::VectorXd F = rate(local.tangent_at(at));
                 residual = F.norm();
                 if (zeros == n) break;
                 const Eigen::VectorXd y = least_norm(numbers(local.A) * across, -F).x;
                 at = moved(at, across * y);
             }
-            if (!(residual < 1e-22)) return {};
+            if (!(residual < 1e-30)) return false;
         }
-    return {
-        StabilityVerdict::stable, StabilityTheorem::malkin,
-        say("{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters (found "
-            "by Newton's method along each), and all others have negative real parts: disturbed motions tend "
-            "to steady motions near this one",
-            zeros, zeros == 1 ? "is" : "are")};
+    return true;
+}
+
+}  // namespace
+
+Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots, FamilyProof by) {
+    const int n = local.A.rows;
+    int zeros = 0;
+    for (const RootOf& r : roots) {
+        const bool zero = std::abs(r.value) + r.radius < 1e-9 && r.side != Side::left && r.side != Side::right;
+        if (!zero && r.side != Side::left) return {};
+        zeros += zero ? 1 : 0;
+    }
+    if (zeros == 0 || n == 0 || !local.cyclic_momenta.empty()) return {};
+    const LongSingularValues svd = singular_values(LongMatrix(numbers(local.A).cast<long double>()));
+    const long double largest = svd.values[0];
+    if (zeros < n && svd.values[n - zeros - 1] < 1e-8L * largest) return {};
+    if (svd.values[n - zeros] > 1e-12L * std::max(1.0L, largest)) return {};
+    const Eigen::MatrixXd V = svd.right.cast<double>();
+    const bool proved = by == FamilyProof::exact;
+    if (!(proved ? has_family(local, V.rightCols(zeros)) : finds_family(local, V, zeros))) return {};
+    return {StabilityVerdict::stable, StabilityTheorem::malkin,
+            say("{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters{}, "
+                "and all others have negative real parts: disturbed motions tend to steady motions near this "
+                "one",
+                zeros, zeros == 1 ? "is" : "are", proved ? "" : say(" (found by Newton's method along each)"))};
 }
 
 }  // namespace alembert

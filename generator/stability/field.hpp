@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Equations of motion without constraints in the form x' = f(x), where x consists of the coordinates on which
-/// something depends, followed by all speeds.
+/// The equations of motion in the form x' = f(x), where x consists of the independent coordinates on which
+/// something depends, followed by the independent speeds. Other coordinates and speeds follow from the
+/// constraints; coordinates on which nothing depends keep their values.
 
 #include "stability/local.hpp"
 
 namespace alembert {
 
-/// The series of x' if the states are the given series. Throws NotAnalytic.
-std::vector<Expansion> field(const Local& local, const std::vector<Expansion>& x);
+/// The whole state, up to terms of this degree, if x is given as series. Throws NotAnalytic.
+State<Expansion> state_of_series(const Local& local, const std::vector<Expansion>& x, int degree);
+
+/// The series of x', likewise.
+std::vector<Expansion> field(const Local& local, const std::vector<Expansion>& x, int degree);
 
 /// The value at the point of state k.
 Certain state_value(const Local& local, std::size_t k);

@@ -139,30 +139,40 @@ std::vector<ex> angular_momenta(const Mechanism& m) {
     return result;
 }
 
-std::vector<ex> constant_angular_momenta(const Local& local) {
+/// Calls `ask` with exact motions of the scene, if there are any.
+template <typename Ask>
+void with_motions(const Local& local, const Ask& ask) {
     const Mechanism& m = local.mechanism;
-    if (!masses_are_known(m) || !m.unilateral.empty()) return {};
-    std::vector<ex> result;
+    if (!m.unilateral.empty()) return;
     try {
         const Derived other = local.residuals.rates_are_speeds
                                   ? static_cast<const Derived&>(local.near)
                                   : derived_again(local.near, m, m.constraints.empty() ? "lagrange" : "routh");
         const Motions motions(m, other.equations);
-        if (!motions.obstacle().empty() || !motions.loose().empty()) return {};
+        if (motions.obstacle().empty() && motions.loose().empty()) ask(motions);
+    } catch (const std::exception&) {  // of a formalism that does not apply, or of expressions beyond GiNaC
+    }
+}
+
+std::vector<ex> constant_angular_momenta(const Local& local) {
+    const Mechanism& m = local.mechanism;
+    std::vector<ex> result;
+    if (!masses_are_known(m)) return result;
+    with_motions(local, [&](const Motions& motions) {
         const std::vector<ex> candidates = angular_momenta(m);
+        std::vector<ex> found;
         ex square = 0;
         bool all = true;
         for (const ex& candidate : candidates) {
             const bool constant = is_constant(candidate, motions, m);
-            if (constant && holds_none(candidate, local)) result.push_back(candidate);
+            if (constant && holds_none(candidate, local)) found.push_back(candidate);
             all = all && constant;
             square += candidate * candidate;
         }
         if (const ex magnitude = m.z->name(square); all && holds_none(magnitude, local))
-            result.push_back(magnitude);
-    } catch (const std::exception&) {
-        return {};
-    }
+            found.push_back(magnitude);
+        result = std::move(found);
+    });
     return result;
 }
 
@@ -249,6 +259,14 @@ bool definite(const Local& local, const std::vector<ex>& functions, bool either_
 }
 
 }  // namespace
+
+bool is_integral(const ex& function, const Local& local) {
+    bool result = false;
+    with_motions(local, [&](const Motions& motions) {
+        result = is_constant(local.mechanism.z->name(function), motions, local.mechanism);
+    });
+    return result;
+}
 
 PowerSign power_sign(const Local& local) {
     const Mechanism& m = local.mechanism;

@@ -29,6 +29,10 @@ PowerSign power_sign(const Local& local);
 /// Whether −dH/dt is positive definite in all rates except those of cyclic coordinates with conserved momenta.
 bool damping_is_complete(const Local& local, const PowerSign& power);
 
+/// Is the function of q and q' proved to keep its value along every motion? (In exact arithmetic, at random
+/// motions.)
+bool is_integral(const GiNaC::ex& function, const Local& local);
+
 struct IntegralProof {
     enum class By { energy, momenta, angular_momenta };
     By by = By::energy;

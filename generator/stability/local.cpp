@@ -11,6 +11,7 @@
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
+#include "stability/exact_field.hpp"
 
 namespace alembert {
 
@@ -61,6 +62,10 @@ std::vector<ex> Local::in_speeds(const std::vector<ex>& of) const {
 
 std::vector<Expansion> Local::series(const std::vector<ex>& of, const Monomials& monomials,
                                      const std::vector<int>& variables) const {
+    return series(of, state_at(point, &monomials, variables));
+}
+
+std::vector<Expansion> Local::series(const std::vector<ex>& of, const State<Expansion>& state) const {
     const std::vector<ex> wanted = in_speeds(of);
     Program program = begun(mechanism);
     std::vector<std::pair<GiNaC::symbol, int>> given;
@@ -70,16 +75,15 @@ std::vector<Expansion> Local::series(const std::vector<ex>& of, const Monomials&
         given.emplace_back(mechanism.inputs[k / 3].derivative[k % 3],
                            program.variable({Variable::Kind::unknown, k}));
     const std::vector<int> nodes = lower_expressions(program, mechanism, wanted, given);
-    const std::vector<Expansion> value = interpret(program, state_at(point, &monomials, variables));
+    const std::vector<Expansion> value = interpret(program, state);
     std::vector<Expansion> result;
     for (const int node : nodes) result.push_back(value[node]);
     return result;
 }
 
-/// Cyclic coordinates were found at a few states nearby; without constraints the equations themselves decide.
-bool Local::is_surely_cyclic(int coordinate) const {
+/// For unconstrained equations in rates: do they not depend on the coordinate?
+bool Local::is_left_out_of_equations(int coordinate) const {
     const Mechanism& m = mechanism;
-    if (!m.constraints.empty() || !residuals.rates_are_speeds) return true;
     std::vector<ex> values;
     for (int i = 0; i < residuals.s; ++i) {
         values.push_back(m.z->name(equations.forcing(i)));
@@ -89,6 +93,63 @@ bool Local::is_surely_cyclic(int coordinate) const {
     for (const ex& slope : m.z->push_forward(values, {{m.q[coordinate], 1}}))
         if (!is_identically_zero(slope, m)) return false;
     return true;
+}
+
+/// The coordinate, and those that holonomic constraints tie to it.
+std::vector<int> Local::tied_to(int coordinate) const {
+    std::vector<int> result{coordinate};
+    const auto is_in = [&](int i) { return position_in(result, i) >= 0; };
+    for (std::size_t size = 0; size < result.size();) {
+        size = result.size();
+        for (const Mechanism::Constraint& c : mechanism.constraints) {
+            if (!c.position) continue;
+            std::vector<int> own;
+            for (int i = 0; i < residuals.n; ++i)
+                if (!is_identically_zero(c.row[i], mechanism)) own.push_back(i);
+            if (std::none_of(own.begin(), own.end(), is_in)) continue;
+            for (const int i : own)
+                if (!is_in(i)) result.push_back(i);
+        }
+    }
+    return result;
+}
+
+/// `linearize` finds cyclic coordinates at a few states nearby; here it is proved that nothing depends on them,
+/// and a coordinate of which it is not counts as essential.
+void Local::find_essential() {
+    std::vector<int> left;  // positions in split.q
+    for (std::size_t r = 0; r < split.q.size(); ++r) {
+        const std::vector<std::string>& known = near.matrices.cyclic;
+        if (std::find(known.begin(), known.end(), mechanism.q[split.q[r]].get_name()) != known.end())
+            left.push_back(static_cast<int>(r));
+    }
+    if (mechanism.constraints.empty() && residuals.rates_are_speeds) {
+        std::erase_if(left, [&](int r) { return !is_left_out_of_equations(split.q[r]); });
+    } else if (!left.empty()) {
+        const ExactField field(residuals, split);
+        std::vector<int> all;
+        for (const int r : left)
+            for (const int i : tied_to(split.q[r])) all.push_back(i);
+        if (!field.is_independent_of(all, left)) {
+            const std::vector<int> candidates = left;
+            std::erase_if(left, [&](int r) { return !field.is_independent_of(tied_to(split.q[r]), candidates); });
+            if (left.size() < candidates.size()) {
+                all.clear();
+                for (const int r : left)
+                    for (const int i : tied_to(split.q[r])) all.push_back(i);
+                if (!field.is_independent_of(all, left)) left.clear();
+            }
+        }
+    }
+    for (std::size_t r = 0; r < split.q.size(); ++r)
+        if (position_in(left, static_cast<int>(r)) < 0) essential.push_back(static_cast<int>(r));
+}
+
+std::vector<int> Local::cyclic() const {
+    std::vector<int> result;
+    for (std::size_t r = 0; r < split.q.size(); ++r)
+        if (position_in(essential, static_cast<int>(r)) < 0) result.push_back(static_cast<int>(r));
+    return result;
 }
 
 bool Local::is_essential(int coordinate) const {
@@ -106,9 +167,7 @@ Local::Local(const LinearizedScene& of, const ExactOverrides& exact_at)
         (contains(known.coordinates, mechanism.q[i].get_name()) ? split.q : split.q_dependent).push_back(i);
     for (int i = 0; i < residuals.s; ++i)
         (contains(known.speeds, equations.u[i].get_name()) ? split.u : split.u_dependent).push_back(i);
-    for (std::size_t r = 0; r < split.q.size(); ++r)
-        if (!contains(known.cyclic, mechanism.q[split.q[r]].get_name()) || !is_surely_cyclic(split.q[r]))
-            essential.push_back(static_cast<int>(r));
+    find_essential();
     find_point(exact_at);
     settle();
     find_momenta();

@@ -61,10 +61,15 @@ public:
     /// Expressions in q, q', t as series about the point.
     std::vector<Expansion> series(const std::vector<GiNaC::ex>& of, const Monomials& monomials,
                                   const std::vector<int>& variables) const;
+    /// The same in a state of series.
+    std::vector<Expansion> series(const std::vector<GiNaC::ex>& of, const State<Expansion>& state) const;
     bool is_essential(int coordinate) const;  ///< position in q
+    std::vector<int> cyclic() const;          ///< positions in split.q of coordinates on which nothing depends
 
 private:
-    bool is_surely_cyclic(int coordinate) const;
+    void find_essential();
+    bool is_left_out_of_equations(int coordinate) const;
+    std::vector<int> tied_to(int coordinate) const;
     void find_point(const ExactOverrides& exact_at);
     void settle();
     void find_momenta();

@@ -115,6 +115,42 @@ bool is_positive_multiple(const ex& V, const ex& rate, const Neighbourhood& near
     }
 }
 
+/// Does V vanish wherever all functions of the set do? Each of them must be solved for one state by a linear
+/// equation.
+bool vanishes_on_set(ex V, const Semidefinite::ZeroSet& set, const Neighbourhood& near) {
+    if (set.texts.size() < set.functions.size()) return false;
+    for (ex function : set.texts) {
+        function = function.expand();
+        const auto solves = [&](const GiNaC::symbol& s) {
+            const ex slope = function.diff(s);
+            return !slope.is_zero() && GiNaC::is_a<GiNaC::numeric>(slope);
+        };
+        const auto state = std::find_if(near.states.begin(), near.states.end(), solves);
+        if (state == near.states.end()) return false;
+        V = V.subs(GiNaC::exmap{{*state, (*state - function / function.diff(*state)).expand()}});
+    }
+    return is_identically_zero(V, near.local.mechanism);
+}
+
+/// With constraints, from the energy H: dV/dt is zero, or V - c H is constant and dH/dt is known to be nowhere
+/// positive.
+std::optional<Semidefinite> half_by_energy(const ex& V, const Expansion& rate, const Neighbourhood& near) {
+    if (is_integral(V, near.local)) return Semidefinite{.sign = 0, .sets = {{}}};
+    try {
+        const PowerSign power = power_sign(near.local);
+        if (!power.known) return {};
+        const Expansion of_H = near.rate(near.series(power.H));
+        int first = 0;
+        while (first < near.monomials.size() && of_H.coefficient(first).is_zero()) ++first;
+        if (first == near.monomials.size()) return {};
+        const auto c = (rate.coefficient(first) / of_H.coefficient(first)).rational();
+        if (!c || *c == 0 || !is_integral(V - ex(GiNaC::numeric(cln::cl_N(*c))) * power.H, near.local)) return {};
+        return Semidefinite{*c > 0 ? -1 : 1, {{{rate}, {}}}};
+    } catch (const NotAnalytic&) {
+        return {};
+    }
+}
+
 struct Signs {
     SignNear V, rate;
     std::optional<Semidefinite> half;  ///< of the rate
@@ -154,6 +190,14 @@ Decision unstable_by(const ex& V, const std::optional<ex>& rate, const Signs& s,
                     say("{}V takes positive values arbitrarily near, and {}dV/dt is a positive multiple "
                         "of it and a positive definite rest",
                         minus, minus)};
+        const auto V_numbers = near.with_numbers(in_states(V, near.local));
+        if (V_numbers && s.half && s.half->sign == sign &&
+            std::all_of(s.half->sets.begin(), s.half->sets.end(),
+                        [&](const Semidefinite::ZeroSet& set) { return vanishes_on_set(*V_numbers, set, near); }))
+            return {StabilityVerdict::unstable, StabilityTheorem::chetaev_instability,
+                    say("{}V takes positive values arbitrarily near, and {}dV/dt is positive wherever it "
+                        "is: {}dV/dt is nowhere negative, and zero only where V is",
+                        minus, minus, minus)};
         if (rate && is_positive_multiple(V, *rate, near))
             return {StabilityVerdict::unstable, StabilityTheorem::chetaev_instability,
                     say("{}V takes positive values arbitrarily near, and {}dV/dt is positive wherever it "
@@ -173,10 +217,10 @@ Decision says_nothing(const LyapunovAnswer& answer) {
 
 void check_applies(const LinearizedScene& scene) {
     const Mechanism& m = scene.mechanism;
-    if (!m.constraints.empty() || !m.unilateral.empty())
+    if (!m.unilateral.empty())
         throw ModelError(say(
-            "a Lyapunov function is judged in independent coordinates; this scene has constraints or contacts. "
-            "Choose independent coordinates"));
+            "a Lyapunov function is judged where the equations of motion stay the same; this scene has contacts, "
+            "which may close. Leave them out"));
     if (changes_with_time(m, scene.equations))
         throw ModelError(
             say("a Lyapunov function without t is judged where the equations do not change with time; these do"));
@@ -189,7 +233,9 @@ std::pair<LyapunovAnswer, Decision> by_lyapunov_function(const std::string& text
     check_applies(scene);
     const ex V = read_function(text_of_V, scene);
     LyapunovAnswer answer{.function = text_of_V, .sign = unknown_sign, .rate_sign = unknown_sign};
+    const bool constrained = !scene.mechanism.constraints.empty();
     const auto sample = [&] {
+        if (constrained) return std::pair(answer, says_nothing(answer));  // no numbers on the constraints
         answer.sampled = true;
         answer.samples = lyapunov_samples(V, scene);
         return std::pair(answer, says_nothing(answer));
@@ -215,6 +261,8 @@ std::pair<LyapunovAnswer, Decision> by_lyapunov_function(const std::string& text
     Signs signs{sign_near(V_series, near->monomials), sign_near(rate_series, near->monomials), {}};
     if (!signs.rate.definite && !(signs.rate.positive && signs.rate.negative) && in_numbers)
         signs.half = semidefinite(*in_numbers, *near);
+    if (!signs.rate.definite && !(signs.rate.positive && signs.rate.negative) && constrained)
+        signs.half = half_by_energy(V, rate_series, *near);
     std::optional<Semidefinite> V_half;
     if (!signs.V.definite && !(signs.V.positive && signs.V.negative))
         if (const auto V_numbers = near->with_numbers(in_states(V, *local)))

@@ -35,19 +35,16 @@ std::optional<ex> exact_expression(const Certain& c) {
 
 Neighbourhood::Neighbourhood(const Local& of)
     : local(of), states(states_of(of)), monomials(size(), degree_for(states.size())) {
-    variables_.assign(static_cast<std::size_t>(local.residuals.n + local.residuals.s), -1);
-    const int ne = static_cast<int>(local.essential.size());
-    for (int k = 0; k < ne; ++k) variables_[local.split.q[local.essential[k]]] = k;
-    for (std::size_t j = 0; j < local.split.u.size(); ++j)
-        variables_[local.residuals.n + local.split.u[j]] = ne + static_cast<int>(j);
     std::vector<Expansion> x;
     for (int k = 0; k < size(); ++k)
         x.push_back(Expansion::variable(monomials, k, state_value(local, static_cast<std::size_t>(k))));
-    for (const Expansion& f : field(local, x)) field_.push_back(without_constant(f));  // an equilibrium
+    state_ = state_of_series(local, x, monomials.degree());
+    for (const Expansion& f : field(local, x, monomials.degree()))
+        field_.push_back(without_constant(f));  // an equilibrium
 }
 
 Expansion Neighbourhood::series(const ex& in_rates) const {
-    return local.series({local.mechanism.z->name(in_rates)}, monomials, variables_)[0];
+    return local.series({local.mechanism.z->name(in_rates)}, state_)[0];
 }
 
 Expansion Neighbourhood::rate(const Expansion& of) const {
@@ -60,7 +57,7 @@ std::optional<ex> Neighbourhood::rate(const ex& in_rates) const {
     const Mechanism& m = local.mechanism;
     const Equations& e = local.equations;
     const auto n = static_cast<unsigned>(e.size());
-    if (n > most_speeds) return {};
+    if (n > most_speeds || !m.constraints.empty()) return {};
     const auto short_one = [&](const ex& value) { return m.z->tree_size(value) <= largest_tree; };
     const ex named = local.in_speeds({m.z->name(in_rates)})[0];
     if (!short_one(named)) return {};
@@ -87,6 +84,7 @@ std::optional<ex> Neighbourhood::rate(const ex& in_rates) const {
 }
 
 std::optional<ex> Neighbourhood::with_numbers(const ex& e) const {
+    if (!local.mechanism.constraints.empty()) return {};
     GiNaC::exmap numbers;
     std::size_t next = 0;
     ex result = e;
@@ -127,7 +125,7 @@ bool Neighbourhood::vanishes_on(const ex& e, const CertainMatrix& Z) const {
 
 std::optional<Certain> Neighbourhood::value(const ex& e) const {
     const Monomials none(1, 0);
-    const std::vector<int> held(variables_.size(), -1);
+    const std::vector<int> held(local.point.q.size() + local.point.u.size(), -1);
     // `e` is already an expression in the speeds.
     Program program = begun(local.mechanism);
     std::vector<std::pair<GiNaC::symbol, int>> given;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A scene without constraints near a point. Functions of its state are available as series and as expressions.
+/// A scene near a point. Functions of its state are available as series, and without constraints as expressions.
 ///
 ///     const Neighbourhood near(local);
 ///     near.series(V), near.rate(near.series(V))       // V and dV/dt about the point
 ///     near.rate(V)                                    // dV/dt as an expression, where it is short
 ///
-/// The variables are the coordinates on which something depends, then the speeds; dV/dt = Σ V_q h + V_u M⁻¹ f.
+/// The variables are the independent coordinates on which something depends, then the independent speeds; all
+/// others follow from the constraints. dV/dt = Σ ∂V/∂x_k f_k(x) with the field of field.hpp.
 
 #include "stability/field.hpp"
 
@@ -15,7 +16,7 @@ namespace alembert {
 
 class Neighbourhood {
 public:
-    /// `local` must outlive it and have no constraints. Throws NotAnalytic.
+    /// `local` must outlive it. Throws NotAnalytic.
     explicit Neighbourhood(const Local& local);
 
     const Local& local;
@@ -27,9 +28,10 @@ public:
     /// The time derivative along the motions.
     Expansion rate(const Expansion& of) const;
     /// The time derivative as an expression in the states and the parameters, in lowest terms. Nothing if it is
-    /// too long to be read.
+    /// too long to be read, and with constraints.
     std::optional<GiNaC::ex> rate(const GiNaC::ex& in_rates) const;
-    /// The same with the values of all parameters inserted; nothing if one of them is not rational.
+    /// The same with the values of all parameters inserted; nothing if one of them is not rational,
+    /// and with constraints.
     std::optional<GiNaC::ex> with_numbers(const GiNaC::ex& e) const;
     /// Is `e` zero at the states point + Z z for all z?
     bool vanishes_on(const GiNaC::ex& e, const CertainMatrix& Z) const;
@@ -37,7 +39,7 @@ public:
     std::optional<Certain> value(const GiNaC::ex& e) const;
 
 private:
-    std::vector<int> variables_;
+    State<Expansion> state_;
     std::vector<Expansion> field_;
 };
 

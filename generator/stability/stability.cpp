@@ -18,6 +18,7 @@
 #include "stability/lyapunov.hpp"
 #include "stability/polynomial.hpp"
 #include "stability/potential.hpp"
+#include "stability/reversible.hpp"
 #include "stability/verdict.hpp"
 #include "state/assemble.hpp"
 
@@ -69,6 +70,8 @@ const char* name_of(StabilityTheorem theorem) {
             return to_say("Lyapunov's critical case of one zero root");
         case StabilityTheorem::pair_on_axis:
             return to_say("Lyapunov's critical case of a pair on the axis");
+        case StabilityTheorem::reversible:
+            return to_say("reversibility (one frequency)");
         case StabilityTheorem::arnold:
             return to_say("Arnold (two frequencies)");
         case StabilityTheorem::lyapunov_stable:
@@ -132,6 +135,7 @@ Decision by_potential(const Local& local, const PowerSign& power) {
 /// For nonlinear equations whose first approximation does not decide, the first method that does.
 Decision critical_case(const Local& local, const PowerSign& power, const std::vector<RootOf>& roots) {
     const std::function<Decision()> ways[] = {
+        [&] { return family_of_motions(local, roots, FamilyProof::exact); },
         [&] { return one_zero_root(local, roots); },
         [&] { return pair_on_axis(local, roots); },
         [&] {
@@ -139,7 +143,8 @@ Decision critical_case(const Local& local, const PowerSign& power, const std::ve
             return proof ? by_integrals(*proof, power.is_zero) : Decision{};
         },
         [&] { return by_potential(local, power); },
-        [&] { return family_of_motions(local, roots); },
+        [&] { return family_of_motions(local, roots, FamilyProof::in_numbers); },
+        [&] { return by_reversal(local, roots); },
         [&] { return by_arnold(local, power, roots); },
     };
     for (const auto& way : ways) try {

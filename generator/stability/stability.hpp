@@ -40,6 +40,7 @@ enum class StabilityTheorem {
     potential_form,        ///< terms of higher degree of the potential
     one_zero_root,         ///< Lyapunov's critical case of one zero root
     pair_on_axis,          ///< Lyapunov's critical case of a pair on the axis
+    reversible,            ///< a reversible system with one frequency and zeros
     arnold,                ///< fourth-order normal form of a Hamiltonian with two degrees of freedom
     lyapunov_stable,       ///< of a function given: positive definite, and never growing
     lyapunov_asymptotic,   ///< and falling
