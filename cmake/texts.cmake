@@ -1,11 +1,11 @@
 # Runs the program to write its manual (compressed if GZIP is given) and its completion into the folder TO.
 #   cmake -DPROGRAM=… -DTO=… -DGZIP=… -P texts.cmake
 function(written file)
-  execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_FILE ${file} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${PROGRAM} --language en ${ARGN} OUTPUT_FILE ${file} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 file(REMOVE_RECURSE ${TO})
 file(MAKE_DIRECTORY ${TO}/man1)
-execute_process(COMMAND ${PROGRAM} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${PROGRAM} --language en --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX REPLACE ".*\nVerbs:\n" "\n" verbs "${help}")
 string(REGEX REPLACE "\n'alembert.*" "" verbs "${verbs}")
 string(REGEX MATCHALL "\n  [a-z]+" verbs "${verbs}")

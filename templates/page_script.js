@@ -20,7 +20,7 @@ function copied(text) {
 for (const button of document.querySelectorAll("[data-copy]")) {
   const words = button.textContent;
   button.addEventListener("click", () => {
-    copied(data.copies[Number(button.dataset.copy)]).then(() => "Copied", () => "Copying is not allowed").then((answer) => {
+    copied(data.copies[Number(button.dataset.copy)]).then(() => data.words.copied, () => data.words.refused).then((answer) => {
       button.textContent = answer;
       setTimeout(() => { button.textContent = words; }, 1200);
     });
@@ -323,7 +323,7 @@ function frame(at) {
 
 function setPlaying(value) {
   playing = value;
-  play.textContent = playing ? "Pause" : "Play";
+  play.textContent = playing ? data.words.pause : data.words.play;
   play.setAttribute("aria-pressed", String(playing));
   if (playing) requestAnimationFrame((at) => { last = at; requestAnimationFrame(frame); });
 }

@@ -81,6 +81,7 @@ run_one() {
 }
 
 for path in "$root"/README.md "$root"/docs/*.md; do
+    [[ $path != *.zh.md ]] || continue # its blocks are those of the English page, see below
     file=${path#"$root"/}
     inside='' command='' at=0 number=0
     while IFS= read -r line || [ -n "$line" ]; do
@@ -100,6 +101,15 @@ for path in "$root"/README.md "$root"/docs/*.md; do
             *) printf '%s\n' "$line" >>"$inside" ;;
         esac
     done <"$path"
+done
+
+# The blocks of a translated page, apart from comments after "# ", are those of the English page in the same order.
+blocks() { awk '/^```/ { inside = !inside; print; next } inside { sub(/[ \t]*(^|[ \t])# .*/, ""); print }' "$1"; }
+for page in README docs/guide; do
+    diff <(blocks "$root/$page.md") <(blocks "$root/$page.zh.md") >"$work/blocks" && continue
+    printf '%s.zh.md has other commands, scenes or outputs (>) than %s.md (<):\n' "$page" "$page"
+    cat "$work/blocks"
+    failed=1
 done
 
 # The sections of docs/commands.md: "## `verb`", and what all verbs share under "## Options of all verbs".
@@ -145,6 +155,12 @@ for verb in '' $verbs; do
         tail -n 5 "$work/printed"
         failed=1
     }
+done
+
+# Messages name only tables of the scene language.
+tables=$(grep -oE '^### `\[+[a-z]+' "$root/docs/scene-language.md" | grep -oE '[a-z]+')
+for name in $(grep -oE '\[\[[a-z]+\]\]' "$root/po/zh.po" | tr -d '[]' | sort -u); do
+    grep -qx "$name" <<<"$tables" || { echo "a message names [[$name]], which is no table of the scene language"; failed=1; }
 done
 
 rooms=$(sed -e '/^#/d' -e 's/ .*//' "$root/generator/rooms.txt")

@@ -4,6 +4,7 @@
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -159,6 +160,18 @@ class Expressions(unittest.TestCase):
         L = m * l**2 * theta.diff(t)**2 / 2 + m * g * l * sympy.cos(theta)
         left = L.diff(theta.diff(t)).diff(t) - L.diff(theta)
         self.assertTrue(alembert.Scene(PENDULUM).check(alembert.from_sympy(sympy.Eq(left, 0))))
+
+    def test_the_formalism_of_the_guide_is_proved(self):
+        def block(page, language, which):
+            with open(os.path.join(SCENES, "../docs", page), encoding="utf-8") as file:
+                return file.read().split(f"```{language}\n")[which].split("```")[0]
+
+        scene = block("scene-language.md", "toml", 1)
+        force = re.search(r"\[\[force\]\]\n(.+\n)+", scene).group()
+        code = block("guide.md", "python", -1).replace('Scene("cart.toml")', "Scene(text=cart)")
+        names = {"cart": scene.replace(force, "")}
+        exec(code, names)
+        self.assertEqual(names["scene"].check(names["claims"]).verdicts, ["proved", "proved"])
 
     def test_powers_bind_as_in_the_scene_language(self):
         sympy = self.sympy

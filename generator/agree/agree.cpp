@@ -12,6 +12,7 @@
 
 #include "agree/system.hpp"
 #include "exact/square_points.hpp"
+#include "language/say.hpp"
 #include "state/redundancy.hpp"
 #include "state/speeds.hpp"
 
@@ -151,7 +152,7 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
     constexpr int most_unusable = 2000;
     Agreement result;
     if (equations.size() < 2) {
-        result.reason = "fewer than two formalisms apply";
+        result.reason = say("fewer than two formalisms apply");
         return result;
     }
     std::vector<int> eliminated;
@@ -161,7 +162,7 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
         if (e.speeds_are_rates()) continue;
         if (in_speeds == nullptr) in_speeds = &e;
         if (e.u != in_speeds->u) {
-            result.reason = fmt::format("{} and {} are in different speeds", in_speeds->formalism, e.formalism);
+            result.reason = say("{} and {} are in different speeds", in_speeds->formalism, e.formalism);
             return result;
         }
     }
@@ -195,7 +196,7 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
         }
         if (forms.size() < systems.size()) {
             if (++unusable < most_unusable) continue;
-            result.reason = "no point was found where all roots exist";
+            result.reason = say("no point was found where all roots exist");
             return result;
         }
         double degree = 0, conditions = 0;
@@ -210,22 +211,22 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
             for (int attempt = 0; attempt < 32; ++attempt)
                 if (const auto r = residual(systems[0], systems[k], random); r && ++tried && *r > 1e-9L) {
                     result.verdict = Agreement::Verdict::refuted;
-                    result.reason = fmt::format(
-                        "{} and {} differ: at a random state an equation of the second is off by {:.2g} "
-                        "of its largest term with the accelerations of the first",
-                        systems[0].formalism, systems[k].formalism, static_cast<double>(*r));
+                    result.reason =
+                        say("{} and {} differ: at a random state an equation of the second is off by {:.2g} "
+                            "of its largest term with the accelerations of the first",
+                            systems[0].formalism, systems[k].formalism, static_cast<double>(*r));
                     return result;
                 }
-            result.reason = fmt::format(
-                "{} and {} differ in exact arithmetic that does not know all identities, and agree at "
-                "{} random states",
-                systems[0].formalism, systems[k].formalism, tried);
+            result.reason =
+                say("{} and {} differ in exact arithmetic that does not know all identities, and agree at "
+                    "{} random states",
+                    systems[0].formalism, systems[k].formalism, tried);
             return result;
         }
         ++result.points;
         const double chance = std::log2(degree) + conditions - 61;
         if (chance > -1) {
-            result.reason = "the equations are of too high a degree for a bound on the failure of sampling";
+            result.reason = say("the equations are of too high a degree for a bound on the failure of sampling");
             return result;
         }
         result.failure += chance;

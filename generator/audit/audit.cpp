@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "audit/integral.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "model/sample_functions.hpp"
@@ -33,7 +34,7 @@ std::string quoted(const Mechanism& m, const std::vector<int>& which) {
     if (names.size() < 2) return fmt::format("{}", fmt::join(names, ""));
     const std::string last = names.back();
     names.pop_back();
-    return fmt::format("{} and {}", fmt::join(names, ", "), last);
+    return say("{} and {}", fmt::join(names, ", "), last);
 }
 
 class Auditing {
@@ -131,22 +132,21 @@ private:
         result_.wrong = true;
         result_.problem =
             clash.size() == 1
-                ? fmt::format("constraint {} cannot be obeyed: no state that does was found from {} places", names,
-                              places_tried)
-                : fmt::format(
-                      "constraints {} contradict each other: {}no state that obeys {} was found from {} places; "
+                ? say("constraint {} cannot be obeyed: no state that does was found from {} places", names,
+                      places_tried)
+                : say("constraints {} contradict each other: {}no state that obeys {} was found from {} places; "
                       "remove or correct one of them",
-                      names, dependent ? "they constrain the same rates differently; " : "",
-                      clash.size() == 2 ? "both" : "all", places_tried);
+                      names, dependent ? say("they constrain the same rates differently; ") : "",
+                      clash.size() == 2 ? say("both") : say("all"), places_tried);
         if (std::all_of(clash.begin(), clash.end(), [&](int k) { return m_.constraints[k].joint.has_value(); })) {
             std::vector<std::string> joints;
             for (const int k : clash) {
                 const std::string& joint = m_.joints[static_cast<std::size_t>(*m_.constraints[k].joint)].name;
                 if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
             }
-            result_.problem = fmt::format("joint{} '{}' cannot close {}: {}", joints.size() == 1 ? "" : "s",
-                                          fmt::join(joints, "', '"),
-                                          joints.size() == 1 ? "its loop" : "their loops", result_.problem);
+            result_.problem =
+                say("joint{} '{}' cannot close {}: {}", joints.size() == 1 ? "" : "s", fmt::join(joints, "', '"),
+                    joints.size() == 1 ? say("its loop") : say("their loops"), result_.problem);
         }
         result_.contradictory = clash;
         contradictory_ = true;
@@ -179,7 +179,7 @@ private:
             const std::vector<int> from = follows_from(m_, k, redundant_, states_);
             if (!from.empty())
                 result_.constraints[k].notes.push_back(
-                    fmt::format("follows from {}; the equations of motion leave it out", quoted(m_, from)));
+                    say("follows from {}; the equations of motion leave it out", quoted(m_, from)));
         }
     }
 
@@ -214,15 +214,14 @@ private:
             for (AuditedConstraint& c : result_.constraints) c.redundant = false;
             redundant_.clear();
         } else if (joint_.on_variety && static_cast<int>(joint_.independent.size()) > result_.rank) {
-            result_.notes.push_back(
-                fmt::format("the rank is {} for general parameters, and {} for those of the scene",
-                            joint_.independent.size(), result_.rank));
+            result_.notes.push_back(say("the rank is {} for general parameters, and {} for those of the scene",
+                                        joint_.independent.size(), result_.rank));
         }
         for (const int k : joint_.contradictory)
             if (!contradictory_)
-                result_.constraints[k].notes.push_back(
+                result_.constraints[k].notes.push_back(say(
                     "its rates are a combination of those of the others, the rest is not: together they force a "
-                    "relation between coordinates and time that no constraint states");
+                    "relation between coordinates and time that no constraint states"));
         for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
             AuditedConstraint& c = result_.constraints[k];
             c.integrable = c.holonomic                 ? std::optional(true)
@@ -237,7 +236,7 @@ private:
         for (std::size_t k = 0; k < m_.constraints.size() && fixed.on_variety; ++k)
             if (result_.constraints[k].integrable == false && fixed.integrable[k] == true)
                 result_.constraints[k].notes.push_back(
-                    "it is integrable for the scene's parameters, but not for general ones");
+                    say("it is integrable for the scene's parameters, but not for general ones"));
     }
 
     void alone() {
@@ -320,22 +319,24 @@ private:
             const bool flat = std::all_of(given.row.begin(), given.row.end(),
                                           [&](const ex& e) { return vanishes(e, m_) == true; });
             if (flat) {
-                c.notes.push_back(c.holonomic ? "it does not depend on any coordinate: it holds always or never"
-                                              : "its coefficients of the rates are all zero");
+                c.notes.push_back(c.holonomic
+                                      ? say("it does not depend on any coordinate: it holds always or never")
+                                      : say("its coefficients of the rates are all zero"));
                 continue;
             }
             if (c.holonomic && gradient_vanishes(k)) {
                 c.redundant = false;
                 c.notes.push_back(
-                    "its gradient is zero wherever it holds, as that of a square is: write it without the square");
+                    say("its gradient is zero wherever it holds, as that of a square is: write it without the "
+                        "square"));
             }
             if (!c.integrable && !joint_.reason.empty())
-                c.notes.push_back("undecided whether it is integrable: " + joint_.reason);
+                c.notes.push_back(say("undecided whether it is integrable: {}", joint_.reason));
             if (c.holonomic || c.integrable != true) continue;
-            c.notes.push_back(fmt::format(
-                "declared nonholonomic, but it is integrable{}: {}",
-                c.alone == true ? "" : " together with the others",
-                c.integral ? text(*c.integral) + " is constant" : "some function of the coordinates is constant"));
+            c.notes.push_back(say("declared nonholonomic, but it is integrable{}: {}",
+                                  c.alone == true ? "" : say(" together with the others"),
+                                  c.integral ? say("{} is constant", text(*c.integral))
+                                             : say("some function of the coordinates is constant")));
         }
     }
 
@@ -395,10 +396,10 @@ Audited audit(Scene scene) {
     result.audit = audit_of(result.mechanism);
     for (const Mechanism::Rolling& rolling : result.mechanism.rollings)
         if (rolling.is_along)
-            result.audit.notes.push_back(fmt::format(
-                "{0}: its rows and multipliers are along the axes of {1}, where none is lost at a regular "
-                "pose; along N they depend on each other with factors that change with the pose",
-                rolling.name, rolling.axes));
+            result.audit.notes.push_back(
+                say("{0}: its rows and multipliers are along the axes of {1}, where none is lost at a regular "
+                    "pose; along N they depend on each other with factors that change with the pose",
+                    rolling.name, rolling.axes));
     return result;
 }
 

@@ -13,6 +13,7 @@
 #include "alembert/tolerances.hpp"
 #include "exact/null_fields.hpp"
 #include "exact/variety.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "program/reduce_rows.hpp"
 
@@ -78,15 +79,15 @@ public:
 
     Integrability go() {
         if (static_cast<int>(variety_.points.size()) < points_)
-            return undecided("no points were found where all roots exist");
+            return undecided(say("no points were found where all roots exist"));
         values_ = evaluate(entries_);
-        if (values_.empty()) return undecided("no points were found where all roots exist");
+        if (values_.empty()) return undecided(say("no points were found where all roots exist"));
         find_independent();
         if (!result_.contradictory.empty())
             return undecided(
-                "no rates obey all constraints, but where a relation between coordinates and time holds");
-        if (!find_fields()) return undecided("the points are unusable");
-        if (!close()) return undecided("the brackets grow beyond what is evaluated");
+                say("no rates obey all constraints, but where a relation between coordinates and time holds"));
+        if (!find_fields()) return undecided(say("the points are unusable"));
+        if (!close()) return undecided(say("the brackets grow beyond what is evaluated"));
         decide();
         return std::move(result_);
     }
@@ -272,10 +273,10 @@ private:
                 result_.integrable[k] = false;
             else if (!zero)
                 result_.reason =
-                    "it is not integrable outside the surface of the holonomic constraints; on the surface "
-                    "nothing is proved";
+                    say("it is not integrable outside the surface of the holonomic constraints; on the surface "
+                        "nothing is proved");
             else
-                result_.reason = "the forms are of too high a degree for a bound on the failure of sampling";
+                result_.reason = say("the forms are of too high a degree for a bound on the failure of sampling");
         }
         if (kept_nodes_.size() < most_ && result_.failure == 0.0)
             result_.failure = failure;  // the bound for the number of integrals

@@ -20,6 +20,7 @@
 #include "check/vanishing.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/routh.hpp"
+#include "language/say.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 #include "symbolic/fourier.hpp"
@@ -227,7 +228,7 @@ private:
         double failure = 0;
         c.kinematic = p.is_zero(root) || vanishes_at(states, p, root, failure) == std::optional(true);
         if (c.kinematic && c.reason.empty())
-            c.reason = "a relation of kinematics: it holds for every motion that the constraints allow";
+            c.reason = say("a relation of kinematics: it holds for every motion that the constraints allow");
     }
 
     int halvings_in(const std::vector<std::size_t>& here) const {
@@ -282,8 +283,8 @@ private:
                 CheckedClaim& c = result_.claims[k];
                 c.reason = !states->motions.obstacle().empty() ? states->motions.obstacle()
                            : at == Motions::At::rest
-                               ? "no state was found in which the equations allow rest"
-                               : "no state was found that obeys the constraints and has one acceleration";
+                               ? say("no state was found in which the equations allow rest")
+                               : say("no state was found that obeys the constraints and has one acceleration");
             }
             return;
         }
@@ -295,7 +296,7 @@ private:
                 open.push_back(k);
             else
                 result_.claims[k].reason =
-                    "the constraints cannot be solved one after the other, and it leaves names open";
+                    say("the constraints cannot be solved one after the other, and it leaves names open");
         settle_open(open, *states);
     }
 
@@ -306,28 +307,28 @@ private:
         if (p.is_zero(root)) {
             c.verdict = Verdict::proved;
             c.normal_form = true;
-            if (when_ != "impact") c.reason = "it holds identically and says nothing of the motion";
+            if (when_ != "impact") c.reason = say("it holds identically and says nothing of the motion");
             return;
         }
         const std::optional<bool> zero = vanishes_at(states, p, root, c.failure);
         if (!zero) {
-            c.reason =
+            c.reason = say(
                 "it could not be evaluated: it divides by something that is zero on every motion, or its degree "
-                "is too high";
+                "is too high");
             return;
         }
         if (*zero) {
             if (!states.motions.loose().empty() && !hold_in_numbers(states.motions, p, {root})[0]) {
                 c.reason =
-                    "it holds wherever the constraints are constant, and no state was found at which they are "
-                    "zero and the equations have one solution";
+                    say("it holds wherever the constraints are constant, and no state was found at which they are "
+                        "zero and the equations have one solution");
                 return;
             }
             c.verdict = Verdict::proved;
             if (depends_on_shares(states, p, root))
-                c.reason =
+                c.reason = say(
                     "it holds for the least reactions of constraints that depend on each other; other reactions "
-                    "with the same effect would not obey it";
+                    "with the same effect would not obey it");
             c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, law_)) ||
                             (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
             return;
@@ -335,13 +336,13 @@ private:
         if (const auto branch = branch_of(k, states)) {
             c.verdict = Verdict::proved;
             c.where = *branch;
-            c.reason = "on the branch of the initial state";
+            c.reason = say("on the branch of the initial state");
             return;
         }
         const auto shown = counterexample(told(), states.motions, p, root);
         if (!shown) {  // exact arithmetic does not know every identity; nothing is called wrong without a state at
                        // which it fails
-            c.reason = "it differs in exact arithmetic, and no state in numbers was found at which it fails";
+            c.reason = say("it differs in exact arithmetic, and no state in numbers was found at which it fails");
             return;
         }
         show(c, *shown);
@@ -350,7 +351,7 @@ private:
 
     std::string inequality(const ex& positive) const {
         const auto f = fourier(positive, *m_.symbols);
-        return (f ? text(readable(*f)) : "a root of the claim") + " > 0";
+        return (f ? text(readable(*f)) : say("a root of the claim")) + " > 0";
     }
 
     /// A claim with a root that holds for one of the root's signs at every state: that of the initial state's
@@ -408,13 +409,13 @@ private:
         for (const std::size_t k : open) {
             CheckedClaim& c = result_.claims[k];
             if (!forms_[k].linear) {
-                c.reason = "it is not linear in the names that it leaves open";
+                c.reason = say("it is not linear in the names that it leaves open");
                 continue;
             }
             if (mixes(k)) {
-                c.reason =
+                c.reason = say(
                     "it holds an unknown function beside a constant of the motion, and the function's derivative "
-                    "is not known";
+                    "is not known");
                 continue;
             }
             if (done.contains(k)) continue;
@@ -435,7 +436,8 @@ private:
         const OpenRows rows = open_rows(claims_, forms_, group);
         const std::optional<OpenJudgement> judged = judge(rows, group, states);
         if (!judged) {
-            for (const std::size_t k : group) result_.claims[k].reason = "it could not be evaluated at any state";
+            for (const std::size_t k : group)
+                result_.claims[k].reason = say("it could not be evaluated at any state");
             return;
         }
         wrong_ = judged->wrong;
@@ -445,21 +447,22 @@ private:
             c.failure = judged->failure;
             if (wrong.contains(k)) {
                 c.reason = wrong.size() > 1 && wrong.size() == group.size()
-                               ? "no choice of what is left open satisfies these claims together"
-                               : "the other claims leave no choice with which it holds";
+                               ? say("no choice of what is left open satisfies these claims together")
+                               : say("the other claims leave no choice with which it holds");
                 const auto shown = counterexample(told(), states.motions, rows,
                                                   {.claim = k, .open = forms_[k].open, .wrong = wrong});
                 if (!shown) continue;
                 show(c, *shown);
                 if (shown->of_derivative)
-                    c.reason = "it is not constant: the residual is that of its time derivative";
+                    c.reason = say("it is not constant: the residual is that of its time derivative");
                 explain(k, states);
             } else if (pins(rows, judged->first, wrong, k)) {
                 const bool constant = claims_.open()[forms_[k].open[0]].constant;
                 c.verdict = constant ? Verdict::undecided : Verdict::vacuous;
-                c.reason = constant ? "a further time derivative would be needed to tell whether what it leaves "
-                                      "open is constant"
-                                    : "what it leaves open can take up whatever it says: no other claim fixes it";
+                c.reason = constant
+                               ? say("a further time derivative would be needed to tell whether what it leaves "
+                                     "open is constant")
+                               : say("what it leaves open can take up whatever it says: no other claim fixes it");
             } else {
                 c.verdict = Verdict::proved;
             }
@@ -505,8 +508,8 @@ Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_
 CheckedScene check(Scene scene, const std::string& by) {
     CheckedScene result{derived(std::move(scene), {.by = by, .on_sheets = true})};
     if (result.scene.claims.empty())
-        throw ModelError(
-            "there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
+        throw ModelError(say(
+            "there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line"));
     result.checked = check(result.scene, result.mechanism, result.sheets, by);
     return result;
 }

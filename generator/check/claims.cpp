@@ -8,6 +8,7 @@
 
 #include "derive/derive.hpp"
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/held_functions.hpp"
 #include "notation/text.hpp"
@@ -99,7 +100,7 @@ const std::optional<Impact::Exact>& Claims::after_impact() {
         impact_obstacle_ = after_ ? "" : result.silence;
         for (const GiNaC::symbol& before : after_ ? after_->before : std::vector<GiNaC::symbol>())
             if (!after_->pose.contains(before)) {
-                impact_obstacle_ = "the rates before the impact are known in numbers only";
+                impact_obstacle_ = say("the rates before the impact are known in numbers only");
                 after_.reset();
                 break;
             }
@@ -132,12 +133,11 @@ ex Claims::without_third_derivatives(const ex& residual, Place at) const {
     for (std::size_t i = 0; i < c.size(); ++i) rest.push_back(-c[i] * third_[i]);
     const auto n = static_cast<unsigned>(m_.size()), size = n + static_cast<unsigned>(e_.A.size());
     if (std::any_of(c.begin(), c.end(), [&](const ex& slope) { return m_.z->depends(slope, third_); }))
-        throw SceneMistake{{at, "a claim may hold third derivatives only to the first degree"}};
+        throw SceneMistake{{at, say("a claim may hold third derivatives only to the first degree")}};
     if (size > most_unknowns)
-        throw SceneMistake{
-            {at, fmt::format("claims about third derivatives are decided for at most {} coordinates and "
-                             "multipliers; this scene has {}",
-                             most_unknowns, size)}};
+        throw SceneMistake{{at, say("claims about third derivatives are decided for at most {} coordinates and "
+                                    "multipliers; this scene has {}",
+                                    most_unknowns, size)}};
     const auto rate = [&](const ex& value) { return m_.time_derivative({value})[0]; };
     GiNaC::matrix K(size, size), bordered(size + 1, size + 1);
     std::vector<ex> b(size, 0);

@@ -10,6 +10,7 @@
 #include "check/open_rows.hpp"
 #include "check/vanishing.hpp"
 #include "formalism/rest.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -33,7 +34,7 @@ public:
         if (states_.motions.where() == Motions::At::rest)
             result.reason = name_branch();
         else if (holds_at_scene_values())
-            result.reason = "it holds at the scene's values of the parameters only";
+            result.reason = say("it holds at the scene's values of the parameters only");
         if (form_.open.empty() && asked_.in_motion)
             if (const auto nearest = nearest_equation(form_.residual, m_, asked_.law)) {
                 result.nearest = nearest->equation;
@@ -177,10 +178,10 @@ private:
                 const std::array<int, 1> node{claims_.lower(q, {factor.value})[0]};
                 const auto value = evaluate_mod(q, states_.get(s)->point, node);
                 if (value && value->value[node[0]].is_zero())
-                    return fmt::format("rest is possible with {} = 0 too, and there it fails", factor.text);
+                    return say("rest is possible with {} = 0 too, and there it fails", factor.text);
             }
         }
-        return "it fails at some of the states of rest";
+        return say("it fails at some of the states of rest");
     }
 
     const WrongClaim& asked_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "check/zero.hpp"
+#include "language/say.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 #include "symbolic/fourier.hpp"
@@ -47,9 +48,9 @@ public:
     void settle(CheckedClaim& result) {
         if (!m_.constraints.empty() || !m_.redundant.empty() || !m_.unilateral.empty() ||
             m_.size() > most_coordinates) {
-            result.reason = fmt::format(
-                "claims to first order are decided for scenes of at most {} coordinates without constraints",
-                most_coordinates);
+            result.reason =
+                say("claims to first order are decided for scenes of at most {} coordinates without constraints",
+                    most_coordinates);
             return;
         }
         for (int i = 0; i < m_.size(); ++i) {
@@ -57,21 +58,21 @@ public:
             for (int j = 0; j < m_.size(); ++j) terms.push_back(e_.M(i, j) * m_.qddot[j]);
             const ex row = GiNaC::add(std::move(terms));
             if (m_.z->tree_size(row) > longest_tested) {
-                result.reason = "the equations of motion are too long for a first approximation in symbols";
+                result.reason = say("the equations of motion are too long for a first approximation in symbols");
                 return;
             }
             rows_.push_back(m_.z->expand(row));
             if (const ZeroTest here = zero_test(at_base(rows_.back()), m_); here.zero != true) {
-                result.reason = fmt::format(
-                    "what it is held near is no equilibrium and no steady motion: the equation of {} does not "
-                    "hold "
-                    "there",
-                    m_.q[i].get_name());
+                result.reason =
+                    say("what it is held near is no equilibrium and no steady motion: the equation of {} does not "
+                        "hold "
+                        "there",
+                        m_.q[i].get_name());
                 return;
             }
         }
         std::vector<ZeroTest> tests{zero_test(at_base(residual_), m_)};
-        if (tests[0].zero == false) result.reason = "it does not even hold at the point itself";
+        if (tests[0].zero == false) result.reason = say("it does not even hold at the point itself");
         const std::vector<ex> slopes = eliminated();
         for (const ex& slope : slopes) tests.push_back(zero_test(slope, m_));
         const std::string reason = result.reason;

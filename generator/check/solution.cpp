@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "check/zero.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -80,8 +81,8 @@ public:
 
     std::string name_of(std::size_t row) const {
         const auto n = static_cast<std::size_t>(e_.size());
-        return row < n ? "the equation of motion of " + m_.q[row].get_name()
-                       : "constraint '" + m_.constraints[row - n].name + "'";
+        return row < n ? say("the equation of motion of {}", m_.q[row].get_name())
+                       : say("constraint '{}'", m_.constraints[row - n].name);
     }
 
     const Mechanism& mechanism() const { return m_; }
@@ -125,28 +126,28 @@ void check_solution(const Scene& scene, Claims& read, const std::vector<std::siz
         };
         if (!motion.is_readable(rows[r])) {
             for (std::size_t i = 0; i < which.size(); ++i) spoken.push_back(i);
-            tell(motion.name_of(r) + " is too long to put a motion into");
+            tell(say("{} is too long to put a motion into", motion.name_of(r)));
             continue;
         }
         if (spoken.empty()) continue;
         const ex left = motion.along(rows[r]);
         if (const auto missing = motion.missing(left); !missing.empty()) {
-            tell(fmt::format("{} holds {} too, of which no claim at \"solution\" gives the value",
-                             motion.name_of(r), fmt::join(missing, ", ")));
+            tell(say("{} holds {} too, of which no claim at \"solution\" gives the value", motion.name_of(r),
+                     fmt::join(missing, ", ")));
             continue;
         }
         const ZeroTest test = zero_test(left, motion.mechanism());
         for (const std::size_t i : spoken) {
             tests[i].push_back(test);
             if (test.zero == false && claims[which[i]].reason.empty())
-                claims[which[i]].reason = "put into " + motion.name_of(r) + ", it leaves what does not vanish";
+                claims[which[i]].reason = say("put into {}, it leaves what does not vanish", motion.name_of(r));
         }
     }
     for (std::size_t i = 0; i < which.size(); ++i) {
         CheckedClaim& claim = claims[which[i]];
         const std::string reason = claim.reason;
         if (tests[i].empty()) {
-            claim.reason = "no equation of motion and no constraint holds this coordinate or multiplier";
+            claim.reason = say("no equation of motion and no constraint holds this coordinate or multiplier");
             continue;
         }
         settle_by(tests[i], claim);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "check/verdict.hpp"
+#include "language/say.hpp"
 #include "model/energy.hpp"
 
 namespace alembert {
@@ -107,7 +108,8 @@ void settle_by(const std::vector<ZeroTest>& tests, CheckedClaim& claim) {
     claim.verdict = wrong != tests.end() ? Verdict::refuted : all ? Verdict::proved : Verdict::undecided;
     claim.normal_form = claim.verdict == Verdict::proved;
     if (claim.verdict == Verdict::undecided)
-        claim.reason = "what should vanish is zero to thirty digits wherever it was tried, and no proof was found";
+        claim.reason =
+            say("what should vanish is zero to thirty digits wherever it was tried, and no proof was found");
     if (wrong == tests.end()) return;
     claim.counterexample = wrong->values;
     claim.residual_value = wrong->value;

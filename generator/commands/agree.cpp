@@ -6,6 +6,7 @@
 #include "commands/show.hpp"
 #include "commands/terminal.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -26,7 +27,7 @@ int run_agree(const SceneOptions& options) {
 void add_agree(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SceneOptions>(app, chosen,
                                  {.name = "agree",
-                                  .about = "derives by every formalism that applies, and proves them equal",
+                                  .about = say("derives by every formalism that applies, and proves them equal"),
                                   .example = "alembert agree scenes/textbook/sled.toml"},
                                  run_agree);
 }

@@ -4,6 +4,7 @@
 #include "alembert/error.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -27,7 +28,7 @@ int run_audit(const SceneOptions& options) {
 void add_audit(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SceneOptions>(app, chosen,
                                  {.name = "audit",
-                                  .about = "examines the constraints: kinds, rank, redundancy",
+                                  .about = say("examines the constraints: kinds, rank, redundancy"),
                                   .example = "alembert audit scenes/textbook/sled.toml"},
                                  run_audit);
 }

@@ -6,6 +6,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -40,19 +41,19 @@ void add_bench(CLI::App& app, Chosen& chosen) {
     add_scene_verb<BenchVerb>(
         app, chosen,
         {.name = "bench",
-         .about = "measures speed against error, of every method",
+         .about = say("measures speed against error, of every method"),
          .example = "alembert bench scenes/textbook/crane.toml --duration 1 --method dop853"},
         run, [](Verb& verb, BenchVerb& bench) {
             RunOptions& wishes = bench.options.wishes;
             verb.add_flag("--peers", bench.options.peers,
-                          "also CVODE, IDA, odeint, GSL, where they are installed");
-            verb.add_option("--csv", bench.csv, "table as CSV").type_name(values::file);
-            verb.add_option("--svg", bench.svg, "SVG picture of time against error").type_name(values::file);
+                          say("also CVODE, IDA, odeint, GSL, where they are installed"));
+            verb.add_option("--csv", bench.csv, say("table as CSV")).type_name(values::file);
+            verb.add_option("--svg", bench.svg, say("SVG picture of time against error")).type_name(values::file);
             add_duration_option(verb, wishes);
-            verb.add_option("--method", wishes.method, "this one alone").type_name(values::method);
+            verb.add_option("--method", wishes.method, say("this one alone")).type_name(values::method);
             add_limits(verb, wishes);
             verb.add_option("--reference-seconds", bench.options.reference_seconds,
-                            "processor time for each of the reference's methods")
+                            say("processor time for each of the reference's methods"))
                 .type_name(values::seconds)
                 .positive();
             add_by_option(verb, bench.by);

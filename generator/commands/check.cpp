@@ -7,6 +7,7 @@
 #include "commands/terminal.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "scene/claims_file.hpp"
 
 namespace alembert {
@@ -43,12 +44,12 @@ int run(const CheckOptions& options) {
 void add_check(CLI::App& app, Chosen& chosen) {
     add_scene_verb<CheckOptions>(app, chosen,
                                  {.name = "check",
-                                  .about = "holds a hand derivation against the derived equations",
+                                  .about = say("holds a hand derivation against the derived equations"),
                                   .example = "alembert check scenes/textbook/double_pendulum.toml"},
                                  run, [](Verb& verb, CheckOptions& options) {
                                      verb.add_option(
                                              "claims", options.claims,
-                                             "a file, one equation a line; default: the scene's [[claim]]s")
+                                             say("a file, one equation a line; default: the scene's [[claim]]s"))
                                          .type_name(values::claims);
                                      add_by_option(verb, options.by);
                                  });

@@ -9,6 +9,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -220,9 +221,9 @@ std::string fish(const CLI::App& app) {
 void add_completion(CLI::App& app, Chosen& chosen) {
     const auto shell = std::make_shared<std::string>();
     Verb verb = add_verb(app, {.name = "completion",
-                               .about = "prints a script with which a shell completes commands",
+                               .about = say("prints a script with which a shell completes commands"),
                                .example = "alembert completion bash > alembert.bash"});
-    verb.add_option("shell", *shell, "bash, zsh or fish").type_name(values::shell).required();
+    verb.add_option("shell", *shell, say("bash, zsh or fish")).type_name(values::shell).required();
     verb.callback([shell, &app, &chosen] {
         chosen = {"completion", [shell, &app] {
                       if (*shell == "bash")
@@ -232,7 +233,7 @@ void add_completion(CLI::App& app, Chosen& chosen) {
                       else if (*shell == "fish")
                           show(fish(app));
                       else
-                          throw ModelError(fmt::format("'{}': expected bash, zsh or fish", *shell));
+                          throw ModelError(say("'{}': expected bash, zsh or fish", *shell));
                       return 0;
                   }};
     });

@@ -3,6 +3,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "report/derivation.hpp"
 #include "report/figure.hpp"
 
@@ -34,15 +35,16 @@ void add_derive(CLI::App& app, Chosen& chosen) {
     add_scene_verb<DeriveVerb>(
         app, chosen,
         {.name = "derive",
-         .about = "prints the equations of motion in the form of a textbook",
+         .about = say("prints the equations of motion in the form of a textbook"),
          .example = "alembert derive scenes/textbook/double_pendulum.toml --steps"},
         run, [](Verb& verb, DeriveVerb& options) {
             add_by_option(verb, options.by);
-            verb.add_option("--format", options.page.format, "text (default), latex or mathml")
+            verb.add_option("--format", options.page.format, say("text (default), latex or mathml"))
                 .type_name(values::format)
                 .one_of({"text", "latex", "mathml"});
-            verb.add_flag("--steps", options.page.steps, "also coordinates, T, V, generalized forces, own steps");
-            verb.add_option("--draw", options.draw, "SVG figure of the system").type_name(values::file);
+            verb.add_flag("--steps", options.page.steps,
+                          say("also coordinates, T, V, generalized forces, own steps"));
+            verb.add_option("--draw", options.draw, say("SVG figure of the system")).type_name(values::file);
             add_reactions_option(verb, options.reactions);
         });
 }

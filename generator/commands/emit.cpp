@@ -8,6 +8,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "report/emission.hpp"
 
 namespace alembert {
@@ -28,8 +29,7 @@ int run(const EmitVerb& options) {
     warn(e.warnings);
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
-    if (failed)
-        throw CompileError(fmt::format("cannot make the folder '{}': {}", options.folder, failed.message()));
+    if (failed) throw CompileError(say("cannot make the folder '{}': {}", options.folder, failed.message()));
     std::vector<std::string> paths;
     const auto write = [&](const std::string& name, const std::string& text) {
         paths.push_back((std::filesystem::path(options.folder) / name).string());
@@ -51,20 +51,22 @@ void add_emit(CLI::App& app, Chosen& chosen) {
     add_scene_verb<EmitVerb>(
         app, chosen,
         {.name = "emit",
-         .about = "writes the C++ of the system, or its C",
+         .about = say("writes the C++ of the system, or its C"),
          .example = "alembert emit scenes/textbook/double_pendulum.toml -o solver"},
         run, [](Verb& verb, EmitVerb& options) {
-            verb.add_option("-o,--output", options.folder, "the folder; the file is named after the scene")
+            verb.add_option("-o,--output", options.folder, say("the folder; the file is named after the scene"))
                 .type_name(values::folder)
                 .required();
-            verb.add_option("--language", options.language, "cpp (default), or c: C99 and a header")
+            verb.add_option("--language", options.language, say("cpp (default), or c: C99 and a header"))
                 .type_name(values::language)
                 .one_of({"cpp", "c"});
             verb.add_flag("--standalone", options.emission.standalone,
-                          "also a main program that integrates and prints");
-            verb.add_flag("--fold", options.emission.fold, "parameters as constants");
-            verb.add_flag("--jacobian", options.emission.jacobian, "also the derivatives of the right-hand side");
-            verb.add_flag("--batch", options.emission.batch, "also the same functions for eight systems at once");
+                          say("also a main program that integrates and prints"));
+            verb.add_flag("--fold", options.emission.fold, say("parameters as constants"));
+            verb.add_flag("--jacobian", options.emission.jacobian,
+                          say("also the derivatives of the right-hand side"));
+            verb.add_flag("--batch", options.emission.batch,
+                          say("also the same functions for eight systems at once"));
             add_by_option(verb, options.by);
         });
 }

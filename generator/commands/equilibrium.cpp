@@ -10,6 +10,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "report/branches.hpp"
 #include "report/equilibria.hpp"
 
@@ -37,7 +38,7 @@ void read_range(const std::string& item, FollowOptions& options) {
         !read(all.substr(equals + 1, colon - equals - 1), options.from) ||
         !read(all.substr(colon + 1), options.to))
         throw ModelError(
-            fmt::format("--follow {}: expected NAME=FROM:TO with two numbers, as in --follow Omega=0:20", item));
+            say("--follow {}: expected NAME=FROM:TO with two numbers, as in --follow Omega=0:20", item));
     options.name = item.substr(0, equals);
 }
 
@@ -58,9 +59,9 @@ int follow(const EquilibriumVerb& verb) {
     if (!found.branches.empty()) return 0;
     std::cout.flush();
     warn(
-        {fmt::format("{}: no equilibrium or steady motion was found for {} from {} to {}. This is no proof that "
-                     "there is none\n",
-                     verb.scene, found.parameter, found.from, found.to)});
+        {say("{}: no equilibrium or steady motion was found for {} from {} to {}. This is no proof that "
+             "there is none\n",
+             verb.scene, found.parameter, found.from, found.to)});
     return undecided;
 }
 
@@ -69,7 +70,7 @@ int run(const EquilibriumVerb& verb) {
     check_output(verb.svg, {verb.scene});
     if (!verb.follow.empty()) return follow(verb);
     if (!verb.output.empty() || !verb.svg.empty())
-        throw ModelError("-o and --svg show branches; expected --follow NAME=FROM:TO with them");
+        throw ModelError(say("-o and --svg show branches; expected --follow NAME=FROM:TO with them"));
     EquilibriumOptions options{.by = verb.by, .at = overrides_of(verb.at), .starts = verb.starts};
     Progress progress;
     options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
@@ -92,19 +93,20 @@ void add_equilibrium(CLI::App& app, Chosen& chosen) {
     add_scene_verb<EquilibriumVerb>(
         app, chosen,
         {.name = "equilibrium",
-         .about = "finds where the system can stay at rest, or move steadily",
+         .about = say("finds where the system can stay at rest, or move steadily"),
          .example = "alembert equilibrium scenes/textbook/watt_governor.toml"},
         run, [](Verb& verb, EquilibriumVerb& options) {
             add_by_option(verb, options.by);
             add_at_option(verb, options.at);
             verb.add_option("--follow", options.follow,
-                            "follows all over a parameter, with folds and bifurcations")
+                            say("follows all over a parameter, with folds and bifurcations"))
                 .type_name(values::interval);
-            verb.add_option("--starts", options.starts, "Newton's method starts that often")
+            verb.add_option("--starts", options.starts, say("Newton's method starts that often"))
                 .type_name(values::count)
                 .between(1, 1000000);
-            verb.add_option("-o,--output", options.output, "CSV file of the branches").type_name(values::file);
-            verb.add_option("--svg", options.svg, "picture of the branches").type_name(values::file);
+            verb.add_option("-o,--output", options.output, say("CSV file of the branches"))
+                .type_name(values::file);
+            verb.add_option("--svg", options.svg, say("picture of the branches")).type_name(values::file);
         });
 }
 

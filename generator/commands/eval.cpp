@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "report/evaluation.hpp"
 
 namespace alembert {
@@ -29,7 +30,7 @@ int run(const EvalOptions& options) {
 void add_eval(CLI::App& app, Chosen& chosen) {
     add_scene_verb<EvalOptions>(app, chosen,
                                 {.name = "eval",
-                                 .about = "evaluates the equations once: accelerations, energies, reactions",
+                                 .about = say("evaluates the equations once: accelerations, energies, reactions"),
                                  .example = "alembert eval scenes/textbook/double_pendulum.toml --at theta1=0.3"},
                                 run, [](Verb& verb, EvalOptions& options) {
                                     add_at_option(verb, options.at);

@@ -5,9 +5,10 @@
 
 #include <fmt/ranges.h>
 #include <algorithm>
-#include <sstream>
 
 #include "commands/values.hpp"
+#include "language/libraries.hpp"
+#include "language/say.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
 
@@ -58,14 +59,15 @@ void append(std::vector<std::string>& lines, std::vector<std::string> more) {
 }
 
 std::vector<std::string> about_exit_codes() {
-    std::string text = "Exit codes:";
+    std::string text = say("Exit codes:");
     for (const auto& [code, meaning] : exit_codes())
-        text += fmt::format("{} {} {}", code > 0 ? ";" : "", code, meaning);
-    return filled(text + ".", columns);
+        text += fmt::format("{} {} {}", code > 0 ? say(";") : "", code, meaning);
+    return filled(say("{}.", text), columns);
 }
 
 std::vector<std::string> entries_of(const CLI::App& app) {
-    const std::vector<OptionText> options = options_of(app);
+    std::vector<OptionText> options = options_of(app);
+    std::erase_if(options, [](const OptionText& option) { return option.value == values::reading; });  // of all
     std::size_t indent = 0;
     for (const OptionText& option : options)
         if (name_of(option).size() <= widest_name) indent = std::max(indent, name_of(option).size() + 4);
@@ -80,10 +82,39 @@ std::vector<std::string> lists_of(const CLI::App& app, std::size_t lines_until_n
     for (const OptionText& option : options_of(app)) {
         const ValueKind* const kind = value_kind(option.value);
         if (kind != nullptr && !kind->plural.empty())
-            append(lines, filled(fmt::format("{}: {}.", kind->plural, fmt::join(kind->words, ", ")), columns));
+            append(lines, filled(say("{}: {}.", kind->plural, fmt::join(kind->words, ", ")), columns));
     }
     if (lines.empty() || lines_until_now + lines.size() <= lines_of_a_screen) return lines;
-    return {fmt::format("All formalisms and methods: alembert man {}", app.get_name())};
+    return {say("All formalisms and methods: alembert man {}", app.get_name())};
+}
+
+/// What stays together on a line: a word between blanks, or a Chinese character with the punctuation after it.
+struct Piece {
+    std::string text;
+    std::size_t columns = 0;
+    bool after_space = false, is_wide = false;
+};
+
+std::vector<Piece> pieces_of(const std::string& words) {
+    constexpr std::u32string_view closing = U"，。；：、）！？”’》";
+    std::vector<Piece> pieces;
+    bool space = true;
+    for (std::size_t i = 0; i < words.size();) {
+        const std::size_t begin = i;
+        const char32_t c = decode(words, i);
+        if (c == U' ' || c == U'\n') {
+            space = true;
+            continue;
+        }
+        const bool is_wide = width(c) == 2, is_closing = closing.find(c) != closing.npos;
+        if (pieces.empty() || space || (!is_closing && (is_wide || pieces.back().is_wide)))
+            pieces.push_back({.text = {}, .after_space = space && !pieces.empty(), .is_wide = is_wide});
+        pieces.back().text += words.substr(begin, i - begin);
+        pieces.back().columns += static_cast<std::size_t>(width(c));
+        pieces.back().is_wide = is_wide;
+        space = false;
+    }
+    return pieces;
 }
 
 std::string joined(const std::vector<std::string>& lines) {
@@ -91,9 +122,9 @@ std::string joined(const std::vector<std::string>& lines) {
 }
 
 std::string help_of_verb(const CLI::App& verb) {
-    std::vector<std::string> lines{"Example: " + verb.get_footer(), ""};
+    std::vector<std::string> lines{say("Example: {}", verb.get_footer()), ""};
     append(lines, filled(usage_of(verb), columns));
-    append(lines, filled(verb.get_description() + ".", columns));
+    append(lines, filled(say("{}.", verb.get_description()), columns));
     append(lines, entries_of(verb));
     const std::vector<std::string> codes = about_exit_codes();
     append(lines, lists_of(verb, lines.size() + codes.size()));
@@ -102,19 +133,19 @@ std::string help_of_verb(const CLI::App& verb) {
 }
 
 std::string help_of_program(const CLI::App& app) {
-    std::vector<std::string> lines{"Example: " + app.get_footer(), ""};
+    std::vector<std::string> lines{say("Example: {}", app.get_footer()), ""};
     append(lines, filled(app.get_description(), columns));
-    lines.emplace_back("Verbs:");
+    lines.emplace_back(say("Verbs:"));
     for (const CLI::App* verb : app.get_subcommands({}))
         append(lines, entry(verb->get_name(), verb->get_description(), 14));
-    lines.emplace_back("'alembert VERB --help' has the options of a verb, --version prints the version.");
+    lines.emplace_back(say("'alembert VERB --help' has its options; --version; --language zh prints Chinese."));
     append(lines, about_exit_codes());
     return joined(lines);
 }
 
 std::string meant(const std::string& word, const std::vector<std::string>& known) {
     const std::string near = nearest(word, known);
-    return near.empty() ? "" : fmt::format("; did you mean {}?", near);
+    return near.empty() ? "" : say("; did you mean {}?", near);
 }
 
 std::string mistake_in_options(const CLI::App& verb, const std::vector<std::string>& words) {
@@ -125,8 +156,8 @@ std::string mistake_in_options(const CLI::App& verb, const std::vector<std::stri
         const std::string name = words[k].substr(0, words[k].find('='));
         if (name == "--") break;
         if (!name.starts_with("--") || std::find(known.begin(), known.end(), name) != known.end()) continue;
-        return fmt::format("{} has no option {}{}\n'alembert {} --help' lists its options\n", verb.get_name(),
-                           in_quotes(name), meant(name, known), verb.get_name());
+        return say("{} has no option {}{}\n'alembert {} --help' lists its options\n", verb.get_name(),
+                   in_quotes(name), meant(name, known), verb.get_name());
     }
     return {};
 }
@@ -138,7 +169,7 @@ std::vector<OptionText> options_of(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options({})) {
         OptionText text = text_of(*option);
         const bool is_help = !text.positional && text.names.back() == "--help";
-        if (is_help) text.about = "this";
+        if (is_help) text.about = say("this");
         (text.positional ? positional : is_help ? help : named).push_back(std::move(text));
     }
     for (const auto* more : {&named, &help}) positional.insert(positional.end(), more->begin(), more->end());
@@ -158,9 +189,9 @@ std::string usage_of(const CLI::App& app) {
 
 const std::vector<std::pair<int, std::string>>& exit_codes() {
     static const std::vector<std::pair<int, std::string>> all{
-        {0, "done, or proved"},    {1, "refuted"},
-        {2, "undecided"},          {3, "the input is wrong"},
-        {4, "the numbers failed"}, {5, "the environment failed"}};
+        {0, say("done, or proved")},    {1, say("refuted")},
+        {2, say("undecided")},          {3, say("the input is wrong")},
+        {4, say("the numbers failed")}, {5, say("the environment failed")}};
     return all;
 }
 
@@ -174,30 +205,34 @@ void set_help(CLI::App& app) {
 
 std::string failure_message(const CLI::App* app, const CLI::Error& error) {
     const std::vector<CLI::App*> chosen = app->get_subcommands();
-    return fmt::format("{}\n'alembert {}--help' says more\n", error.what(),
-                       chosen.empty() ? "" : chosen[0]->get_name() + " ");
+    return say("{}\n'alembert {}--help' says more\n", translated_from_library(error.what()),
+               chosen.empty() ? "" : chosen[0]->get_name() + " ");
 }
 
 std::string mistake_in(const CLI::App& app, const std::vector<std::string>& words) {
     std::vector<std::string> verbs;
     for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
     if (words.empty())
-        return fmt::format("expected a verb, as in: {}\n'alembert --help' lists the verbs\n", app.get_footer());
+        return say("expected a verb, as in: {}\n'alembert --help' lists the verbs\n", app.get_footer());
     if (words[0].starts_with('-')) return {};
     for (const CLI::App* verb : app.get_subcommands({}))
         if (verb->get_name() == words[0]) return mistake_in_options(*verb, words);
-    return fmt::format("unknown verb {}{}\n'alembert --help' lists the verbs\n", in_quotes(words[0]),
-                       meant(words[0], verbs));
+    return say("unknown verb {}{}\n'alembert --help' lists the verbs\n", in_quotes(words[0]),
+               meant(words[0], verbs));
 }
 
 std::vector<std::string> filled(const std::string& words, std::size_t width) {
     std::vector<std::string> lines;
-    std::istringstream stream(words);
-    for (std::string word; stream >> word;) {
-        if (lines.empty() || lines.back().size() + 1 + word.size() > width)
-            lines.push_back(word);
-        else
-            lines.back() += " " + word;
+    std::size_t used = 0;
+    for (const Piece& piece : pieces_of(words)) {
+        const std::size_t gap = piece.after_space ? 1 : 0;
+        if (lines.empty() || used + gap + piece.columns > width) {
+            lines.push_back(piece.text);
+            used = piece.columns;
+        } else {
+            lines.back() += (gap > 0 ? " " : "") + piece.text;
+            used += gap + piece.columns;
+        }
     }
     return lines;
 }

@@ -3,6 +3,7 @@
 
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -23,7 +24,7 @@ int run_impact(const SceneOptions& options) {
 void add_impact(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SceneOptions>(app, chosen,
                                  {.name = "impact",
-                                  .about = "calculates the rates after impulses and sudden constraints",
+                                  .about = say("calculates the rates after impulses and sudden constraints"),
                                   .example = "alembert impact scenes/textbook/struck_rods.toml"},
                                  run_impact);
 }

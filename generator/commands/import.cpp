@@ -8,6 +8,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "scene/text.hpp"
 #include "urdf/robot_scene.hpp"
 
@@ -29,21 +30,22 @@ int run(const ImportOptions& options) {
                                            .quaternion = options.quaternion,
                                            .drives = options.drives});
     if (rounded > 0 && !options.right_angles)
-        scene.notes.push_back(fmt::format(
-            "{} angle{} a right angle written with few digits, as 1.5708; with --right-angles {} exact, "
-            "which leaves terms out of the equations",
-            rounded, rounded == 1 ? " is" : "s are each", rounded == 1 ? "it becomes" : "they become"));
+        scene.notes.push_back(
+            say("{} angle{} a right angle written with few digits, as 1.5708; with --right-angles {} exact, "
+                "which leaves terms out of the equations",
+                rounded, rounded == 1 ? " is" : say("s are each"),
+                rounded == 1 ? say("it becomes") : say("they become")));
     parse_scene(scene.text, options.output);  // a scene that is refused is not written
     write_file(options.output, scene.text, {options.robot});
     for (const Diagnostic& remark : robot.remarks)
-        std::cerr << fmt::format("{}:{}:{}: warning: {}\n", options.robot, remark.place.line, remark.place.column,
-                                 escaped(remark.message, 300));
+        std::cerr << say("{}:{}:{}: warning: {}\n", options.robot, remark.place.line, remark.place.column,
+                         escaped(remark.message, 300));
     for (const std::string& sentence : scene.notes)
-        std::cerr << fmt::format("{}: note: {}\n", options.robot, escaped(sentence, 300));
+        std::cerr << say("{}: note: {}\n", options.robot, escaped(sentence, 300));
     for (const Robot::Dropped& dropped : scene.dropped)
-        std::cerr << fmt::format("{}: dropped: {}{}{}\n", options.robot, escaped(dropped.what),
-                                 dropped.of.empty() ? "" : ": ",
-                                 escaped(fmt::format("{}", fmt::join(dropped.of, ", ")), 100'000));
+        std::cerr << say("{}: dropped: {}{}{}\n", options.robot, escaped(dropped.what),
+                         dropped.of.empty() ? "" : ": ",
+                         escaped(fmt::format("{}", fmt::join(dropped.of, ", ")), 100'000));
     if (options.json) {
         Json result;
         result["file"] = options.output;
@@ -60,8 +62,8 @@ int run(const ImportOptions& options) {
         show(result);
         return 0;
     }
-    fmt::print("{}\n{} bodies, {} coordinates: {}\n", options.output, scene.bodies, scene.coordinates.size(),
-               fmt::join(scene.coordinates, ", "));
+    std::cout << say("{}\n{} bodies, {} coordinates: {}\n", options.output, scene.bodies, scene.coordinates.size(),
+                     fmt::join(scene.coordinates, ", "));
     for (const std::string& sentence : scene.merged) fmt::print("{}\n", escaped(sentence, 300));
     return 0;
 }
@@ -71,15 +73,17 @@ int run(const ImportOptions& options) {
 void add_import(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<ImportOptions>();
     Verb verb = add_verb(app, {.name = "import",
-                               .about = "writes the scene of a robot description (URDF)",
+                               .about = say("writes the scene of a robot description (URDF)"),
                                .example = "alembert import tests/robots/arm6.urdf -o arm6.toml"});
-    verb.add_option("robot", options->robot, "the robot, an .urdf file").type_name(values::robot).required();
-    verb.add_option("-o,--output", options->output, "the scene to be written").type_name(values::file).required();
-    verb.add_flag("--floating", options->floating, "the root link moves freely; default: it is the ground");
-    verb.add_flag("--quaternion", options->quaternion, "what floats turns by a quaternion");
-    verb.add_flag("--drives", options->drives, "an input for the torque or force of each joint");
-    verb.add_flag("--right-angles", options->right_angles, "1.5708 and the like become right angles");
-    verb.add_flag("--json", options->json, "print one JSON object");
+    verb.add_option("robot", options->robot, say("the robot, an .urdf file")).type_name(values::robot).required();
+    verb.add_option("-o,--output", options->output, say("the scene to be written"))
+        .type_name(values::file)
+        .required();
+    verb.add_flag("--floating", options->floating, say("the root link moves freely; default: it is the ground"));
+    verb.add_flag("--quaternion", options->quaternion, say("what floats turns by a quaternion"));
+    verb.add_flag("--drives", options->drives, say("an input for the torque or force of each joint"));
+    verb.add_flag("--right-angles", options->right_angles, say("1.5708 and the like become right angles"));
+    verb.add_flag("--json", options->json, say("print one JSON object"));
     verb.callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
 }
 

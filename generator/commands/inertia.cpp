@@ -3,6 +3,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -30,12 +31,12 @@ void add_inertia(CLI::App& app, Chosen& chosen) {
     add_scene_verb<InertiaVerb>(
         app, chosen,
         {.name = "inertia",
-         .about = "gives mass, mass centre, tensor and principal moments",
+         .about = say("gives mass, mass centre, tensor and principal moments"),
          .example = "alembert inertia scenes/textbook/gyrocompass.toml"},
         run, [](Verb& verb, InertiaVerb& options) {
-            verb.add_option("--of", options.of, "bodies and particles, as in B1,B2; default: all together")
+            verb.add_option("--of", options.of, say("bodies and particles, as in B1,B2; default: all together"))
                 .type_name(values::names);
-            verb.add_option("--about", options.about, "a point, particle or body; default: the mass centre")
+            verb.add_option("--about", options.about, say("a point, particle or body; default: the mass centre"))
                 .type_name(values::point);
             add_at_option(verb, options.at);
         });

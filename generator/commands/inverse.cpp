@@ -2,6 +2,7 @@
 #include "report/inverse.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -28,7 +29,7 @@ void add_inverse(CLI::App& app, Chosen& chosen) {
     add_scene_verb<InverseVerb>(
         app, chosen,
         {.name = "inverse",
-         .about = "calculates the loads that accelerations need",
+         .about = say("calculates the loads that accelerations need"),
          .example = "alembert inverse scenes/textbook/double_pendulum.toml --at \"theta1''=2\""},
         run, [](Verb& verb, InverseVerb& options) {
             add_at_option(verb, options.at);

@@ -3,6 +3,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -33,16 +34,16 @@ void add_kinematics(CLI::App& app, Chosen& chosen) {
     add_scene_verb<KinematicsVerb>(
         app, chosen,
         {.name = "kinematics",
-         .about = "describes how frames and points move: omega, alpha, v, a",
+         .about = say("describes how frames and points move: omega, alpha, v, a"),
          .example = "alembert kinematics scenes/textbook/heavy_top.toml --steps"},
         run, [](Verb& verb, KinematicsVerb& options) {
-            verb.add_option("--of", options.of, "frames, bodies and points, as in A,P; default: all")
+            verb.add_option("--of", options.of, say("frames, bodies and points, as in A,P; default: all"))
                 .type_name(values::names);
             add_at_option(verb, options.at);
-            verb.add_option("--format", options.format, "text (default), latex or mathml")
+            verb.add_option("--format", options.format, say("text (default), latex or mathml"))
                 .type_name(values::format)
                 .one_of({"text", "latex", "mathml"});
-            verb.add_flag("--steps", options.steps, "also how velocities and accelerations are composed");
+            verb.add_flag("--steps", options.steps, say("also how velocities and accelerations are composed"));
         });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "report/linearization.hpp"
 
 namespace alembert {
@@ -31,12 +32,12 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
     add_scene_verb<LinearizeVerb>(
         app, chosen,
         {.name = "linearize",
-         .about = "gives matrices and eigenvalues near an equilibrium",
+         .about = say("gives matrices and eigenvalues near an equilibrium"),
          .example = "alembert linearize scenes/textbook/watt_governor.toml --at alpha=0"},
         run, [](Verb& verb, LinearizeVerb& options) {
             add_at_option(verb, options.at);
             add_by_option(verb, options.by);
-            verb.add_flag("--modes", options.modes, "eigenvectors too");
+            verb.add_flag("--modes", options.modes, say("eigenvectors too"));
         });
 }
 

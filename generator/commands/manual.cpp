@@ -8,6 +8,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "report/page.hpp"
 #include "scene/scene.hpp"
 
@@ -52,7 +53,7 @@ std::string upper(std::string text) {
 
 void begin(std::string& page, const CLI::App& app, const std::string& about) {
     put(page, ".TH {} 1 \"\" \"alembert {}\" \"User Commands\"\n", upper(page_name(app)), ALEMBERT_VERSION);
-    put(page, ".SH NAME\n{} \\- {}\n", roff(page_name(app)), roff(about));
+    put(page, ".SH {}\n{} \\- {}\n", say("NAME"), roff(page_name(app)), roff(about));
 }
 
 void add_option(std::string& page, const OptionText& option) {
@@ -64,22 +65,27 @@ void add_option(std::string& page, const OptionText& option) {
 }
 
 void end(std::string& page, const CLI::App& app, const std::string& also) {
-    page += ".SH EXIT STATUS\n";
+    put(page, ".SH {}\n", say("EXIT STATUS"));
     for (const auto& [code, meaning] : exit_codes()) put(page, ".TP\n{}\n{}.\n", code, roff(meaning));
-    page +=
-        ".SH ENVIRONMENT\n.TP\n.B CXX\nThe C++ compiler of motions; g++ or clang++ where it is not set.\n"
-        ".TP\n.B XDG_CACHE_HOME\nCompiled solvers are kept in its folder alembert, or in ~/.cache/alembert.\n"
-        ".TP\n.B NO_COLOR\nWhere it is set and not empty, nothing is colored.\n";
-    put(page, ".SH EXAMPLES\n.EX\n{}\n.EE\n", roff(app.get_footer()));
-    put(page, ".SH SEE ALSO\n{}\n", also);
+    put(page, ".SH {}\n", say("ENVIRONMENT"));
+    for (const auto& [name, about] :
+         {std::pair("CXX", say("The C++ compiler of motions; g++ or clang++ where it is not set.")),
+          std::pair("XDG_CACHE_HOME",
+                    say("Compiled solvers are kept in its folder alembert, or in ~/.cache/alembert.")),
+          std::pair("LANG",
+                    say("Where it begins with zh, what people read is Chinese; --language zh does the same.")),
+          std::pair("NO_COLOR", say("Where it is set and not empty, nothing is colored."))})
+        put(page, ".TP\n.B {}\n{}\n", name, about);
+    put(page, ".SH {}\n.EX\n{}\n.EE\n", say("EXAMPLES"), roff(app.get_footer()));
+    put(page, ".SH {}\n{}\n", say("SEE ALSO"), also);
 }
 
 std::string page_of_verb(const CLI::App& verb) {
     std::string page;
     begin(page, verb, verb.get_description());
-    put(page, ".SH SYNOPSIS\n{}\n.SH DESCRIPTION\n", bold(usage_of(verb)));
-    put(page, "{}.\nThe reference is docs/commands.md of the documentation.\n.SH OPTIONS\n",
-        roff(verb.get_description()));
+    put(page, ".SH {}\n{}\n.SH {}\n", say("SYNOPSIS"), bold(usage_of(verb)), say("DESCRIPTION"));
+    put(page, "{}.\n{}\n.SH {}\n", roff(verb.get_description()),
+        say("The reference is docs/commands.md of the documentation."), say("OPTIONS"));
     for (const OptionText& option : options_of(verb)) add_option(page, option);
     for (const OptionText& option : options_of(verb)) {
         const ValueKind* const kind = value_kind(option.value);
@@ -92,10 +98,10 @@ std::string page_of_verb(const CLI::App& verb) {
 
 std::string page_of_program(const CLI::App& app) {
     std::string page, also;
-    begin(page, app, "derives, proves, emits and integrates equations of motion");
-    put(page, ".SH SYNOPSIS\n{} {} [{} ...]\n.SH DESCRIPTION\n{}\n", bold("alembert"), italic("VERB"),
-        italic("OPTION"), roff(app.get_description()));
-    page += ".SH VERBS\n";
+    begin(page, app, say("derives, proves, emits and integrates equations of motion"));
+    put(page, ".SH {}\n{} {} [{} ...]\n.SH {}\n{}\n", say("SYNOPSIS"), bold("alembert"), italic("VERB"),
+        italic("OPTION"), say("DESCRIPTION"), roff(app.get_description()));
+    put(page, ".SH {}\n", say("VERBS"));
     for (const CLI::App* verb : app.get_subcommands({})) {
         put(page, ".TP\n{}\n{}.\n", bold(verb->get_name()), roff(verb->get_description()));
         put(also, "{}.BR {} (1)", also.empty() ? "" : ",\n", roff(page_name(*verb)));
@@ -109,20 +115,20 @@ std::string page_of_program(const CLI::App& app) {
 void add_manual(CLI::App& app, Chosen& chosen) {
     const auto name = std::make_shared<std::string>();
     Verb verb = add_verb(app, {.name = "man",
-                               .about = "prints a page of the manual, of the program or of a verb",
+                               .about = say("prints a page of the manual, of the program or of a verb"),
                                .example = "alembert man simulate > alembert-simulate.1"});
-    verb.add_option("verb", *name, "whose page; without it that of the program").type_name(values::verb);
+    verb.add_option("verb", *name, say("whose page; without it that of the program")).type_name(values::verb);
     verb.callback([name, &app, &chosen] {
-        chosen = {"man", [name, &app] {
-                      if (name->empty()) return show(page_of_program(app)), 0;
-                      std::vector<std::string> known;
-                      for (const CLI::App* one : app.get_subcommands({})) {
-                          if (one->get_name() == *name) return show(page_of_verb(*one)), 0;
-                          known.push_back(one->get_name());
-                      }
-                      throw ModelError(fmt::format("there is no verb '{}'; expected one of: {}", *name,
-                                                   fmt::join(known, ", ")));
-                  }};
+        chosen = {
+            "man", [name, &app] {
+                if (name->empty()) return show(page_of_program(app)), 0;
+                std::vector<std::string> known;
+                for (const CLI::App* one : app.get_subcommands({})) {
+                    if (one->get_name() == *name) return show(page_of_verb(*one)), 0;
+                    known.push_back(one->get_name());
+                }
+                throw ModelError(say("there is no verb '{}'; expected one of: {}", *name, fmt::join(known, ", ")));
+            }};
     });
 }
 

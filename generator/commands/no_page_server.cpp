@@ -2,15 +2,16 @@
 // Replaces page_server.cpp if the program is built without cpp-httplib.
 #include "alembert/error.hpp"
 #include "commands/page_server.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
 struct PageServer::State {};
 
 PageServer::PageServer(int) {
-    throw CompileError(
+    throw CompileError(say(
         "watch is missing: this program was built without cpp-httplib; install libcpp-httplib-dev, configure and "
-        "build again, or use 'alembert report'");
+        "build again, or use 'alembert report'"));
 }
 PageServer::~PageServer() = default;
 std::string PageServer::address() const {

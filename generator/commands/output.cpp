@@ -18,6 +18,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/leftover.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr int most_links = 40;  // the kernel follows as many
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
-    throw CompileError(fmt::format("cannot write '{}': {}", path, reason));
+    throw CompileError(say("cannot write '{}': {}", path, reason));
 }
 
 /// An open file that is closed at the end of the block.
@@ -84,27 +85,26 @@ void check(const std::string& path, const Target& target, const std::vector<std:
         if (target.descriptor) fail(path, std::strerror(EBADF));
         std::error_code none;
         const fs::path folder = target.file.parent_path();
-        if (!fs::is_directory(folder, none)) fail(path, fmt::format("there is no folder '{}'", folder.string()));
-        if (!target.file.has_filename()) fail(path, "expected the name of a file");
+        if (!fs::is_directory(folder, none)) fail(path, say("there is no folder '{}'", folder.string()));
+        if (!target.file.has_filename()) fail(path, say("expected the name of a file"));
         return;
     }
-    if (S_ISDIR(here->st_mode)) fail(path, "it is a folder; expected the name of a file");
-    if (S_ISBLK(here->st_mode)) fail(path, "it is a block device; expected the name of a file");
+    if (S_ISDIR(here->st_mode)) fail(path, say("it is a folder; expected the name of a file"));
+    if (S_ISBLK(here->st_mode)) fail(path, say("it is a block device; expected the name of a file"));
     if (!S_ISREG(here->st_mode)) return;
     for (const std::string& input : inputs) {
         struct stat read {};
         if (!input.empty() && stat(input.c_str(), &read) == 0 && read.st_dev == here->st_dev &&
             read.st_ino == here->st_ino)
             throw ModelError(
-                fmt::format("'{}' is the same file as the input '{}', which would be overwritten; name another "
-                            "file for the output",
-                            path, input));
+                say("'{}' is the same file as the input '{}', which would be overwritten; name another "
+                    "file for the output",
+                    path, input));
     }
     if (target.descriptor) return;
     // The mode also counts for the superuser, who could write anyway, because it shows what the owner wants.
     if ((here->st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0)
-        fail(path, fmt::format("it is read-only (mode {:04o}); chmod +w it, or name another file",
-                               here->st_mode & 07777));
+        fail(path, say("it is read-only (mode {:04o}); chmod +w it, or name another file", here->st_mode & 07777));
     if (access(target.file.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
 }
 

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "report/sha256.hpp"
 
 namespace alembert {
@@ -28,7 +29,7 @@ constexpr const char* script = R"(
 const frame = document.querySelector('iframe'), note = document.querySelector('output');
 const news = new EventSource('/events');
 let last = '';
-news.addEventListener('making', () => { note.textContent = 'making the page …'; });
+news.addEventListener('making', () => { note.textContent = note.dataset.making; });
 news.addEventListener('page', event => {
   note.textContent = '';
   if (event.data === last) return;
@@ -37,7 +38,7 @@ news.addEventListener('page', event => {
   frame.onload = () => frame.contentWindow.scrollTo(0, y);
   frame.contentWindow.location.reload();
 });
-news.onerror = () => { note.textContent = 'alembert watch has ended'; };
+news.onerror = () => { note.textContent = note.dataset.ended; };
 )";
 constexpr const char* style = R"(
 html, body { margin: 0; height: 100%; } iframe { border: 0; width: 100%; height: 100%; display: block; }
@@ -47,11 +48,12 @@ output { position: fixed; right: 1rem; bottom: 1rem; padding: .2rem .6rem; font:
 
 std::string frame_around() {
     return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>alembert watch</title>"
+        "<!DOCTYPE html>\n<html lang=\"{}\"><head><meta charset=\"utf-8\"><title>alembert watch</title>"
         "<meta name=\"viewport\" content=\"width=device-width\"><style>{}</style></head><body>"
-        "<iframe src=\"/page\" title=\"the scene\"></iframe><output role=\"status\"></output>"
+        "<iframe src=\"/page\" title=\"{}\"></iframe><output role=\"status\" data-making=\"{}\" "
+        "data-ended=\"{}\"></output>"
         "<script>{}</script></body></html>\n",
-        style, script);
+        say("en"), style, say("the scene"), say("making the page …"), say("alembert watch has ended"), script);
 }
 
 std::string policy_of_frame() {
@@ -153,8 +155,7 @@ PageServer::PageServer(int port) : state_(std::make_unique<State>()) {
     const bool bound = port == 0 ? (s.port = s.server.bind_to_any_port(loopback)) > 0
                                  : s.server.bind_to_port(loopback, s.port = port);
     if (!bound)
-        throw CompileError(
-            fmt::format("cannot listen on {}:{}: the port is taken; give another one", loopback, port));
+        throw CompileError(say("cannot listen on {}:{}: the port is taken; give another one", loopback, port));
     s.thread = std::thread([&s] { s.server.listen_after_bind(); });
 }
 

@@ -5,6 +5,7 @@
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
+#include "language/say.hpp"
 #include "report/scene_page.hpp"
 
 namespace alembert {
@@ -45,7 +46,7 @@ int run(const ReportVerb& verb) {
     if (verb.json)
         show(Json{{"file", verb.output}});
     else
-        show("wrote " + verb.output + "\n");
+        show(say("wrote {}\n", verb.output));
     return 0;
 }
 
@@ -55,19 +56,21 @@ void add_report(CLI::App& app, Chosen& chosen) {
     add_scene_verb<ReportVerb>(
         app, chosen,
         {.name = "report",
-         .about = "writes one page about the scene, with a figure that moves",
+         .about = say("writes one page about the scene, with a figure that moves"),
          .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
         run, [](Verb& verb, ReportVerb& options) {
-            verb.add_option("-o,--output", options.output, "the page, HTML").type_name(values::file).required();
+            verb.add_option("-o,--output", options.output, say("the page, HTML"))
+                .type_name(values::file)
+                .required();
             add_by_option(verb, options.by);
             add_duration_option(verb, options.wishes);
-            verb.add_option("--budget", options.wishes.budget, "evaluations of the motion, at most")
+            verb.add_option("--budget", options.wishes.budget, say("evaluations of the motion, at most"))
                 .type_name(values::count)
                 .positive();
-            verb.add_option("--poincare", options.section, "section of Poincare, as in \"theta1 = 0\"")
+            verb.add_option("--poincare", options.section, say("section of Poincare, as in \"theta1 = 0\""))
                 .type_name(values::formula);
-            verb.add_flag("--bench", options.measures, "also speed against error, of every method");
-            verb.add_flag("!--no-motion", options.moves, "leaves the motion out");
+            verb.add_flag("--bench", options.measures, say("also speed against error, of every method"));
+            verb.add_flag("!--no-motion", options.moves, say("leaves the motion out"));
         });
 }
 

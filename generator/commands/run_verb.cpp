@@ -7,43 +7,44 @@
 
 #include "alembert/error.hpp"
 #include "commands/values.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
 void add_run_options(Verb& verb, RunVerb& options) {
     RunOptions& w = options.wishes;
     add_duration_option(verb, w);
-    verb.add_option("--tolerance", w.tolerance, "local error of a component, relative to max(1, |y|)")
+    verb.add_option("--tolerance", w.tolerance, say("local error of a component, relative to max(1, |y|)"))
         .type_name(values::number)
         .positive();
-    verb.add_option("--method", w.method, "the integrator; default: auto, which chooses")
+    verb.add_option("--method", w.method, say("the integrator; default: auto, which chooses"))
         .type_name(values::method);
-    verb.add_option("--step", w.step, "fixed step, for methods without step control")
+    verb.add_option("--step", w.step, say("fixed step, for methods without step control"))
         .type_name(values::seconds)
         .positive();
-    verb.add_option("-o,--output", options.output, "table as CSV").type_name(values::file);
+    verb.add_option("-o,--output", options.output, say("table as CSV")).type_name(values::file);
     add_limits(verb, w);
-    verb.add_flag("--fast-math", w.fast_math, "let the compiler reorder sums");
+    verb.add_flag("--fast-math", w.fast_math, say("let the compiler reorder sums"));
     add_by_option(verb, options.by);
 }
 
 void add_duration_option(Verb& verb, RunOptions& wishes) {
-    verb.add_option("--duration", wishes.duration, "seconds from the start")
+    verb.add_option("--duration", wishes.duration, say("seconds from the start"))
         .type_name(values::seconds)
         .nonnegative();
 }
 
 void add_limits(Verb& verb, RunOptions& wishes) {
-    verb.add_option("--max-step", wishes.max_step, "longest step, for methods that choose it")
+    verb.add_option("--max-step", wishes.max_step, say("longest step, for methods that choose it"))
         .type_name(values::seconds)
         .positive();
-    verb.add_option("--budget", wishes.budget, "evaluations of one motion, at most")
+    verb.add_option("--budget", wishes.budget, say("evaluations of one motion, at most"))
         .type_name(values::count)
         .positive();
 }
 
 void add_show_option(Verb& verb, std::string& list, const std::string& picture) {
-    verb.add_option("--show", list, "with " + picture + ": what to draw, as in theta1,theta1',energy")
+    verb.add_option("--show", list, say("with {}: what to draw, as in theta1,theta1',energy", picture))
         .type_name(values::names)
         .needs(picture);
 }
@@ -56,7 +57,7 @@ std::vector<std::string> shown_names(const std::string& list) {
         name.erase(0, name.find_first_not_of(' '));
         name.erase(name.find_last_not_of(' ') + 1);
         if (name.empty())
-            throw ModelError(fmt::format("--show {}: expected names with commas between, as in --show x,y", list));
+            throw ModelError(say("--show {}: expected names with commas between, as in --show x,y", list));
         names.push_back(name);
         begin = end + 1;
     }

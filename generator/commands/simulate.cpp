@@ -8,6 +8,7 @@
 #include "commands/show.hpp"
 #include "commands/terminal.hpp"
 #include "commands/values.hpp"
+#include "language/say.hpp"
 #include "report/motion_plot.hpp"
 #include "report/run.hpp"
 
@@ -37,7 +38,7 @@ int run(const SimulateVerb& verb) {
     } else {
         show_formulas(as_text(run, ink_for(STDOUT_FILENO)));
         for (const std::string& file : {verb.output, verb.plot})
-            if (!file.empty()) show("wrote " + file + "\n");
+            if (!file.empty()) show(say("wrote {}\n", file));
     }
     if (run.failure) throw IntegrationError(*run.failure, run.motion.failure->time, run.motion.failure->state);
     return 0;
@@ -49,17 +50,18 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SimulateVerb>(
         app, chosen,
         {.name = "simulate",
-         .about = "emits, compiles and integrates, and says how large the error is",
+         .about = say("emits, compiles and integrates, and says how large the error is"),
          .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
         run, [](Verb& verb, SimulateVerb& options) {
             add_run_options(verb, options);
-            verb.add_option("--sample", options.wishes.sample, "time between rows of the table")
+            verb.add_option("--sample", options.wishes.sample, say("time between rows of the table"))
                 .type_name(values::seconds)
                 .positive();
-            verb.add_option("--plot", options.plot, "SVG picture of the motion over time").type_name(values::file);
+            verb.add_option("--plot", options.plot, say("SVG picture of the motion over time"))
+                .type_name(values::file);
             add_show_option(verb, options.show, "--plot");
             verb.add_flag("!--no-estimate", options.wishes.estimate,
-                          "no second run to estimate the error: half the time");
+                          say("no second run to estimate the error: half the time"));
             add_reactions_option(verb, options.wishes.reactions);
         });
 }

@@ -10,6 +10,7 @@
 #include "commands/values.hpp"
 #include "commands/vary.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 #include "report/stability_charts.hpp"
 
 namespace alembert {
@@ -37,17 +38,18 @@ void need_alone(const StabilityVerb& verb) {
     const int asked = !verb.over.empty() + !verb.locus.empty() + !verb.exponents.empty() + !verb.lyapunov.empty();
     if (asked > 1)
         throw ModelError(
-            "--over, --locus, --exponents and --lyapunov are different questions; expected one of them");
+            say("--over, --locus, --exponents and --lyapunov are different questions; expected one of them"));
     if (!verb.over.empty() && verb.over.size() != 2)
         throw ModelError(
-            "a chart is drawn over two parameters; expected --over twice, as in --over a=0:5 --over "
-            "q=0:4. (--locus follows the roots over one)");
+            say("a chart is drawn over two parameters; expected --over twice, as in --over a=0:5 --over "
+                "q=0:4. (--locus follows the roots over one)"));
     const bool is_picture = !verb.over.empty() || !verb.locus.empty();
     if (!verb.svg.empty() && !is_picture)
-        throw ModelError("--svg shows a chart or a root locus; expected --over or --locus with it");
+        throw ModelError(say("--svg shows a chart or a root locus; expected --over or --locus with it"));
     if (!verb.output.empty() && !is_picture && verb.exponents.empty())
-        throw ModelError("-o is for a chart, a root locus or exponents; expected --over, --locus or --exponents");
-    if (verb.duration > 0 && verb.exponents.empty()) throw ModelError("--duration belongs to --exponents");
+        throw ModelError(
+            say("-o is for a chart, a root locus or exponents; expected --over, --locus or --exponents"));
+    if (verb.duration > 0 && verb.exponents.empty()) throw ModelError(say("--duration belongs to --exponents"));
 }
 
 /// Files and page of what has no verdict.
@@ -86,7 +88,7 @@ int find_exponents(const StabilityVerb& verb) {
     if (verb.exponents != "all") {
         const double count = number_of(verb.exponents);
         if (!(count >= 1 && count <= 1000) || count != static_cast<int>(count))
-            throw ModelError(fmt::format("--exponents {}: expected how many, from 1, or `all`", verb.exponents));
+            throw ModelError(say("--exponents {}: expected how many, from 1, or `all`", verb.exponents));
         options.count = static_cast<int>(count);
     } else {
         options.count = 0;
@@ -131,29 +133,31 @@ void add_stability(CLI::App& app, Chosen& chosen) {
     add_scene_verb<StabilityVerb>(
         app, chosen,
         {.name = "stability",
-         .about = "says whether an equilibrium, a steady motion or a polynomial is stable, and why",
+         .about = say("says whether an equilibrium, a steady motion or a polynomial is stable, and why"),
          .example = "alembert stability scenes/textbook/watt_governor.toml --at alpha=0"},
         run, [](Verb& verb, StabilityVerb& options) {
             add_by_option(verb, options.by);
             add_at_option(verb, options.at);
-            verb.add_option("--period", options.period, "of a periodic system or motion: Floquet multipliers")
+            verb.add_option("--period", options.period, say("of a periodic system or motion: Floquet multipliers"))
                 .type_name(values::seconds)
                 .positive();
-            verb.add_option("--lyapunov", options.lyapunov, "a function V of the state: judges what it proves")
+            verb.add_option("--lyapunov", options.lyapunov,
+                            say("a function V of the state: judges what it proves"))
                 .type_name(values::formula);
-            verb.add_flag("--modes", options.modes, "eigenvectors too");
-            verb.add_option("--over", options.over, "twice: a chart of stability over two parameters")
+            verb.add_flag("--modes", options.modes, say("eigenvectors too"));
+            verb.add_option("--over", options.over, say("twice: a chart of stability over two parameters"))
                 .type_name(values::interval);
-            verb.add_option("--locus", options.locus, "follows the roots over a parameter")
+            verb.add_option("--locus", options.locus, say("follows the roots over a parameter"))
                 .type_name(values::interval);
-            verb.add_option("--exponents", options.exponents, "so many Lyapunov exponents of the motion, or `all`")
+            verb.add_option("--exponents", options.exponents,
+                            say("so many Lyapunov exponents of the motion, or `all`"))
                 .type_name(values::count);
-            verb.add_option("--duration", options.duration, "of the motion for exponents; 1000 if missing")
+            verb.add_option("--duration", options.duration, say("of the motion for exponents; 1000 if missing"))
                 .type_name(values::seconds)
                 .positive();
-            verb.add_option("-o,--output", options.output, "CSV file of a chart, locus or exponents")
+            verb.add_option("-o,--output", options.output, say("CSV file of a chart, locus or exponents"))
                 .type_name(values::file);
-            verb.add_option("--svg", options.svg, "picture of a chart or locus").type_name(values::file);
+            verb.add_option("--svg", options.svg, say("picture of a chart or locus")).type_name(values::file);
         });
 }
 

@@ -14,6 +14,7 @@
 
 #include "alembert/leftover.hpp"
 #include "commands/terminal.hpp"
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -178,7 +179,7 @@ int finished(int code) {
     std::fflush(stdout);
     if (!out.held.empty()) out.put(harmless(out.held));
     if (!output_failed()) return code;
-    std::cerr << "cannot write to the standard output: " << std::strerror(out.error) << "\n";
+    std::cerr << say("cannot write to the standard output: ") << std::strerror(out.error) << "\n";
     return 5;
 }
 

@@ -9,6 +9,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/vary.hpp"
+#include "language/say.hpp"
 #include "report/sweep.hpp"
 #include "report/sweep_plot.hpp"
 
@@ -47,13 +48,13 @@ int run(const SweepVerb& verb) {
     } else if (verb.output.empty()) {
         show(as_csv(swept));
     } else {
-        show(as_text(swept) + "wrote " + verb.output + "\n");
+        show(as_text(swept) + say("wrote {}\n", verb.output));
     }
     const SweepTotals sum = totals_of(swept);
     if (sum.failed == 0) return 0;
     std::cout.flush();
-    warn({fmt::format("{}: {} of {} motions failed; the table's column 'status' says why, the first at {}\n",
-                      verb.scene, sum.failed, grid.size(), sum.first_failure)});
+    warn({say("{}: {} of {} motions failed; the table's column 'status' says why, the first at {}\n", verb.scene,
+              sum.failed, grid.size(), sum.first_failure)});
     return 4;
 }
 
@@ -63,17 +64,18 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SweepVerb>(
         app, chosen,
         {.name = "sweep",
-         .about = "integrates from many initial states or with many parameters",
+         .about = say("integrates from many initial states or with many parameters"),
          .example = "alembert sweep scenes/textbook/crane.toml --vary l=1:9:100"},
         run, [](Verb& verb, SweepVerb& options) {
-            verb.add_option("--vary", options.vary, "NAME=FROM:TO:COUNT; several make a grid")
+            verb.add_option("--vary", options.vary, say("NAME=FROM:TO:COUNT; several make a grid"))
                 .type_name(values::range)
                 .required();
             add_run_options(verb, options);
-            verb.add_option("--threads", options.threads, "default: as many as there are cores")
+            verb.add_option("--threads", options.threads, say("default: as many as there are cores"))
                 .type_name(values::count)
                 .between(1, 1024);
-            verb.add_option("--svg", options.svg, "SVG picture: lines over one varied quantity, maps over two")
+            verb.add_option("--svg", options.svg,
+                            say("SVG picture: lines over one varied quantity, maps over two"))
                 .type_name(values::file);
             add_show_option(verb, options.show, "--svg");
         });

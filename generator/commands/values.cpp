@@ -5,6 +5,7 @@
 
 #include "alembert/methods.hpp"
 #include "formalism/formalisms.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -23,9 +24,10 @@ std::vector<ValueKind> all_kinds() {
             {.name = values::claims, .files = Files::any},
             {.name = values::file, .files = Files::any},
             {.name = values::folder, .files = Files::folders},
-            {.name = values::formalism, .plural = "Formalisms", .words = formalism_words()},
-            {.name = values::method, .plural = "Methods", .words = method_words()},
+            {.name = values::formalism, .plural = say("Formalisms"), .words = formalism_words()},
+            {.name = values::method, .plural = say("Methods"), .words = method_words()},
             {.name = values::format, .words = {"text", "latex", "mathml"}},
+            {.name = values::reading, .words = {"en", "zh"}},
             {.name = values::language, .words = {"cpp", "c"}},
             {.name = values::shell, .words = {"bash", "zsh", "fish"}}};
 }

@@ -17,7 +17,8 @@ inline constexpr const char *scene = "SCENE", *claims = "CLAIMS", *robot = "ROBO
                             *folder = "DIR", *formalism = "FORMALISM", *method = "METHOD", *format = "FORMAT",
                             *seconds = "S", *number = "X", *count = "N", *assignment = "NAME=VALUE",
                             *names = "NAMES", *range = "RANGE", *interval = "NAME=FROM:TO", *shell = "SHELL",
-                            *verb = "VERB", *language = "LANGUAGE", *point = "POINT", *formula = "EXPRESSION";
+                            *verb = "VERB", *language = "LANGUAGE", *point = "POINT", *formula = "EXPRESSION",
+                            *reading = "en|zh";
 }
 
 struct ValueKind {

@@ -10,6 +10,7 @@
 
 #include "alembert/error.hpp"
 #include "commands/verb.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -26,19 +27,19 @@ bool read(std::string_view text, long& value) {
 /// `missing`: the count where none is given; nothing: it must be.
 Axis axis_of(const std::string& option, const std::string& item, std::optional<std::size_t> missing) {
     const auto wrong = [&](const std::string& what) {
-        return ModelError(
-            missing ? fmt::format("{0} {1}: {2}; expected NAME=FROM:TO, as in {0} k=0:20", option, item, what)
-                    : fmt::format("{0} {1}: {2}; expected NAME=FROM:TO:COUNT, as in {0} "
-                                  "theta1=0:3:1000",
-                                  option, item, what));
+        return ModelError(missing
+                              ? say("{0} {1}: {2}; expected NAME=FROM:TO, as in {0} k=0:20", option, item, what)
+                              : say("{0} {1}: {2}; expected NAME=FROM:TO:COUNT, as in {0} "
+                                    "theta1=0:3:1000",
+                                    option, item, what));
     };
     const std::size_t equals = item.find('=');
-    if (equals == std::string::npos || equals == 0) throw wrong("there is no NAME=");
+    if (equals == std::string::npos || equals == 0) throw wrong(say("there is no NAME="));
     const std::string_view range = std::string_view(item).substr(equals + 1);
     const std::size_t first = range.find(':'),
                       second = first == range.npos ? range.npos : range.find(':', first + 1);
     const bool is_counted = second != range.npos;
-    if (first == range.npos || (!is_counted && !missing)) throw wrong(fmt::format("'{}' is no range", range));
+    if (first == range.npos || (!is_counted && !missing)) throw wrong(say("'{}' is no range", range));
     Axis axis{.name = item.substr(0, equals)};
     const std::string_view from = range.substr(0, first), to = range.substr(first + 1, second - first - 1),
                            count = is_counted ? range.substr(second + 1) : std::string_view();
@@ -46,17 +47,17 @@ Axis axis_of(const std::string& option, const std::string& item, std::optional<s
         try {
             *value = number_of(std::string(text));
         } catch (const ModelError&) {
-            throw wrong(fmt::format("'{}' is no finite number", text));
+            throw wrong(say("'{}' is no finite number", text));
         }
-        if (!std::isfinite(*value)) throw wrong(fmt::format("'{}' is no finite number", text));
+        if (!std::isfinite(*value)) throw wrong(say("'{}' is no finite number", text));
     }
     if (!is_counted) {
         axis.count = *missing;
         return axis;
     }
     long number = 0;
-    if (!read(count, number)) throw wrong(fmt::format("the count '{}' is no whole number", count));
-    if (number < 1) throw wrong(fmt::format("a count of {} leaves nothing to do", number));
+    if (!read(count, number)) throw wrong(say("the count '{}' is no whole number", count));
+    if (number < 1) throw wrong(say("a count of {} leaves nothing to do", number));
     axis.count = static_cast<std::size_t>(number);
     return axis;
 }
@@ -65,24 +66,23 @@ Axis axis_of(const std::string& option, const std::string& item, std::optional<s
 
 Axis range_of(const std::string& option, const std::string& item, std::size_t count) {
     const Axis axis = axis_of(option, item, count);
-    if (axis.count > 2000) throw ModelError(fmt::format("{} {}: expected at most 2000 values", option, item));
+    if (axis.count > 2000) throw ModelError(say("{} {}: expected at most 2000 values", option, item));
     return axis;
 }
 
 Grid grid_of(const std::vector<std::string>& vary) {
     if (vary.empty())
         throw ModelError(
-            "there is nothing to vary; expected --vary NAME=FROM:TO:COUNT, as in --vary theta1=0:3:1000");
+            say("there is nothing to vary; expected --vary NAME=FROM:TO:COUNT, as in --vary theta1=0:3:1000"));
     Grid grid;
     std::size_t points = 1;
     for (const std::string& item : vary) {
         const Axis axis = axis_of("--vary", item, {});
         for (const Axis& other : grid.axes)
-            if (other.name == axis.name)
-                throw ModelError(fmt::format("--vary {}: '{}' is varied twice", item, axis.name));
+            if (other.name == axis.name) throw ModelError(say("--vary {}: '{}' is varied twice", item, axis.name));
         if (axis.count > most_points / points)
-            throw ModelError(fmt::format("--vary {}: more than {} motions; take fewer values, or several sweeps",
-                                         item, most_points));
+            throw ModelError(
+                say("--vary {}: more than {} motions; take fewer values, or several sweeps", item, most_points));
         points *= axis.count;
         grid.axes.push_back(axis);
     }

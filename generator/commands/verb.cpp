@@ -10,6 +10,7 @@
 
 #include "alembert/error.hpp"
 #include "commands/values.hpp"
+#include "language/say.hpp"
 #include "model/constant.hpp"
 
 namespace alembert {
@@ -23,7 +24,8 @@ CLI::Validator number(bool zero) {
             const double x = std::strtod(text.c_str(), nullptr);
             const bool is_right = std::isfinite(x) && (x > 0 || (zero && x == 0));
             return is_right ? std::string()
-                            : text + ": expected a number " + (zero ? "of zero or more" : "above zero");
+                   : zero   ? say("{}: expected a number of zero or more", text)
+                            : say("{}: expected a number above zero", text);
         },
         "");
 }
@@ -87,26 +89,32 @@ void Verb::callback(std::function<void()> chosen) {
 }
 
 void add_scene_options(Verb& verb, SceneOptions& options) {
-    verb.add_option("scene", options.scene, "the scene, a TOML file").type_name(values::scene).required();
-    verb.add_flag("--json", options.json, "print one JSON object");
+    verb.add_option("scene", options.scene, say("the scene, a TOML file")).type_name(values::scene).required();
+    verb.add_flag("--json", options.json, say("print one JSON object"));
 }
 
 void add_by_option(Verb& verb, std::string& by) {
-    verb.add_option("--by", by, "the formalism; default: the program chooses").type_name(values::formalism);
+    verb.add_option("--by", by, say("the formalism; default: the program chooses")).type_name(values::formalism);
 }
 
 Verb add_verb(CLI::App& app, const VerbText& text) {
     CLI::App* const verb = app.add_subcommand(text.name, text.about);
     verb->footer(text.example);
+    if (verb->get_name() != "emit")  // whose --language is that of the code; choose_language takes "zh" out before
+        AddedOption(verb->add_option(
+                        "--language", [](const CLI::results_t&) { return true; },
+                        say("of what is printed for people: en or zh")))
+            .type_name(values::reading)
+            .one_of({"en", "zh"});
     return Verb(*verb);
 }
 
 void add_reactions_option(Verb& verb, bool& reactions) {
-    verb.add_flag("--reactions", reactions, "what constraints exert along coordinates, and joints");
+    verb.add_flag("--reactions", reactions, say("what constraints exert along coordinates, and joints"));
 }
 
 void add_at_option(Verb& verb, std::vector<std::string>& at) {
-    verb.add_option("--at", at, "sets a coordinate, a rate (\"theta1'=1\"), a parameter, t; pi/2 is read")
+    verb.add_option("--at", at, say("sets a coordinate, a rate (\"theta1'=1\"), a parameter, t; pi/2 is read"))
         .type_name(values::assignment);
 }
 
@@ -131,14 +139,14 @@ Overrides overrides_of(const std::vector<std::string>& at) {
     for (const std::string& item : at) {
         const std::size_t equals = item.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == item.size())
-            throw ModelError(fmt::format(
+            throw ModelError(say(
                 "--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", item));
         try {
             result.emplace_back(item.substr(0, equals), number_of(item.substr(equals + 1)));
         } catch (const ModelError& mistake) {
-            throw ModelError(fmt::format(
-                "--at {}: {}; expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", item,
-                mistake.what()));
+            throw ModelError(
+                say("--at {}: {}; expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2",
+                    item, mistake.what()));
         }
     }
     return result;

@@ -121,7 +121,9 @@ void add_scene_options(Verb& verb, SceneOptions& options);
 
 /// The text of `--help` for a verb. The example is a command line that works in the folder of the repository.
 struct VerbText {
-    const char *name, *about, *example;
+    const char* name;
+    std::string about;
+    const char* example;
 };
 Verb add_verb(CLI::App& app, const VerbText& text);
 

@@ -15,6 +15,7 @@
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
+#include "language/say.hpp"
 #include "report/scene_page.hpp"
 
 namespace alembert {
@@ -65,7 +66,7 @@ int run(const WatchVerb& verb) {
     Stamp seen = stamp_of(verb.scene);
     if (!seen) read_scene(verb.scene);  // throws the reason why it cannot be read
     PageServer server(verb.port);
-    show(fmt::format("{}  shows {}; Ctrl-C ends\n", server.address(), verb.scene));
+    show(say("{}  shows {}; Ctrl-C ends\n", server.address(), verb.scene));
     std::cout.flush();
     for (;;) {
         server.announce();
@@ -74,7 +75,7 @@ int run(const WatchVerb& verb) {
         if (!verb.output.empty()) write_file(verb.output, page, {verb.scene});
         server.publish(page);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-        show(fmt::format("made in {:.2f} s\n", seconds.count()));
+        show(say("made in {:.2f} s\n", seconds.count()));
         std::cout.flush();
         seen = changed_from(seen, verb.scene);
     }
@@ -85,16 +86,17 @@ int run(const WatchVerb& verb) {
 void add_watch(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<WatchVerb>();
     Verb verb = add_verb(app, {.name = "watch",
-                               .about = "shows the scene's page in the browser, anew whenever it is saved",
+                               .about = say("shows the scene's page in the browser, anew whenever it is saved"),
                                .example = "alembert watch scenes/textbook/sled.toml"});
-    verb.add_option("scene", options->scene, "the scene, a TOML file").type_name(values::scene).required();
-    verb.add_option("--port", options->port, "of this machine's address 127.0.0.1; default: any free port")
+    verb.add_option("scene", options->scene, say("the scene, a TOML file")).type_name(values::scene).required();
+    verb.add_option("--port", options->port, say("of this machine's address 127.0.0.1; default: any free port"))
         .type_name(values::count)
         .between(1, 65535);
-    verb.add_option("-o,--output", options->output, "writes the page to this file too").type_name(values::file);
+    verb.add_option("-o,--output", options->output, say("writes the page to this file too"))
+        .type_name(values::file);
     add_duration_option(verb, options->options.wishes);
     add_by_option(verb, options->options.by);
-    verb.add_flag("!--no-motion", options->options.moves, "leaves the motion out");
+    verb.add_flag("!--no-motion", options->options.moves, say("leaves the motion out"));
     verb.callback([options, &chosen] { chosen = {options->scene, [options] { return run(*options); }}; });
 }
 

@@ -8,6 +8,7 @@
 
 #include "alembert/tolerances.hpp"
 #include "formalism/routh.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "program/partials.hpp"
 
@@ -154,9 +155,9 @@ void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactVie
         if (!(gap < -slack[static_cast<Eigen::Index>(k)])) continue;
         const Mechanism::Constraint& contact = mechanism.unilateral[k].gap;
         negative.push_back(
-            {contact.place, fmt::format("the gap of '{}' is {:.6g} at the start; a gap is never negative: give "
-                                        "initial values that leave it open or closed",
-                                        contact.name, gap)});
+            {contact.place, say("the gap of '{}' is {:.6g} at the start; a gap is never negative: give "
+                                "initial values that leave it open or closed",
+                                contact.name, gap)});
     }
     if (!negative.empty()) fail(scene, negative);
 }
@@ -177,10 +178,9 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
     }
     const Lasting lasting = lasting_contacts(here, closed);
     if (!lasting && !closed.empty())
-        throw IntegrationError(
-            fmt::format("no contact mode is consistent at t = {:.17g} with the contacts {} closed: {}", state.t,
-                        names, lasting.failure),
-            state.t, state.q);
+        throw IntegrationError(say("no contact mode is consistent at t = {:.17g} with the contacts {} closed: {}",
+                                   state.t, names, lasting.failure),
+                               state.t, state.q);
     return lasting;
 }
 

@@ -8,6 +8,7 @@
 #include "alembert/tolerances.hpp"
 #include "contact/impact_algebra.hpp"
 #include "formalism/routh.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "model/friction.hpp"
@@ -71,7 +72,7 @@ public:
         const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(result.start.qdot.data(), n);
         result.numbers = strike(M, before, impulse, A, b, G, c, e);
         if (!result.numbers)
-            throw IntegrationError(fmt::format("there are no rates after the impact: {}", result.numbers.failure),
+            throw IntegrationError(say("there are no rates after the impact: {}", result.numbers.failure),
                                    result.start.t, result.start.q);
         result.kinetic_before = before.dot(M * before) / 2;
         result.kinetic_after = result.numbers.after.dot(M * result.numbers.after) / 2;
@@ -98,9 +99,9 @@ private:
             const double gap = wanted(at);
             if (gap < -tolerance::closed_gap * size)
                 throw ModelError(
-                    fmt::format("the gap '{}' is {:.6g} at the start; expected zero (contact) or more: give "
-                                "initial values at which nothing penetrates",
-                                m_.unilateral[u].gap.name, gap));
+                    say("the gap '{}' is {:.6g} at the start; expected zero (contact) or more: give "
+                        "initial values at which nothing penetrates",
+                        m_.unilateral[u].gap.name, gap));
             if (gap <= tolerance::closed_gap * size) result.contacts.push_back(static_cast<int>(u));
         }
     }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "formalism/lagrange.hpp"
+#include "language/say.hpp"
 #include "notation/quotient.hpp"
 #include "symbolic/exact_solve.hpp"
 #include "symbolic/fourier.hpp"
@@ -47,10 +48,10 @@ public:
         if (!write_equations()) {
             impact_.equations.clear();
             impact_.conditions.clear();
-            impact_.silence = "the equations are beyond the readable size";
+            impact_.silence = say("the equations are beyond the readable size");
         }
         choose_pose();
-        if (!solve() && impact_.silence.empty()) impact_.silence = "the solution is beyond the readable size";
+        if (!solve() && impact_.silence.empty()) impact_.silence = say("the solution is beyond the readable size");
     }
 
 private:
@@ -211,7 +212,7 @@ private:
         }
         if (impact_.numbers.collisions > 1) {
             impact_.silence =
-                "several collisions follow each other in one instant; they are computed in numbers only";
+                say("several collisions follow each other in one instant; they are computed in numbers only");
             return true;
         }
         std::vector<Row> rows = independent_rows();
@@ -285,7 +286,7 @@ private:
             misfit = std::max(misfit, std::abs(number(x[i]) - after));
         }
         if (!(misfit <= 1e-8 * size)) {
-            impact_.silence = "the solution in symbols does not agree with the numbers, so it is not shown";
+            impact_.silence = say("the solution in symbols does not agree with the numbers, so it is not shown");
             return true;
         }
         std::vector<Phrase> solution;

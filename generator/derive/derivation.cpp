@@ -10,6 +10,7 @@
 #include "derive/shares.hpp"
 #include "derive/unit_quaternions.hpp"
 #include "formalism/lagrange.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "notation/text.hpp"
 
@@ -159,8 +160,8 @@ private:
             if (m_.symbols->info(e_.u[k]).kind != SymbolInfo::Kind::speed) continue;
             if (const auto f = normal(e_.form[k])) result_.speeds.emplace_back(symbol_of(e_.u[k]), readable(*f));
         }
-        result_.choice = "The nonholonomic constraints are solved for " + solved +
-                         "; the independent speeds are " + kept + (result_.speeds.empty() ? "." : ", with");
+        result_.choice = say("The nonholonomic constraints are solved for {}; the independent speeds are {}{}",
+                             solved, kept, result_.speeds.empty() ? "." : say(", with"));
     }
 
     bool add(std::vector<Statement>& to, Statement statement, const ex& value) {
@@ -178,7 +179,7 @@ private:
                 continue;
             for (int k = 0; k < 3; ++k)
                 add(result_.angular,
-                    {Statement::Kind::energy, std::string("w_") + "xyz" [k], label(body.origin), {}, {}},
+                    {Statement::Kind::energy, std::string("w_") + "xyz" [k], shown_label(body.origin), {}, {}},
                     body.rotation->w_NB_B[k]);
         }
     }
@@ -186,9 +187,11 @@ private:
     bool energies() {
         using Kind = Statement::Kind;
         for (const Part& part : m_.kinetic)
-            if (!add(result_.energies, {Kind::energy, "T", label(part.origin), {}, {}}, part.value)) return false;
+            if (!add(result_.energies, {Kind::energy, "T", shown_label(part.origin), {}, {}}, part.value))
+                return false;
         for (const Part& part : m_.potential)
-            if (!add(result_.energies, {Kind::energy, "V", label(part.origin), {}, {}}, part.value)) return false;
+            if (!add(result_.energies, {Kind::energy, "V", shown_label(part.origin), {}, {}}, part.value))
+                return false;
         const Energy energy = energy_of(m_);
         m_.z->adopt(*energy.z);
         const auto T = normal(energy.kinetic), V = normal(energy.potential), L = normal(m_.lagrangian());
@@ -211,11 +214,11 @@ private:
             }
         };
         for (const Part& part : m_.potential)
-            add_all(label(part.origin), m_.z->pull_back({{part.value, -1}}, m_.q));
+            add_all(shown_label(part.origin), m_.z->pull_back({{part.value, -1}}, m_.q));
         for (const Load& load : m_.loads) {
             std::vector<std::pair<ex, ex>> targets;
             for (const Load::Pair& pair : load.pairs) targets.emplace_back(pair.velocity, pair.force);
-            add_all(label(load.origin), m_.z->pull_back(targets, m_.qdot));
+            add_all(shown_label(load.origin), m_.z->pull_back(targets, m_.qdot));
         }
         if (result_.forces.empty()) return;
         for (int i = 0; i < m_.size(); ++i)
@@ -329,10 +332,11 @@ Derivation derivation_of(const Mechanism& mechanism, const Equations& equations,
     // First-order equations in momenta are shown with the energies, not after the elimination of the momenta.
     Derivation shown = derivation_of(m, by.in_momenta ? lagrange(m) : equations);
     shown.formalism = by.name;
-    shown.title = by.title;
+    shown.title = translated(by.title);
     if (by.outline != nullptr) shown.sections = by.outline(m);
     if (by.in_momenta && !shown.definitions.empty())
-        shown.title = "Lagrange's equations, to which those in momenta are equal; these are too long to be shown";
+        shown.title =
+            say("Lagrange's equations, to which those in momenta are equal; these are too long to be shown");
     if (by.steps == nullptr || !shown.definitions.empty()) return shown;
     OwnSteps own = by.steps(m, equations);
     for (Section& section : own.sections) shown.sections.push_back(std::move(section));
@@ -340,7 +344,8 @@ Derivation derivation_of(const Mechanism& mechanism, const Equations& equations,
         shown.title = std::move(own.title);
         shown.equations = std::move(own.equations);
     } else if (by.in_momenta) {
-        shown.title = "Lagrange's equations, to which those in momenta are equal; these are too long to be shown";
+        shown.title =
+            say("Lagrange's equations, to which those in momenta are equal; these are too long to be shown");
     }
     return shown;
 }

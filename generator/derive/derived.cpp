@@ -11,6 +11,7 @@
 #include "formalism/formalisms.hpp"
 #include "formalism/joint_tree.hpp"
 #include "formalism/recursive.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/sample_functions.hpp"
 #include "state/assemble.hpp"
@@ -90,12 +91,11 @@ std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechan
     if (std::any_of(p.scene.rolling.begin(), p.scene.rolling.end(),
                     [&](const RollingRule& r) { return r.name.place == c.place; }))
         return {};
-    return describe(p.scene,
-                    {{c.place,
-                      fmt::format("constraint '{}' follows from the others; its equation is left "
-                                  "out, and of all reactions that satisfy the constraints the least are taken",
-                                  c.name),
-                      Severity::warning}});
+    return describe(p.scene, {{c.place,
+                               say("constraint '{}' follows from the others; its equation is left "
+                                   "out, and of all reactions that satisfy the constraints the least are taken",
+                                   c.name),
+                               Severity::warning}});
 }
 
 }  // namespace
@@ -117,10 +117,10 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
     d.mechanism.z = d.equations.z;
     if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
-        d.warn(
+        d.warn(say(
             "warning: the rates that remain when the nonholonomic constraints are solved do not determine the "
             "others at every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, "
-            "[speeds]\n");
+            "[speeds]\n"));
     d.seconds = process_seconds() - start;
     return d;
 }
@@ -139,10 +139,10 @@ Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& 
 
 void need_rates(const Derived& d) {
     if (!d.equations.speeds_are_rates())
-        throw ModelError(
+        throw ModelError(say(
             "contacts are followed in coordinates and their rates, and impulses of events in these or the scene's "
             "own speeds; derive by routh instead of "
-            "kane");
+            "kane"));
 }
 
 Choice lowered(const Derived& d, bool fold) {
@@ -158,9 +158,8 @@ std::optional<std::string> failure_at(const Derived& d, const State<double>& sta
     if (d.equations.M.rows() == 0) options.recursion = RecursionForm{.solve = RecursionForm::Solve::articulated};
     const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism), options);
     if (const auto combination = massless_combination(program, state))
-        return fmt::format(
-            "no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
-            *combination);
+        return say("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
+                   *combination);
     if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return lost;
     return not_finite(program, state, program.singular ? Group::forcing : Group::acceleration);
 }

@@ -8,6 +8,7 @@
 
 #include "alembert/error.hpp"
 #include "equilibrium/follow.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -39,7 +40,7 @@ public:
             // not in the order of the parameter, and not at round values, where curves often cross
             const double part = k == 0 ? 0 : k == 1 ? 1 : std::fmod(0.381966 + 0.618034 * k, 1.0);
             const double p = options_.from + part * (options_.to - options_.from);
-            if (options_.progress) options_.progress("searching", static_cast<double>(k) / places);
+            if (options_.progress) options_.progress(say("searching"), static_cast<double>(k) / places);
             problem_.set_start(at(p));
             const SteadySearch found = search_steady(problem_, result_.mechanism, start_at(p), {});
             result_.is_angle = found.is_angle;
@@ -71,8 +72,7 @@ private:
         std::vector<std::string> result;
         for (const auto& [name, value] : options.at) {
             if (name == options.name)
-                throw ModelError(
-                    fmt::format("--follow {} and --at {}: it cannot be held and followed", name, name));
+                throw ModelError(say("--follow {} and --at {}: it cannot be held and followed", name, name));
             result.push_back(name);
         }
         result.push_back(options.name);
@@ -98,12 +98,12 @@ private:
             const std::string q = m.q[i].get_name();
             if (options_.name == q || (options_.name == q + "'" && problem_.essential()[i]))
                 throw ModelError(
-                    fmt::format("--follow {}: an equilibrium has this value as an unknown; expected a parameter, "
-                                "or the rate of a cyclic coordinate",
-                                options_.name));
+                    say("--follow {}: an equilibrium has this value as an unknown; expected a parameter, "
+                        "or the rate of a cyclic coordinate",
+                        options_.name));
         }
         if (options_.name == "t")
-            throw ModelError("--follow t: expected a parameter, or the rate of a cyclic coordinate");
+            throw ModelError(say("--follow t: expected a parameter, or the rate of a cyclic coordinate"));
     }
 
     void follow_from(const Tracer& tracer, const TracedPoint& start) {
@@ -111,7 +111,7 @@ private:
             result_.cut = true;
             return;
         }
-        if (options_.progress) options_.progress("following", 0.5);
+        if (options_.progress) options_.progress(say("following"), 0.5);
         Followed followed = follow(tracer, start, {options_.from, options_.to}, result_.is_angle, conservative_);
         result_.cut = result_.cut || followed.cut;
         crossings_.insert(crossings_.end(), followed.crossings.begin(), followed.crossings.end());
@@ -182,8 +182,8 @@ private:
 
 Branches branches(Scene scene, const FollowOptions& options) {
     if (!(std::isfinite(options.from) && std::isfinite(options.to)) || options.from == options.to)
-        throw ModelError(fmt::format("--follow {}={}:{}: expected two different numbers", options.name,
-                                     options.from, options.to));
+        throw ModelError(
+            say("--follow {}={}:{}: expected two different numbers", options.name, options.from, options.to));
     Branches result{derived(std::move(scene), {.by = options.by, .at = options.at})};
     result.parameter = options.name;
     result.from = options.from;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 
 namespace alembert {
@@ -33,17 +34,17 @@ Kernel kernel_at_crossing(const MatrixOf<long double>& F) {
 const char* name_of(PointKind kind) {
     switch (kind) {
         case PointKind::fold:
-            return "fold";
+            return to_say("fold");
         case PointKind::pitchfork:
-            return "pitchfork";
+            return to_say("pitchfork");
         case PointKind::transcritical:
-            return "transcritical";
+            return to_say("transcritical");
         case PointKind::touching:
-            return "touching";
+            return to_say("touching");
         case PointKind::hopf:
-            return "hopf";
+            return to_say("hopf");
         case PointKind::hamiltonian_hopf:
-            return "hamiltonian hopf";
+            return to_say("hamiltonian hopf");
     }
     return "";
 }

@@ -9,6 +9,7 @@
 #include "alembert/error.hpp"
 #include "contact/contacts.hpp"
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "state/assemble.hpp"
 
@@ -31,7 +32,7 @@ void check_inputs(const Mechanism& m, const Residuals& residuals, const Start& s
             if (std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b))) continue;
             const std::string name =
                 m.inputs[static_cast<std::size_t>(residuals.inputs[k]) / 3].derivative[0].get_name();
-            throw ModelError(fmt::format(
+            throw ModelError(say(
                 "the input {} changes with time ({:.6g} at t = {:.6g}, {:.6g} at t = {:.6g}), so nothing stays at "
                 "rest; expected inputs that are constant. Give its amplitude the value 0 by --at, or write a "
                 "constant into [inputs]",
@@ -48,10 +49,10 @@ void check_contacts(const Derived& d, const Start& start) {
     std::vector<std::string> names;
     for (const int k : lasting.closed) names.push_back(d.mechanism.unilateral[k].gap.name);
     throw ModelError(
-        fmt::format("contact {} is closed at this state; equilibria are searched with all contacts open. Give a "
-                    "state by --at in which it is open, or write it as a [[constraint]] in place of the "
-                    "[[contact]]",
-                    fmt::join(names, ", ")));
+        say("contact {} is closed at this state; equilibria are searched with all contacts open. Give a "
+            "state by --at in which it is open, or write it as a [[constraint]] in place of the "
+            "[[unilateral]]",
+            fmt::join(names, ", ")));
 }
 
 std::vector<double> multipliers_at(const SteadyProblem& problem, const Instant<long double>& at) {
@@ -76,9 +77,9 @@ std::string searched(const Equilibria& found) {
     for (int i = 0; i < m.size(); ++i)
         if (std::find(found.cyclic.begin(), found.cyclic.end(), m.q[i].get_name()) == found.cyclic.end())
             where.push_back(m.q[i].get_name() +
-                            (found.search.is_angle[i] ? " in one turn" : " near the scene's lengths"));
-    std::string text = fmt::format("no equilibrium or steady motion was found from {} start{}",
-                                   found.search.starts, found.search.starts == 1 ? "" : "s");
+                            (found.search.is_angle[i] ? say(" in one turn") : say(" near the scene's lengths")));
+    std::string text = say("no equilibrium or steady motion was found from {} start{}", found.search.starts,
+                           found.search.starts == 1 ? "" : "s");
     if (!where.empty()) text += fmt::format(" ({})", fmt::join(where, ", "));
     if (!found.search.left_over.empty()) {
         std::vector<std::string> forces;
@@ -88,12 +89,11 @@ std::string searched(const Equilibria& found) {
         for (int i = 0; i < m.size(); ++i)
             state.push_back(
                 fmt::format("{} = {:.6g}", m.q[i].get_name(), static_cast<double>(found.search.nearest.q[i])));
-        text += fmt::format("; the least forces left over were {} at {}", fmt::join(forces, ", "),
-                            fmt::join(state, ", "));
+        text += say("; the least forces left over were {} at {}", fmt::join(forces, ", "), fmt::join(state, ", "));
     } else {
-        text += "; at none of them did the constraints and forces have values";
+        text += say("; at none of them did the constraints and forces have values");
     }
-    return text + ". This is no proof that there is none";
+    return say("{}. This is no proof that there is none", text);
 }
 
 /// Throws if a force is the same at every state and nothing balances it.
@@ -101,7 +101,7 @@ void check_balance(const Equilibria& found, const SteadyProblem& problem) {
     for (std::size_t i = 0; i < found.search.constant.size(); ++i)
         if (found.search.constant[i]) {
             const SteadySystem here = problem.linearized_at(problem.start(), problem.start().u);
-            throw ModelError(fmt::format(
+            throw ModelError(say(
                 "there is no equilibrium or steady motion: the force along {} is {:.6g} at every state, and "
                 "nothing balances it. Add what holds it (a spring, a damper, a constraint), or set the force to "
                 "0 by --at",
@@ -175,7 +175,7 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
     SteadyProblem problem(result.mechanism, result.equations, start);
     check_inputs(result.mechanism, problem.residuals(), start);
     SearchOptions wishes{.starts = options.starts};
-    if (options.progress) wishes.progress = [&](double part) { options.progress("searching", part); };
+    if (options.progress) wishes.progress = [&](double part) { options.progress(say("searching"), part); };
     result.search = search_steady(problem, result.mechanism, start, wishes);
     result.cyclic.clear();
     for (int i = 0; i < result.mechanism.size(); ++i)
@@ -202,8 +202,8 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
     check_balance(result, problem);
     result.nothing = result.search.roots.empty()
                          ? searched(result)
-                         : "at each equilibrium that was found a contact would be open by less "
-                           "than nothing; those that rest on a contact are not searched";
+                         : say("at each equilibrium that was found a contact would be open by less "
+                               "than nothing; those that rest on a contact are not searched");
 }
 
 }  // namespace

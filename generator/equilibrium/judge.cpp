@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 #include "linear/paths.hpp"
 #include "symbolic/fourier.hpp"
@@ -126,7 +127,7 @@ bool loads_have_potential(const Mechanism& m) {
 }  // namespace
 
 const char* name_of(Stable stable) {
-    return stable == Stable::yes ? "yes" : stable == Stable::no ? "no" : "undecided";
+    return stable == Stable::yes ? to_say("yes") : stable == Stable::no ? to_say("no") : to_say("undecided");
 }
 
 bool is_conservative(const Mechanism& m, const Residuals& residuals) {
@@ -146,15 +147,15 @@ MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Insta
 
 StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at) {
     const Residuals& residuals = problem.residuals();
-    if (is_at_kink(residuals, at)) return {.because = "the equations have a kink here"};
+    if (is_at_kink(residuals, at)) return {.because = say("the equations have a kink here")};
     const SteadySystem here = problem.linearized_at(at, at.u);
     const Tangent<long double> t = tangent(residuals, here.split, at);
     if (!t.speed_rates_by.allFinite() || is_singular(problem, at, t.mass))
-        return {.because = "the mass matrix is singular here"};
+        return {.because = say("the mass matrix is singular here")};
     const Reduced r = reduced(problem, here.split, t);
-    if (r.A.rows() == 0) return {.stable = Stable::yes, .because = "nothing can move"};
+    if (r.A.rows() == 0) return {.stable = Stable::yes, .because = say("nothing can move")};
     const auto found = eigenvalues(r.A);
-    if (!found) return {.because = "the eigenvalues do not converge"};
+    if (!found) return {.because = say("the eigenvalues do not converge")};
     StabilityHint result;
     std::vector<std::complex<long double>> values = *found;
     long double size = 0;
@@ -175,16 +176,18 @@ StabilityHint judge(const SteadyProblem& problem, bool conservative, const Insta
     const auto zeros = count([](const auto& v) { return v.real() == 0 && v.imag() == 0; });
     if (growing > 0) {
         result.stable = Stable::no;
-        result.because = "an eigenvalue has a positive real part";
+        result.because = say("an eigenvalue has a positive real part");
     } else if (turning == 0 && (zeros == 0 || zeros_are_rates(problem, r, here, at, zeros))) {
         result.stable = Stable::yes;
-        result.because = zeros == 0 ? "all eigenvalues have negative real parts"
-                                    : "all eigenvalues but those of the cyclic rates have negative real parts";
+        result.because = zeros == 0
+                             ? say("all eigenvalues have negative real parts")
+                             : say("all eigenvalues but those of the cyclic rates have negative real parts");
     } else if (conservative && is_minimum(r, t, static_cast<Index>(here.split.q.size()))) {
         result.stable = Stable::yes;
-        result.because = "the energy is at a minimum";
+        result.because = say("the energy is at a minimum");
     } else {
-        result.because = "eigenvalues on the imaginary axis, about which the first approximation says nothing";
+        result.because =
+            say("eigenvalues on the imaginary axis, about which the first approximation says nothing");
     }
     return result;
 }

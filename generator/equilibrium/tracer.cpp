@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 
 namespace alembert {
@@ -70,7 +71,7 @@ TracedSystem Tracer::linearized_at(const Instant<long double>& at, double p, con
     const double later = p + difference * span_, before = p - difference * span_;
     Instant<long double> a = with(at, later), b = with(at, before);
     if (!problem_.settle_at(a, &here.split) || !problem_.settle_at(b, &here.split))
-        throw IntegrationError("the constraints cannot be satisfied near this value of the parameter", p, {});
+        throw IntegrationError(say("the constraints cannot be satisfied near this value of the parameter"), p, {});
     const long double unit = span_ / static_cast<long double>(later - before);
     result.by.col(k) = unit * (problem_.linearized_at(a, path_(later).u, Rates::given, &here.split).residual -
                                problem_.linearized_at(b, path_(before).u, Rates::given, &here.split).residual);

@@ -10,6 +10,7 @@
 #include "exact/least_shares.hpp"
 #include "exact/solve_condition.hpp"
 #include "formalism/rest.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/held_functions.hpp"
 #include "program/reduce_rows.hpp"
@@ -25,7 +26,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     for (const Mechanism::Friction& f : m.frictions)
         for (const GiNaC::symbol& lambda : e.lambda)
             if (f.multiplier && f.multiplier->is_equal(lambda))
-                throw ModelError(fmt::format(
+                throw ModelError(say(
                     "claims are not checked where friction, as '{}', is on a constraint, whose reaction may have "
                     "either sign; make it a [[unilateral]] contact, or give the normal force as an expression",
                     f.name));
@@ -122,7 +123,7 @@ void Motions::order(std::vector<int> conditions, const std::set<int>& irreducibl
     steps_ = std::move(found.steps);
     if (found.left.empty()) return;
     if (at_ == At::rest)
-        obstacle_ = "the equations of rest cannot be solved one after the other";
+        obstacle_ = say("the equations of rest cannot be solved one after the other");
     else
         loose_ = std::move(found.left);
 }

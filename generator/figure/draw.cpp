@@ -3,6 +3,8 @@
 
 #include "figure/parts.hpp"
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -53,7 +55,7 @@ Asked asked(Sketch& sketch) {
 
 Drawing draw(const Scene& scene, const Mechanism& mechanism) {
     if (!has_geometry(mechanism))
-        return {.obstacle = "The scene gives energies and no geometry, so there is no figure of it."};
+        return {.obstacle = say("The scene gives energies and no geometry, so there is no figure of it.")};
     Sketch sketch(scene, mechanism);
     Asked tracks = asked(sketch);
     sketch.sample();

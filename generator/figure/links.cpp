@@ -6,6 +6,8 @@
 
 #include "figure/parts.hpp"
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -132,13 +134,14 @@ void add_springs(Sketch& s, const Asked& asked) {
             } else if (const int q = coordinate_of(s, along[k]); q >= 0 && kind == Kind::spring) {
                 s.add({.kind = Kind::coil, .points = {}, .label = label, .coordinate = q});
             } else {
-                s.notes.push_back(std::string("The ") + what + " along " + links[k].along.text +
-                                  " is not shown: no two points of the scene are that far apart.");
+                s.notes.push_back(
+                    say("The {} along {} is not shown: no two points of the scene are that far apart.",
+                        translated(what), links[k].along.text));
             }
         }
     };
-    add(s.scene.springs, asked.spring_along, Kind::spring, "spring");
-    add(s.scene.dampers, asked.damper_along, Kind::damper, "damper");
+    add(s.scene.springs, asked.spring_along, Kind::spring, to_say("spring"));
+    add(s.scene.dampers, asked.damper_along, Kind::damper, to_say("damper"));
 }
 
 void add_hinges(Sketch& s) {
@@ -251,7 +254,7 @@ void add_coordinates(Sketch& s) {
     constexpr int readable = 6;  // the most dimension lines side by side
     for (FigureElement& e : found)
         if (lengths <= readable || e.kind != Kind::length) s.add(std::move(e));
-    if (lengths > readable) s.notes.emplace_back("Coordinates that are lengths are too many to be shown.");
+    if (lengths > readable) s.notes.emplace_back(say("Coordinates that are lengths are too many to be shown."));
     for (FigureElement& e : s.elements) {
         if (e.kind != Kind::coil) continue;
         const auto angle = std::find_if(s.elements.begin(), s.elements.end(), [&](const FigureElement& other) {

@@ -6,6 +6,8 @@
 
 #include "figure/parts.hpp"
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -93,7 +95,7 @@ void spread(Sketch& s, Asked& asked) {
         const double space = 0.5 * std::max(s.scale, 1e-9);
         for (std::size_t k = 0; k < s.free_track.size(); ++k)
             s.displaced.emplace_back(s.free_track[k], static_cast<double>(k) * space * beside);
-        s.notes.emplace_back("All masses move on one line; they are drawn side by side.");
+        s.notes.emplace_back(say("All masses move on one line; they are drawn side by side."));
         return;
     }
     const auto is_a_chain = [&](const std::vector<Link>& links) {
@@ -108,7 +110,8 @@ void spread(Sketch& s, Asked& asked) {
     };
     add(s.scene.springs, asked.spring_along, Kind::spring);
     add(s.scene.dampers, asked.damper_along, Kind::damper);
-    s.notes.emplace_back("The coordinates count from the places at rest; these are drawn apart, not to scale.");
+    s.notes.emplace_back(
+        say("The coordinates count from the places at rest; these are drawn apart, not to scale."));
 }
 
 }  // namespace alembert

@@ -8,6 +8,7 @@
 
 #include "formalism/in_speeds.hpp"
 #include "formalism/newton_euler.hpp"
+#include "language/say.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {
@@ -16,7 +17,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr const char* appell_title = "The Gibbs-Appell equations";
+constexpr const char* appell_title = to_say("The Gibbs-Appell equations");
 
 /// S of all bodies as a function of q, u, u', t.
 ex acceleration_energy(const Mechanism& m, const InSpeeds& motion) {
@@ -49,13 +50,13 @@ std::vector<ex> without_accelerations(const std::vector<ex>& values, const std::
 }  // namespace
 
 std::optional<std::string> obstacle_to_appell(const Mechanism& m) {
-    return kinematics_of_masses(with_own_intermediates(m), appell_title).obstacle();
+    return kinematics_of_masses(with_own_intermediates(m), translated(appell_title)).obstacle();
 }
 
 Equations appell(const Mechanism& mechanism) {
     const Mechanism m = with_own_intermediates(mechanism);
     Intermediates& z = *m.z;
-    const InSpeeds motion(m, kinematics_of_masses(m, appell_title).value());
+    const InSpeeds motion(m, kinematics_of_masses(m, translated(appell_title)).value());
     Equations equations = motion.begin("appell");
     const std::vector<ex> slope = z.pull_back({{acceleration_energy(m, motion), 1}}, equations.udot);
     const std::vector<ex> rest = without_accelerations(slope, equations.udot, z),
@@ -84,16 +85,16 @@ Equations appell(const Mechanism& mechanism) {
 
 OwnSteps steps_of_appell(const Mechanism& m, const Equations& e) {
     const StepWriter write(m);
-    const InSpeeds motion(m, kinematics_of_masses(m, appell_title).value());
+    const InSpeeds motion(m, kinematics_of_masses(m, translated(appell_title)).value());
     const ex S = acceleration_energy(m, motion), still = without_accelerations({S}, e.udot, *m.z)[0];
     Section energy{
-        .words =
+        .words = say(
             "The energy of the accelerations, S = sum of m a^2/2 + alpha.I alpha/2 + alpha.(w x I w), without the "
-            "terms that hold no acceleration:"};
+            "terms that hold no acceleration:")};
     write.equality(energy, StepWriter::letter("S"), S - still);
     Section forces{.words = e.A.empty()
-                                ? "Its derivatives, and the generalized forces Q, dS/du' = Q:"
-                                : "Its derivatives, and the generalized forces Q, dS/du' = Q + A^T lambda:"};
+                                ? say("Its derivatives, and the generalized forces Q, dS/du' = Q:")
+                                : say("Its derivatives, and the generalized forces Q, dS/du' = Q + A^T lambda:")};
     const std::vector<ex> slope = m.z->pull_back({{S, 1}}, e.udot), conservative = motion.conservative();
     for (int r = 0; r < e.size(); ++r) {
         write.partial(forces, "S", e.udot[r], slope[r]);

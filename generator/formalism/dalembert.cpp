@@ -5,6 +5,7 @@
 #include "formalism/dalembert.hpp"
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -62,7 +63,7 @@ Moving moving(const Mechanism& m) {
 }  // namespace
 
 std::optional<std::string> obstacle_to_dalembert(const Mechanism& m) {
-    return masses_unknown(m, "d'Alembert's equations");
+    return masses_unknown(m, say("d'Alembert's equations"));
 }
 
 VirtualWork virtual_work(const Mechanism& m) {

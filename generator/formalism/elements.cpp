@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "language/say.hpp"
 #include "model/geometry.hpp"
 #include "notation/readable.hpp"
 
@@ -78,12 +79,12 @@ bool masses_are_known(const Mechanism& m) {
 
 std::optional<std::string> no_coordinates(const Mechanism& m, const std::string& who) {
     if (m.size() > 0) return std::nullopt;
-    return who + " need at least one coordinate; the scene has none";
+    return say("{} need at least one coordinate; the scene has none", who);
 }
 
 std::optional<std::string> masses_unknown(const Mechanism& m, const std::string& who) {
     if (m.size() == 0 || masses_are_known(m)) return no_coordinates(m, who);
-    return fmt::format(
+    return say(
         "{} start from the velocities of particles and bodies, and [energy] {} belongs to none; "
         "use the formalism 'lagrange', or give the scene its particles and bodies",
         who, m.given_lagrangian ? "lagrangian" : "kinetic");

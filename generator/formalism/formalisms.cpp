@@ -16,6 +16,7 @@
 #include "formalism/routh.hpp"
 #include "formalism/routhian.hpp"
 #include "formalism/schiehlen.hpp"
+#include "language/say.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
 
@@ -24,70 +25,70 @@ namespace alembert {
 const std::vector<Formalism>& formalisms() {
     static const std::vector<Formalism> all{
         {.name = "lagrange",
-         .title = "Lagrange's equations of the second kind",
+         .title = to_say("Lagrange's equations of the second kind"),
          .obstacle = obstacle_to_lagrange,
          .derive = lagrange,
          .independent = true},
         {.name = "lagrange1",
-         .title = "Lagrange's equations of the first kind",
+         .title = to_say("Lagrange's equations of the first kind"),
          .obstacle = obstacle_to_lagrange1,
          .derive = lagrange1,
          .steps = steps_of_lagrange1},
         {.name = "routh",
-         .title = "Routh's equations with multipliers",
+         .title = to_say("Routh's equations with multipliers"),
          .obstacle = obstacle_to_routh,
          .derive = routh,
          .without_constraints = "lagrange"},
         {.name = "kane",
-         .title = "Kane's equations",
+         .title = to_say("Kane's equations"),
          .obstacle = obstacle_to_kane,
          .derive = kane,
          .steps = steps_of_kane},
         {.name = "dalembert",
-         .title = "the general equation of dynamics",
+         .title = to_say("the general equation of dynamics"),
          .obstacle = obstacle_to_dalembert,
          .derive = dalembert,
          .steps = steps_of_dalembert},
         {.name = "nielsen",
-         .title = "Nielsen's equations",
+         .title = to_say("Nielsen's equations"),
          .obstacle = obstacle_to_nielsen,
          .derive = nielsen,
          .steps = steps_of_nielsen},
         {.name = "schiehlen",
-         .title = "Schiehlen's equations: Newton-Euler, projected",
+         .title = to_say("Schiehlen's equations: Newton-Euler, projected"),
          .obstacle = obstacle_to_schiehlen,
          .derive = schiehlen,
          .steps = steps_of_schiehlen},
         {.name = "roberson-wittenburg",
-         .title = "Roberson and Wittenburg's equations",
+         .title = to_say("Roberson and Wittenburg's equations"),
          .obstacle = obstacle_to_roberson_wittenburg,
          .derive = roberson_wittenburg,
          .outline = outline_of_roberson_wittenburg},
         {.name = "hamilton",
-         .title = "Hamilton's equations, the momenta eliminated",
+         .title = to_say("Hamilton's equations, the momenta eliminated"),
          .obstacle = obstacle_to_hamilton,
          .derive = hamilton,
          .steps = steps_of_hamilton,
          .independent = true,
          .in_momenta = true},
         {.name = "recursive",
-         .title = "the recursive equations from body to body",
+         .title = to_say("the recursive equations from body to body"),
          .obstacle = obstacle_to_recursive,
          .derive = recursive},
         {.name = "routhian",
-         .title = "Routh's procedure, the momenta eliminated",
+         .title = to_say("Routh's procedure, the momenta eliminated"),
          .obstacle = obstacle_to_routhian,
          .derive = routhian,
          .steps = steps_of_routhian,
          .independent = true,
          .in_momenta = true},
         {.name = "appell",
-         .title = "the Gibbs-Appell equations",
+         .title = to_say("the Gibbs-Appell equations"),
          .obstacle = obstacle_to_appell,
          .derive = appell,
          .steps = steps_of_appell},
         {.name = "maggi",
-         .title = "Maggi's equations",
+         .title = to_say("Maggi's equations"),
          .obstacle = obstacle_to_maggi,
          .derive = maggi,
          .steps = steps_of_maggi},
@@ -107,9 +108,8 @@ const Formalism& formalism(const std::string& name) {
     std::vector<std::string> names;
     for (const Formalism& f : formalisms()) names.push_back(f.name);
     const std::string meant = nearest(name, names);
-    throw ModelError(fmt::format("there is no formalism {}{}; expected one of: {}", in_quotes(name),
-                                 meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
-                                 formalism_names()));
+    throw ModelError(say("there is no formalism {}{}; expected one of: {}", in_quotes(name),
+                         meant.empty() ? "" : say(" (did you mean '{}'?)", meant), formalism_names()));
 }
 
 }  // namespace alembert

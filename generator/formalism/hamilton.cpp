@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "model/energy.hpp"
 #include "notation/fractions.hpp"
 
@@ -43,8 +44,8 @@ Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, const std::vector<
     for (int k = 0; k < n; ++k) {
         if (is_identically_zero(L(k, k), m))
             return Obstacle{
-                "the momenta do not determine the rates: the mass matrix is singular; give every coordinate "
-                "a mass, or use the formalism 'lagrange'"};
+                say("the momenta do not determine the rates: the mass matrix is singular; give every coordinate "
+                    "a mass, or use the formalism 'lagrange'")};
         inverse[k] = z.name(1 / L(k, k));
         for (int i = k + 1; i < n; ++i) {
             if (L(i, k).is_zero()) continue;
@@ -76,11 +77,11 @@ struct SecondDegree {
 
 Possible<SecondDegree> second_degree(const Mechanism& m) {
     const int n = m.size();
-    if (const auto none = no_coordinates(m, "Hamilton's equations")) return Obstacle{*none};
+    if (const auto none = no_coordinates(m, say("Hamilton's equations"))) return Obstacle{*none};
     if (!m.constraints.empty())
-        return Obstacle{
+        return Obstacle{say(
             "Hamilton's equations need independent coordinates, and the scene has constraints; use the formalism "
-            "'routh'"};
+            "'routh'")};
     Intermediates& z = *m.z;
     const ex L = m.lagrangian();
     SecondDegree c{.momenta = z.pull_back({{L, 1}}, m.qdot), .M = GiNaC::matrix(n, n), .b = {}, .L0 = 0};
@@ -90,9 +91,9 @@ Possible<SecondDegree> second_degree(const Mechanism& m) {
             c.M(i, j) = short_form(column[i], m);
             for (const ex& third : z.push_forward({column[i]}, {{m.qdot[j], 1}}))
                 if (z.depends(column[i], m.qdot) && !is_identically_zero(third, m))
-                    return Obstacle{
+                    return Obstacle{say(
                         "Hamilton's equations are made for a Lagrangian of second degree in the rates; this one "
-                        "is not; use the formalism 'lagrange'"};
+                        "is not; use the formalism 'lagrange'")};
         }
     }
     GiNaC::exmap still;
@@ -184,10 +185,11 @@ Equations hamilton(const Mechanism& mechanism) {
 OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
     const StepWriter write(m);
     const CanonicalEquations c = canonical(m).value();
-    Section section{.words = "Legendre's transform: with p = dL/dq', Hamilton's function is H = sum of p q' - L:"};
+    Section section{.words =
+                        say("Legendre's transform: with p = dL/dq', Hamilton's function is H = sum of p q' - L:")};
     for (int i = 0; i < m.size(); ++i) write.equality(section, write.symbol_of(c.p[i]), c.momenta[i]);
     write.equality(section, StepWriter::letter("H"), c.H);
-    OwnSteps result{.sections = {std::move(section)}, .title = "Hamilton's canonical equations"};
+    OwnSteps result{.sections = {std::move(section)}, .title = say("Hamilton's canonical equations")};
     for (int i = 0; i < 2 * m.size(); ++i) {
         const int k = i % m.size();
         const auto f = write.normal(i < m.size() ? c.qdot[k] : c.pdot[k]);

@@ -2,6 +2,7 @@
 #include "formalism/in_speeds.hpp"
 
 #include "formalism/cancel.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -145,7 +146,7 @@ void recover_multipliers(const Mechanism& m, Equations& equations, const std::ve
             S(e, f) = z.name(GiNaC::add(std::move(terms)));
         }
     }
-    const GiNaC::matrix x = solve_exactly(S, right, m, "the constraints depend on each other").value().x;
+    const GiNaC::matrix x = solve_exactly(S, right, m, say("the constraints depend on each other")).value().x;
     for (unsigned e = 0; e < count; ++e) equations.eliminated[e].multiplier = x(e, 0);
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "model/parameter_values.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
@@ -48,7 +49,7 @@ public:
     Possible<JointTree> find() {
         for (int k = 0; k < 3; ++k) tree_.gravity[k] = named(m_.gravity[k]);
         for (const MassElement& body : m_.masses) {
-            label_ = label(body.origin);
+            label_ = shown_label(body.origin);
             add(body);
             if (obstacle_) return *obstacle_;
         }
@@ -63,7 +64,7 @@ private:
     /// Only the first obstacle is kept; what is computed afterwards does not matter any more.
     void refuse(const std::string& why) {
         if (!obstacle_)
-            obstacle_ = Obstacle{"the recursive formalism goes from body to body along joints: " + why};
+            obstacle_ = Obstacle{say("the recursive formalism goes from body to body along joints: {}", why)};
     }
 
     std::string shown(const ex& e) const {
@@ -114,7 +115,7 @@ private:
         if (const auto found = fixed_.find(f); found != fixed_.end()) return found->second;
         const Skeleton::Turn& turn_step = m_.skeleton.frames[f];
         if (turn_step.by_quaternion) {
-            refuse(fmt::format(
+            refuse(say(
                 "{} turns by a quaternion, which is no chain of joints with one rate each; use Euler angles, or "
                 "the formalism 'routh' or 'kane'",
                 label_));
@@ -144,9 +145,9 @@ private:
             const ex slope = plain.has(m_.q[i]) ? plain.diff(m_.q[i]) : ex(0);
             if (!GiNaC::is_a<GiNaC::numeric>(slope) || !slope.info(GiNaC::info_flags::rational))
                 return refuse(
-                    fmt::format("{} {} by '{}', which is no sum of coordinates with numbers as factors; use the "
-                                "formalism 'lagrange' or 'kane'",
-                                label_, what, shown(position)));
+                    say("{} {} by '{}', which is no sum of coordinates with numbers as factors; use the "
+                        "formalism 'lagrange' or 'kane'",
+                        label_, what, shown(position)));
             joint.row.push_back(GiNaC::ex_to<GiNaC::numeric>(slope));
             rest -= slope * m_.q[i];
             rate.push_back(slope * m_.qdot[i]);
@@ -172,7 +173,7 @@ private:
         joint.link.R = seat.to_link * (R * C);
         joint.link.p = seat.at;
         joint.parallel = seat.link >= 0 && is_unity(joint.link.R);
-        set_motion(joint, by, "turns");
+        set_motion(joint, by, say("turns"));
         tree_.joints.push_back(std::move(joint));
         return {static_cast<int>(tree_.joints.size()) - 1, transposed(C), {0, 0, 0}};
     }
@@ -247,7 +248,7 @@ private:
                 if (!is_moved[k] || !rest[k].has(m_.q[i])) continue;
                 const ex slope = rest[k].diff(m_.q[i]);
                 if (moves(slope)) {
-                    refuse(fmt::format(
+                    refuse(say(
                         "{} is on a point shifted by '{}', which is not linear in the coordinates; place it by "
                         "frames or joints, or use the formalism 'lagrange' or 'kane'",
                         label_, shown(step.offset[k])));
@@ -277,7 +278,7 @@ private:
             joint.link.p = seat.at;
             joint.link.slide = into_link(direction);
             joint.parallel = seat.link >= 0;
-            set_motion(joint, position, "is shifted");
+            set_motion(joint, position, say("is shifted"));
             tree_.joints.push_back(std::move(joint));
             seat.link = static_cast<int>(tree_.joints.size()) - 1;
             seat.at = {0, 0, 0};

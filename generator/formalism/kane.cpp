@@ -8,6 +8,7 @@
 
 #include "formalism/in_speeds.hpp"
 #include "formalism/newton_euler.hpp"
+#include "language/say.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {
@@ -20,7 +21,7 @@ PartialVelocities partials(const InSpeeds& motion, const Mechanism& m) {
     PartialVelocities result;
     std::vector<ex> velocities;
     for (const MassElement& body : m.masses) {
-        result.bodies.push_back({label(body.origin), {}, {}});
+        result.bodies.push_back({shown_label(body.origin), {}, {}});
         velocities.insert(velocities.end(), body.velocity.begin(), body.velocity.end());
         if (body.rotation)
             velocities.insert(velocities.end(), body.rotation->w_NB_B.begin(), body.rotation->w_NB_B.end());
@@ -103,12 +104,12 @@ std::vector<ex> reaction_along_coordinates(const Mechanism& m) {
     return reaction;
 }
 
-constexpr const char* kane_title = "Kane's equations";
+constexpr const char* kane_title = to_say("Kane's equations");
 
 }  // namespace
 
 std::optional<std::string> obstacle_to_kane(const Mechanism& m) {
-    return kinematics_of_masses(with_own_intermediates(m), kane_title).obstacle();
+    return kinematics_of_masses(with_own_intermediates(m), translated(kane_title)).obstacle();
 }
 
 PartialVelocities partial_velocities(const Mechanism& m) {
@@ -121,7 +122,7 @@ KaneForces kane_forces(const Mechanism& m) {
 
 Equations kane(const Mechanism& mechanism) {
     const Mechanism m = with_own_intermediates(mechanism);
-    const InSpeeds motion(m, kinematics_of_masses(m, kane_title).value());
+    const InSpeeds motion(m, kinematics_of_masses(m, translated(kane_title)).value());
     const KaneForces forces = forces_of(motion, m);
     Equations equations = motion.begin("kane");
     equations.M = forces.M;
@@ -138,7 +139,7 @@ OwnSteps steps_of_kane(const Mechanism& m, const Equations& e) {
     const StepWriter write(m);
     OwnSteps result;
     for (const PartialVelocities::Of& body : partial_velocities(m).bodies) {
-        Section section{.words = "Partial velocities of " + body.label + ":"};
+        Section section{.words = say("Partial velocities of {}:", body.label)};
         for (int r = 0; r < e.size(); ++r)
             for (int k = 0; k < 3; ++k) {
                 write.partial(section, std::string("v_") + "xyz"[k], e.u[r], body.velocity[r][k]);
@@ -148,9 +149,9 @@ OwnSteps steps_of_kane(const Mechanism& m, const Equations& e) {
         result.sections.push_back(std::move(section));
     }
     const KaneForces forces = kane_forces(m);
-    Section section{.words = "Generalized active forces F and inertia forces F*, F + F* = 0:"};
+    Section section{.words = say("Generalized active forces F and inertia forces F*, F + F* = 0:")};
     if (!e.A.empty())
-        section.words = "Generalized active forces F and inertia forces F*, F + F* + A^T lambda = 0:";
+        section.words = say("Generalized active forces F and inertia forces F*, F + F* + A^T lambda = 0:");
     for (int r = 0; r < e.size(); ++r) {
         const GiNaC::symbol& of = e.speeds_are_rates() ? m.q[r] : e.u[r];
         GiNaC::exvector inertia{forces.inertia[r]};

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "model/energy.hpp"
 #include "model/parameter_values.hpp"
 #include "symbolic/fourier.hpp"
@@ -22,7 +23,7 @@ using GiNaC::matrix;
 
 namespace {
 
-constexpr const char* dependent_constraints = "the nonholonomic constraints depend on each other";
+constexpr const char* dependent_constraints = to_say("the nonholonomic constraints depend on each other");
 constexpr std::size_t largest_block = 10;  // a block of k rows has k 2^k minors
 
 bool is_number(const ex& e) {
@@ -107,7 +108,7 @@ private:
         std::sort(block.begin(), block.end());
         std::sort(columns.begin(), columns.end());
         if (block.size() > largest_block)
-            return message_ + ", in symbols: too many of them are tied to each other";
+            return say("{}, in symbols: too many of them are tied to each other", message_);
         minors_.clear();
         const ex det = block.size() == columns.size() ? minor(block, columns) : ex(0);
         if (det.is_zero() || is_identically_zero(det, m_)) return message_;
@@ -223,11 +224,12 @@ Possible<Kinematics> with_given_speeds(const Mechanism& m) {
         std::string numbers;
         for (const int allowed : allowed_speeds(m))
             numbers += (numbers.empty() ? "" : " or ") + std::to_string(allowed);
-        return Obstacle{fmt::format("the scene has {} generalized speed{}; expected {}", count,
-                                    count == 1 ? "" : "s", numbers)};
+        return Obstacle{
+            say("the scene has {} generalized speed{}; expected {}", count, count == 1 ? "" : "s", numbers)};
     }
-    return solved_for_rates(m, m.speeds, eliminated,
-                            "the speeds, with the constraints, do not determine the rates of the coordinates");
+    return solved_for_rates(
+        m, m.speeds, eliminated,
+        say("the speeds, with the constraints, do not determine the rates of the coordinates"));
 }
 
 /// The rate for which each constraint is solved. The rows are reduced in floating point at the start, with the
@@ -267,8 +269,8 @@ Possible<std::vector<int>> dependent_rates(const Mechanism& m, const std::vector
             }
         if (best_kind < 0)
             return Obstacle{
-                "the nonholonomic constraints do not determine as many rates at the start; "
-                "give the scene generalized speeds, [speeds]"};
+                say("the nonholonomic constraints do not determine as many rates at the start; "
+                    "give the scene generalized speeds, [speeds]")};
         result[row] = static_cast<int>(column);
         for (std::size_t r = 0; r < rows.size(); ++r) {
             if (result[r] >= 0 || rows[r][column] == 0) continue;
@@ -368,7 +370,7 @@ std::optional<Kinematics> with_null_vectors(const Mechanism& m, const std::vecto
         speed.form = m.z->name(GiNaC::add(std::move(terms)));
         speeds.push_back(std::move(speed));
     }
-    Possible<Kinematics> result = solved_for_rates(m, speeds, constraints, dependent_constraints);
+    Possible<Kinematics> result = solved_for_rates(m, speeds, constraints, translated(dependent_constraints));
     if (!result.exists() || !result.value().poles.empty()) return std::nullopt;
     return std::move(result).value();
 }
@@ -381,7 +383,7 @@ Possible<Kinematics> with_remaining_rates(const Mechanism& m, const std::vector<
     for (int i = 0; i < m.size(); ++i)
         if (std::find(dependent.begin(), dependent.end(), i) == dependent.end())
             speeds.push_back(rate_as_speed(m, i));
-    Possible<Kinematics> rates = solved_for_rates(m, speeds, constraints, dependent_constraints);
+    Possible<Kinematics> rates = solved_for_rates(m, speeds, constraints, translated(dependent_constraints));
     if (!rates.exists() || rates.value().poles.empty()) return rates;
     if (std::optional<Kinematics> free = with_null_vectors(m, constraints)) return *std::move(free);
     return rates;
@@ -416,7 +418,7 @@ Kinematics rates_as_speeds(const Mechanism& m) {
         .u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}, .h = {m.qdot.begin(), m.qdot.end()}};
 }
 
-Possible<Kinematics> kinematics_of_masses(const Mechanism& m, const char* title) {
+Possible<Kinematics> kinematics_of_masses(const Mechanism& m, const std::string& title) {
     if (const auto unknown = masses_unknown(m, title)) return Obstacle{*unknown};
     return kinematics(m);
 }

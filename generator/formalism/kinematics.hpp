@@ -30,7 +30,7 @@ struct Kinematics {
 /// There is an obstacle if the number of speeds is none of the three, or if the speeds do not determine the rates.
 Possible<Kinematics> kinematics(const Mechanism& mechanism);
 /// The same for a formalism that starts from the velocities of particles and bodies; `title` names its equations.
-Possible<Kinematics> kinematics_of_masses(const Mechanism& mechanism, const char* title);
+Possible<Kinematics> kinematics_of_masses(const Mechanism& mechanism, const std::string& title);
 
 /// u = q', whatever speeds and constraints the scene has.
 Kinematics rates_as_speeds(const Mechanism& mechanism);

@@ -5,6 +5,7 @@
 #include "formalism/lagrange.hpp"
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -12,9 +13,10 @@ using GiNaC::ex;
 
 std::optional<std::string> obstacle_to_lagrange(const Mechanism& mechanism) {
     if (!mechanism.constraints.empty())
-        return "Lagrange's equations of the second kind need independent coordinates, and the scene has "
-               "constraints; use the formalism 'routh', which carries multipliers";
-    return no_coordinates(mechanism, "Lagrange's equations");
+        return say(
+            "Lagrange's equations of the second kind need independent coordinates, and the scene has "
+            "constraints; use the formalism 'routh', which carries multipliers");
+    return no_coordinates(mechanism, say("Lagrange's equations"));
 }
 
 Equations lagrange(const Mechanism& mechanism) {
@@ -24,7 +26,7 @@ Equations lagrange(const Mechanism& mechanism) {
 
 Equations lagrange_operator(const Mechanism& mechanism) {
     const int n = mechanism.size();
-    need_none(no_coordinates(mechanism, "Lagrange's equations"));
+    need_none(no_coordinates(mechanism, say("Lagrange's equations")));
     Intermediates& z = *mechanism.z;
 
     std::vector<GiNaC::symbol> state = mechanism.q;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 
@@ -33,42 +34,42 @@ std::string advice(const MassElement& particle, const Mechanism& m) {
     std::string position;
     const bool planar = particle.position[2].is_zero();
     for (int k = 0; k < (planar ? 2 : 3); ++k) position += (k == 0 ? "" : ", ") + text_of(particle.position[k], m);
-    return fmt::format(
+    return say(
         "Lagrange's equations of the first kind want Cartesian coordinates: {} is at ({}); give it coordinates "
         "{} and put what ties them into a [[constraint]]",
-        label(particle.origin), position, planar ? "x, y" : "x, y, z");
+        shown_label(particle.origin), position, planar ? "x, y" : "x, y, z");
 }
 
 /// The particle to which each coordinate belongs.
 Possible<std::vector<const MassElement*>> owners(const Mechanism& m) {
-    if (const auto unknown = masses_unknown(m, "Lagrange's equations of the first kind"))
+    if (const auto unknown = masses_unknown(m, say("Lagrange's equations of the first kind")))
         return Obstacle{*unknown};
     std::vector<const MassElement*> owner(m.q.size(), nullptr);
     for (const MassElement& particle : m.masses) {
         const auto turns = [](const Vector3& w) { return !w[0].is_zero() || !w[1].is_zero() || !w[2].is_zero(); };
         if (particle.rotation && turns(particle.rotation->w_NB_B))
             return Obstacle{
-                fmt::format("Lagrange's equations of the first kind know particles only, and {} turns; "
-                            "use the formalism 'routh'",
-                            label(particle.origin))};
+                say("Lagrange's equations of the first kind know particles only, and {} turns; "
+                    "use the formalism 'routh'",
+                    shown_label(particle.origin))};
         for (const ex& component : particle.position) {
             const std::optional<int> i = coordinate_of(component, m);
             if (!i) return Obstacle{advice(particle, m)};
             if (*i < 0) continue;
             if (owner[*i] != nullptr)
                 return Obstacle{
-                    fmt::format("Lagrange's equations of the first kind want coordinates of their own for each "
-                                "particle: '{}' belongs to {} and to {}",
-                                m.q[*i].get_name(), label(owner[*i]->origin), label(particle.origin))};
+                    say("Lagrange's equations of the first kind want coordinates of their own for each "
+                        "particle: '{}' belongs to {} and to {}",
+                        m.q[*i].get_name(), shown_label(owner[*i]->origin), shown_label(particle.origin))};
             owner[*i] = &particle;
         }
     }
     for (int i = 0; i < m.size(); ++i)
         if (owner[i] == nullptr)
-            return Obstacle{fmt::format(
-                "Lagrange's equations of the first kind want Cartesian coordinates of particles, and '{}' "
-                "is none; leave it out, with a [[constraint]] in its place",
-                m.q[i].get_name())};
+            return Obstacle{
+                say("Lagrange's equations of the first kind want Cartesian coordinates of particles, and '{}' "
+                    "is none; leave it out, with a [[constraint]] in its place",
+                    m.q[i].get_name())};
     return owner;
 }
 
@@ -110,8 +111,8 @@ Equations lagrange1(const Mechanism& mechanism) {
 
 OwnSteps steps_of_lagrange1(const Mechanism& m, const Equations& e) {
     const StepWriter write(m);
-    Section section{.words =
-                        "Newton's law for each Cartesian coordinate, m x'' = F + A^T lambda, with the forces:"};
+    Section section{
+        .words = say("Newton's law for each Cartesian coordinate, m x'' = F + A^T lambda, with the forces:")};
     for (int i = 0; i < m.size(); ++i)
         if (const auto f = write.normal(e.forcing(i)))
             section.statements.push_back({Statement::Kind::force, "F", "", write.symbol_of(m.q[i]), readable(*f)});

@@ -6,6 +6,7 @@
 
 #include "formalism/in_speeds.hpp"
 #include "formalism/lagrange.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -14,7 +15,7 @@ using GiNaC::ex;
 namespace {
 
 Possible<Kinematics> kinematics_for_maggi(const Mechanism& m) {
-    if (const auto none = no_coordinates(m, "Maggi's equations")) return Obstacle{*none};
+    if (const auto none = no_coordinates(m, say("Maggi's equations"))) return Obstacle{*none};
     return kinematics(m);
 }
 
@@ -98,7 +99,8 @@ Equations maggi(const Mechanism& mechanism) {
 OwnSteps steps_of_maggi(const Mechanism& m, const Equations& e) {
     const StepWriter write(m);
     const GiNaC::matrix B = kernel(m, kinematics_for_maggi(m).value());
-    Section rates{.words = "The rates that the constraints leave, q' = B u + b, by the columns of B = dq'/du:"};
+    Section rates{.words =
+                      say("The rates that the constraints leave, q' = B u + b, by the columns of B = dq'/du:")};
     for (unsigned c = 0; c < B.cols(); ++c) {
         std::vector<Phrase> column;
         for (unsigned i = 0; i < B.rows(); ++i)
@@ -107,15 +109,16 @@ OwnSteps steps_of_maggi(const Mechanism& m, const Equations& e) {
             rates.statements.push_back(
                 {Statement::Kind::force, "B", "", write.symbol_of(e.u[c]), phrases::tuple(std::move(column))});
     }
-    Section lagrange{.words = "Lagrange's expressions, E = d/dt dL/dq' - dL/dq - Q:"};
+    Section lagrange{.words = say("Lagrange's expressions, E = d/dt dL/dq' - dL/dq - Q:")};
     const std::vector<ex> E = expressions_of(lagrange_operator(m), m);
     for (int i = 0; i < m.size(); ++i) write.force(lagrange, "E", m.q[i], E[i]);
     Section sum{
         .words =
             e.A.empty()
-                ? "Maggi's equations are the sums of E dq'/du over the coordinates; the multipliers are gone."
-                : "Maggi's equations are the sums of E dq'/du over the coordinates, A^T lambda of the constraints "
-                  "that the speeds do not leave out."};
+                ? say("Maggi's equations are the sums of E dq'/du over the coordinates; the multipliers are gone.")
+                : say("Maggi's equations are the sums of E dq'/du over the coordinates, A^T lambda of the "
+                      "constraints "
+                      "that the speeds do not leave out.")};
     return {.sections = {std::move(rates), std::move(lagrange), std::move(sum)}};
 }
 

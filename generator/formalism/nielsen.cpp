@@ -3,6 +3,7 @@
 #include "formalism/nielsen.hpp"
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -20,7 +21,7 @@ std::pair<std::vector<ex>, std::vector<ex>> slopes(const Mechanism& m) {
 }  // namespace
 
 std::optional<std::string> obstacle_to_nielsen(const Mechanism& m) {
-    return no_coordinates(m, "Nielsen's equations");
+    return no_coordinates(m, say("Nielsen's equations"));
 }
 
 Equations nielsen(const Mechanism& mechanism) {
@@ -52,8 +53,8 @@ OwnSteps steps_of_nielsen(const Mechanism& m, const Equations&) {
     const StepWriter write(m);
     const auto [rate, force] = slopes(m);
     Section section{
-        .words =
-            "With L' the time derivative of L along any motion, for Nielsen's equations dL'/dq' - 2 dL/dq = Q:"};
+        .words = say(
+            "With L' the time derivative of L along any motion, for Nielsen's equations dL'/dq' - 2 dL/dq = Q:")};
     write.equality(section, StepWriter::letter("L'"), m.time_derivative({m.lagrangian()})[0]);
     for (int i = 0; i < m.size(); ++i) {
         write.partial(section, "L'", m.qdot[i], rate[i]);

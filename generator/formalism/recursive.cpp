@@ -4,6 +4,7 @@
 
 #include "formalism/elements.hpp"
 #include "formalism/joint_tree.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -20,7 +21,7 @@ std::vector<ex> potential_forces(const Mechanism& m) {
 }
 
 Possible<JointTree> tree_with_masses(const Mechanism& m) {
-    if (const auto unknown = masses_unknown(m, "The recursive equations")) return Obstacle{*unknown};
+    if (const auto unknown = masses_unknown(m, say("The recursive equations"))) return Obstacle{*unknown};
     return joint_tree(m);
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "formalism/dalembert.hpp"
+#include "language/say.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 #include "symbolic/bounded_factor.hpp"
@@ -73,8 +74,8 @@ struct RestSteps {
     explicit RestSteps(const Mechanism& mechanism) : m(mechanism) {}
 
     const Mechanism& m;
-    Section products{.words = "With all rates and accelerations zero:"};
-    Section roots{.words = "with the roots (modulo the period):"};
+    Section products{.words = say("With all rates and accelerations zero:")};
+    Section roots{.words = say("with the roots (modulo the period):")};
 
     void add(const Phrase& sum) {
         const TrigonometricProduct found = product_of(expression(sum), m);
@@ -150,15 +151,15 @@ OwnSteps steps_of_dalembert(const Mechanism& m, const Equations& e) {
     const StepWriter write(m);
     const VirtualWork work = virtual_work(m);
     Section works{
-        .words =
+        .words = say(
             "Virtual work of the applied forces, dW = sum of Q dq, and of the inertia forces, dW* = sum of Q* dq; "
-            "Q + Q* = 0:"};
+            "Q + Q* = 0:")};
     for (int i = 0; i < m.size(); ++i) {
         write.force(works, "Q", m.q[i], work.conservative[i] + work.dissipative[i] + work.applied[i]);
         write.force(works, "Q*", m.q[i], work.inertia[i]);
     }
     if (!e.A.empty())
-        works.words.replace(works.words.rfind("Q + Q* = 0"), std::string::npos, "Q + Q* + A^T lambda = 0:");
+        works.words.replace(works.words.rfind("Q + Q* = 0"), std::string::npos, say("Q + Q* + A^T lambda = 0:"));
     RestSteps rest(m);
     const std::vector<ex> conditions = rest_conditions(m, e);
     for (int i = 0; i < m.size(); ++i) {

@@ -16,6 +16,7 @@
 #include <cstdlib>
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {
@@ -227,10 +228,11 @@ SystemGraph system_graph(const Mechanism& m) {
 }
 
 std::optional<std::string> obstacle_to_roberson_wittenburg(const Mechanism& m) {
-    if (auto unknown = masses_unknown(m, "Roberson and Wittenburg's equations")) return unknown;
+    if (auto unknown = masses_unknown(m, say("Roberson and Wittenburg's equations"))) return unknown;
     if (!m.joints.empty()) return std::nullopt;
-    return "Roberson and Wittenburg's equations are written on a graph of bodies and joints, and the scene has no "
-           "[[joint]]; use the formalism 'schiehlen', or let joints hold the bodies";
+    return say(
+        "Roberson and Wittenburg's equations are written on a graph of bodies and joints, and the scene has no "
+        "[[joint]]; use the formalism 'schiehlen', or let joints hold the bodies");
 }
 
 Equations roberson_wittenburg(const Mechanism& mechanism) {
@@ -248,24 +250,24 @@ std::vector<Section> outline_of_roberson_wittenburg(const Mechanism& m) {
     }
     for (const std::string& body : g.bodies) bodies += (bodies.empty() ? "" : ", ") + body;
     for (const std::string& chord : g.chords)
-        chords += (chords.empty() ? " Chords, which close loops: " : ", ") + chord;
+        chords += (chords.empty() ? say(" Chords, which close loops: ") : ", ") + chord;
     if (!chords.empty()) chords += ".";
     const auto row = [](const std::string& letter, const std::string& of, const std::vector<int>& entries) {
         std::vector<Phrase> phrases;
         for (const int entry : entries) phrases.push_back(phrases::number(entry));
         return Statement{Statement::Kind::energy, letter, of, {}, phrases::tuple(std::move(phrases))};
     };
-    Section S{.words = fmt::format(
-                  "The system graph, each arc from parent to child: {}.{} Incidence matrix S, a row for each "
-                  "body, a column for each arc (1 where it begins, -1 where it ends):",
-                  arcs, chords)};
+    Section S{.words =
+                  say("The system graph, each arc from parent to child: {}.{} Incidence matrix S, a row for each "
+                      "body, a column for each arc (1 where it begins, -1 where it ends):",
+                      arcs, chords)};
     S.statements.push_back(row("S", "N", g.S_0));
     for (std::size_t i = 0; i < g.bodies.size(); ++i) S.statements.push_back(row("S", g.bodies[i], g.S[i]));
     Section T{
-        .words = fmt::format(
-            "Path matrix T, a row for each arc, a column for each body: {} (1 where the arc is on the body's "
-            "path and points to the ground, -1 where it points away):",
-            bodies)};
+        .words =
+            say("Path matrix T, a row for each arc, a column for each body: {} (1 where the arc is on the body's "
+                "path and points to the ground, -1 where it points away):",
+                bodies)};
     for (std::size_t a = 0; a < g.arcs.size(); ++a) T.statements.push_back(row("T", g.arcs[a].name, g.T[a]));
     return {std::move(S), std::move(T)};
 }

@@ -5,11 +5,12 @@
 
 #include "formalism/elements.hpp"
 #include "formalism/lagrange.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
 std::optional<std::string> obstacle_to_routh(const Mechanism& mechanism) {
-    return no_coordinates(mechanism, "Lagrange's equations");
+    return no_coordinates(mechanism, say("Lagrange's equations"));
 }
 
 Equations routh(const Mechanism& mechanism) {

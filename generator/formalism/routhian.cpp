@@ -6,6 +6,7 @@
 
 #include "formalism/elements.hpp"
 #include "formalism/hamilton.hpp"
+#include "language/say.hpp"
 #include "model/energy.hpp"
 #include "notation/fractions.hpp"
 
@@ -35,9 +36,9 @@ Possible<Reduction> reduction(const Mechanism& m) {
                 .M = {},
                 .own = {}};
     if (r.cyclic.empty())
-        return Obstacle{
+        return Obstacle{say(
             "Routh's procedure removes cyclic coordinates, and the scene has none: L depends on each of them, or "
-            "a force acts on it"};
+            "a force acts on it")};
     const Possible<CanonicalEquations> possible = canonical(m);  // its obstacles, p and M
     if (const auto obstacle = possible.obstacle()) return Obstacle{*obstacle};
     const CanonicalEquations& all = possible.value();
@@ -127,15 +128,16 @@ OwnSteps steps_of_routhian(const Mechanism& m, const Equations& equations) {
     const Reduction r = reduction(m).value();
     std::string names;
     for (const int i : r.cyclic) names += (names.empty() ? "" : ", ") + m.q[i].get_name();
-    Section section{.words = "Cyclic coordinates: " + names +
-                             ". Their momenta are constants; the Routhian R = L - sum of p q':"};
+    Section section{
+        .words =
+            say("Cyclic coordinates: {}. Their momenta are constants; the Routhian R = L - sum of p q':", names)};
     for (std::size_t k = 0; k < r.cyclic.size(); ++k)
         write.equality(section, write.symbol_of(r.p[k]), r.momenta[k]);
     for (std::size_t k = 0; k < r.cyclic.size(); ++k)
         write.equality(section, write.symbol_of(m.qdot[r.cyclic[k]]), r.rates[k]);
     write.equality(section, StepWriter::letter("R"), r.R);
     OwnSteps result{.sections = {std::move(section)},
-                    .title = "Routh's equations of the coordinates that are not cyclic"};
+                    .title = say("Routh's equations of the coordinates that are not cyclic")};
     const int e = static_cast<int>(r.remaining.size());
     for (int i = 0; i < e; ++i) {
         GiNaC::exvector left{-r.own[i], -equations.dissipative[r.remaining[i]]};

@@ -8,6 +8,7 @@
 #include "formalism/schiehlen.hpp"
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {
@@ -98,7 +99,7 @@ std::vector<BodyMotion> global_motions(const Mechanism& m) {
 }
 
 std::optional<std::string> obstacle_to_schiehlen(const Mechanism& m) {
-    return masses_unknown(m, "Schiehlen's equations");
+    return masses_unknown(m, say("Schiehlen's equations"));
 }
 
 Equations schiehlen(const Mechanism& mechanism) {
@@ -112,9 +113,10 @@ OwnSteps steps_of_schiehlen(const Mechanism& m, const Equations&) {
     const std::vector<BodyMotion> motions = global_motions(m);
     OwnSteps result;
     for (std::size_t b = 0; b < motions.size(); ++b) {
-        Section section{
-            .words = "Global Jacobians of " + label(m.masses[b].origin) +
-                     ", J_T = dr/dq along N and J_R = dw/dq' along its axes, and the accelerations at q'' = 0:"};
+        Section section{.words = say("Global Jacobians of {}, J_T = dr/dq along N and J_R = dw/dq' along its "
+                                     "axes, and the accelerations at "
+                                     "q'' = 0:",
+                                     shown_label(m.masses[b].origin))};
         const auto add_rows = [&](const std::string& letter, const std::vector<Vector3>& J) {
             for (int j = 0; j < m.size(); ++j)
                 for (int k = 0; k < 3; ++k) write.partial(section, letter + "_" + "xyz"[k], m.q[j], J[j][k]);

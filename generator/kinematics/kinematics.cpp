@@ -13,6 +13,7 @@
 #include "alembert/tolerances.hpp"
 #include "kinematics/frames.hpp"
 #include "kinematics/points.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/formulas.hpp"
 #include "run/evaluate.hpp"
@@ -32,14 +33,13 @@ void check_names(const std::vector<std::string>& asked, const Scene& scene) {
         if (std::find(known.begin(), known.end(), point) == known.end()) known.push_back(point);
     if (known.empty())
         throw ModelError(
-            "the scene has no frames, bodies or points, whose motion could be told; expected [[frame]] or "
-            "[[point]]");
+            say("the scene has no frames, bodies or points, whose motion could be told; expected [[frame]] or "
+                "[[point]]"));
     for (const std::string& name : asked) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         const std::string meant = nearest(name, known);
-        throw ModelError(fmt::format("there is no frame, body or point {}{}; expected one of: {}", in_quotes(name),
-                                     meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
-                                     fmt::join(known, ", ")));
+        throw ModelError(say("there is no frame, body or point {}{}; expected one of: {}", in_quotes(name),
+                             meant.empty() ? "" : say(" (did you mean '{}'?)", meant), fmt::join(known, ", ")));
     }
 }
 
@@ -76,7 +76,7 @@ std::vector<double> with_given(const Mechanism& m, State<double> state, const st
     for (Eigen::Index k = 0; k < rows; ++k) {
         const double left = off[k] - (open.empty() ? 0 : A.row(k).dot(change));
         if (std::abs(left) > tolerance::balanced_load * std::max(1.0, size[k]))
-            throw ModelError(fmt::format(
+            throw ModelError(say(
                 "the accelerations given break constraint '{}', by {:.3g}; leave some of them out: they follow",
                 m.constraints[static_cast<std::size_t>(k)].name, left));
     }

@@ -9,6 +9,7 @@
 #include "alembert/tolerances.hpp"
 #include "contact/contacts.hpp"
 #include "formalism/kane.hpp"
+#include "language/say.hpp"
 #include "linear/linearize_symbolic.hpp"
 #include "lower/lower.hpp"
 #include "model/constant.hpp"
@@ -85,7 +86,7 @@ void close_contacts(Derived& d, const Start& start) {
     const Lasting lasting = contacts_at_rest(view, state, tolerance::closed_gap);
     const std::vector<std::string> idle = touching_without_force(view, state, lasting);
     if (!idle.empty())
-        throw ModelError(fmt::format(
+        throw ModelError(say(
             "contact {} touches at this state without a force: it presses on one side of the state and opens on "
             "the other, so the equations of motion have no first derivative there. Give a state in "
             "which the contact presses or is open, or leave the contact out",

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "exact/expression_of.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
@@ -29,12 +30,12 @@ public:
         for (const int id : nodes) add(functions, text_of(r_.program, id));
         in_the_scene(functions, labels);
         if (functions.size() > 3) functions.resize(3);
-        return fmt::format(
+        return say(
             "the equations of motion have no first derivative at {}, so they cannot be linearized there: because "
             "of {}{}, {}. A force must have a first derivative at the state, and a potential a second one. Give "
             "a state off this point, or a function that is smooth there, such as sqrt(x^2 + e^2) for abs(x)",
-            place(nodes), fmt::join(functions, ", "),
-            labels.empty() ? "" : fmt::format(" in {}", fmt::join(labels, ", ")), fault);
+            place(nodes), fmt::join(functions, ", "), labels.empty() ? "" : say(" in {}", fmt::join(labels, ", ")),
+            fault);
     }
 
 private:
@@ -61,12 +62,12 @@ private:
     void in_the_scene(std::vector<std::string>& functions, std::vector<std::string>& labels) const {
         std::vector<std::pair<std::string, GiNaC::ex>> parts;  // label, value
         for (const auto* list : {&m_.kinetic, &m_.potential})
-            for (const Part& part : *list) parts.emplace_back(label(part.origin), part.value);
-        if (m_.given_lagrangian) parts.emplace_back("the Lagrangian", *m_.given_lagrangian);
+            for (const Part& part : *list) parts.emplace_back(shown_label(part.origin), part.value);
+        if (m_.given_lagrangian) parts.emplace_back(say("the Lagrangian"), *m_.given_lagrangian);
         for (const Load& load : m_.loads)
             for (const Load::Pair& pair : load.pairs)
                 for (const GiNaC::ex& value : {pair.force, pair.velocity})
-                    parts.emplace_back(label(load.origin), value);
+                    parts.emplace_back(shown_label(load.origin), value);
         std::vector<GiNaC::ex> values;
         for (const auto& part : parts) values.push_back(part.second);
         Program program = begun(m_);
@@ -105,7 +106,7 @@ private:
             if (v.kind == Variable::Kind::unknown)
                 result.push_back(fmt::format("{} = {}", input(v.index), number(point_[id].at(0).value)));
         }
-        return result.empty() ? "this state" : fmt::format("{}", fmt::join(result, ", "));
+        return result.empty() ? say("this state") : fmt::format("{}", fmt::join(result, ", "));
     }
 
     std::string speed(int i) const { return e_.u[i].get_name(); }

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "linear/kink_message.hpp"
 
 namespace alembert {
@@ -77,7 +78,7 @@ private:
             return r_.mass[std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j)];
         };
         for (int i = 0; i < r_.s; ++i) {
-            const std::string name = fmt::format("the right-hand side of the equation for {}'", speed(i));
+            const std::string name = say("the right-hand side of the equation for {}'", speed(i));
             Wanted force{name, {{r_.forcing[i], Germ(1)}}};
             for (int j = 0; j < r_.s; ++j) force.terms.emplace_back(mass(i, j), about(here_.udot[j], -1));
             for (int k = 0; k < r_.kept; ++k)
@@ -85,16 +86,16 @@ private:
             wanted_.push_back(std::move(force));
         }
         for (int k = 0; k < r_.kept; ++k) {
-            Wanted acceleration{"the acceleration of a constraint", {{r_.gamma[k], Germ(-1)}}};
+            Wanted acceleration{say("the acceleration of a constraint"), {{r_.gamma[k], Germ(-1)}}};
             for (int i = 0; i < r_.s; ++i)
                 acceleration.terms.emplace_back(r_.row[k * r_.s + i], about(here_.udot[i], 1));
             wanted_.push_back(std::move(acceleration));
         }
-        for (const int node : r_.mass) single("the mass matrix", node, false);
-        for (const int node : r_.row) single("a constraint's row", node, false);
+        for (const int node : r_.mass) single(say("the mass matrix"), node, false);
+        for (const int node : r_.row) single(say("a constraint's row"), node, false);
         for (std::size_t i = 0; i < r_.rate.size(); ++i) single(m_.q[i].get_name() + "'", r_.rate[i], true);
-        for (const int node : r_.position) single("a constraint", node, true);
-        for (const int node : r_.velocity) single("a constraint's rate", node, true);
+        for (const int node : r_.position) single(say("a constraint"), node, true);
+        for (const int node : r_.velocity) single(say("a constraint's rate"), node, true);
     }
 
     /// The directions that the constraints allow: the columns of `along` without that of t.
@@ -154,7 +155,7 @@ private:
                 const Germ above = wanted_[k].on(both.above), below = wanted_[k].on(both.below);
                 std::string what = fault(wanted_[k], above, below, "");
                 if (what.empty() && wanted_[k].derivative && !is_linear(slope_[k], weight, above.at(1)))
-                    what = "has derivatives that depend on the direction in a way that is not linear";
+                    what = say("has derivatives that depend on the direction in a way that is not linear");
                 if (!what.empty()) refuse(blamed(wanted_[k], both), wanted_[k].name, what);
             }
         }
@@ -175,39 +176,39 @@ private:
     std::string fault(const Wanted& f, const Germ& above, const Germ& below, const std::string& by) const {
         const Germ here = f.on(point_);
         if (!here.defined() && !above.defined() && !below.defined())
-            return "has no value at this state: it divides by 0, or an argument is outside its function's domain";
+            return say(
+                "has no value at this state: it divides by 0, or an argument is outside its function's domain");
         const auto side = [&](bool up) {
-            return by.empty() ? std::string("in some directions")
-                              : fmt::format("where {} {}", by, up ? "grows" : "falls");
+            return by.empty() ? say("in some directions")
+                   : up       ? say("where {} grows", by)
+                              : say("where {} falls", by);
         };
         for (const bool up : {true, false}) {
             const Germ& x = up ? above : below;
-            if (!x.defined())
-                return fmt::format("has no value {}: the state is on the border of its domain", side(up));
+            if (!x.defined()) return say("has no value {}: the state is on the border of its domain", side(up));
             const Germ::Term *first = x.leading(), start = x.at(0), rest = here.at(0);
-            if (first != nullptr && first->exponent < -1e-9)
-                return fmt::format("grows without bound {}", side(up));
+            if (first != nullptr && first->exponent < -1e-9) return say("grows without bound {}", side(up));
             if (here.defined() &&
                 std::abs(start.value - rest.value) >
                     start.error + rest.error + linear_to * (std::abs(start.value) + std::abs(rest.value)))
-                return fmt::format("jumps {}: from {} to {}", side(up), shown(rest.value), shown(start.value));
+                return say("jumps {}: from {} to {}", side(up), shown(rest.value), shown(start.value));
             if (!f.derivative) continue;
             for (const Germ::Term& term : x.terms())
                 if (term.value != 0 && term.exponent < 1 - 1e-9 && term.exponent > 1e-9)
-                    return fmt::format("has an infinite slope {}", side(up));
-            if (x.order() <= 1) return fmt::format("has a slope that the series do not decide {}", side(up));
+                    return say("has an infinite slope {}", side(up));
+            if (x.order() <= 1) return say("has a slope that the series do not decide {}", side(up));
         }
         const Germ::Term up = above.at(0), down = below.at(0);
         if (!here.defined() && std::abs(up.value - down.value) >
                                    up.error + down.error + linear_to * (std::abs(up.value) + std::abs(down.value)))
-            return fmt::format("has no value at this state, and two limits: {} {}, and {} {}", shown(up.value),
-                               side(true), shown(down.value), side(false));
-        if (!here.defined()) return "has no value at this state itself, as the formula divides by 0 there";
+            return say("has no value at this state, and two limits: {} {}, and {} {}", shown(up.value), side(true),
+                       shown(down.value), side(false));
+        if (!here.defined()) return say("has no value at this state itself, as the formula divides by 0 there");
         if (!f.derivative || slope(above, below)) return "";
         const std::string one = shown(above.at(1).value), other = shown(-below.at(1).value);
-        return by.empty() ? "has slopes in two opposite directions that are not those of a linear function"
-                          : fmt::format("has the slope {} in {} where {} grows, and {} where it falls", one, by,
-                                        by, other);
+        return by.empty()
+                   ? say("has slopes in two opposite directions that are not those of a linear function")
+                   : say("has the slope {} in {} where {} grows, and {} where it falls", one, by, by, other);
     }
 
     static std::string shown(long double x) { return fmt::format("{:.6g}", static_cast<double>(x) + 0.0); }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 #include "linear/dependence.hpp"
 #include "linear/kinks.hpp"
@@ -70,7 +71,7 @@ std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A)
             for (std::size_t j = 0; j < left.size(); ++j)
                 rest(static_cast<Index>(i), static_cast<Index>(j)) = A(left[i], left[j]);
         const auto values = eigenvalues(rest);
-        if (!values) throw IntegrationError("the eigenvalues do not converge", 0, {});
+        if (!values) throw IntegrationError(say("the eigenvalues do not converge"), 0, {});
         const long double size = rest.cwiseAbs().maxCoeff();
         const auto rounded = [&](long double x) {
             return std::abs(x) < 1e-17L * size ? 0.0 : static_cast<double>(x);
@@ -99,8 +100,9 @@ public:
         if (residuals_.rates_are_speeds) guessed = m_.qdot_is_guess;
         split_ = split_of(residuals_, at_, m_.q_is_guess, guessed);
         if (!settle(residuals_, split_, at_))
-            throw IntegrationError("the constraints cannot be solved for the dependent coordinates at this state",
-                                   state_.t, state_.q);
+            throw IntegrationError(
+                say("the constraints cannot be solved for the dependent coordinates at this state"), state_.t,
+                state_.q);
         at_kink_ = is_at_kink(residuals_, at_);
         here_ = tangent(residuals_, split_, at_, at_kink_);
         if (at_kink_) check_differentiable(residuals_, split_, at_, here_, m_, e_);
@@ -108,7 +110,7 @@ public:
         nr_ = static_cast<Index>(split_.q.size());
         if (!here_.speed_rates.allFinite() || !here_.speed_rates_by.allFinite())
             throw IntegrationError(
-                "the mass matrix, constraints eliminated, is singular or not finite at this state", state_.t,
+                say("the mass matrix, constraints eliminated, is singular or not finite at this state"), state_.t,
                 state_.q);
         depends_ = dependences(residuals_, split_, at_);
         const std::vector<bool> essential = essential_coordinates(depends_, p_);
@@ -129,21 +131,21 @@ private:
     void check_time(const std::vector<bool>& essential) const {
         for (Index i = 0; i < p_ + nr_; ++i)
             if (depends_(i, nr_ + p_) && (i < p_ || essential[i - p_]))
-                throw ModelError(fmt::format(
-                    "the equations change with time ({}' holds t, and not through inputs); there is no "
-                    "equilibrium or steady motion to linearize about",
-                    i < p_ ? speed(i) : coordinate(i - p_)));
+                throw ModelError(
+                    say("the equations change with time ({}' holds t, and not through inputs); there is no "
+                        "equilibrium or steady motion to linearize about",
+                        i < p_ ? speed(i) : coordinate(i - p_)));
     }
 
     [[noreturn]] void refuse(const std::string& residual) const {
         const std::string nearby = steady_nearby(m_, e_, start_);
-        throw ModelError(fmt::format(
-            "this state is no equilibrium and no steady motion: {}; expected zeros. {}", residual,
-            nearby.empty()
-                ? "Ask at a state where they are, or give it as initial values; `equilibrium` finds them"
-                : fmt::format("One that is, reached from here by Newton's method: {}; `equilibrium` finds "
-                              "them all",
-                              nearby)));
+        throw ModelError(
+            say("this state is no equilibrium and no steady motion: {}; expected zeros. {}", residual,
+                nearby.empty()
+                    ? say("Ask at a state where they are, or give it as initial values; `equilibrium` finds them")
+                    : say("One that is, reached from here by Newton's method: {}; `equilibrium` finds "
+                          "them all",
+                          nearby)));
     }
 
     /// Which coordinates are cyclic, which of them move, and which are states. Gives what is not steady.
@@ -165,8 +167,8 @@ private:
         for (Index j = 0; j < nr_; ++j) {
             moves[j] = std::abs(here_.rates[j]) > tolerance(here_.rates_by.row(j));
             if (moves[j] && essential[j])
-                residual.push_back(fmt::format("{}' = {:.6g}, and {} is not cyclic", coordinate(j),
-                                               static_cast<double>(here_.rates[j]), coordinate(j)));
+                residual.push_back(say("{}' = {:.6g}, and {} is not cyclic", coordinate(j),
+                                       static_cast<double>(here_.rates[j]), coordinate(j)));
             else if (moves[j])
                 result_.moving.push_back(coordinate(j));
         }

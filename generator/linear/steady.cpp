@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 
 namespace alembert {
@@ -59,10 +60,10 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
     const std::vector<bool> essential = essential_coordinates(depends, p);
     for (Index i = 0; i < p + nr; ++i)
         if (depends(i, nr + p) && (i < p || essential[i - p]))
-            throw ModelError(fmt::format(
-                "the equations change with time (the rate of {} holds t, and not through inputs); there is no "
-                "equilibrium or steady motion",
-                i < p ? e.u[split.u[i]].get_name() : m.q[split.q[i - p]].get_name()));
+            throw ModelError(
+                say("the equations change with time (the rate of {} holds t, and not through inputs); there is no "
+                    "equilibrium or steady motion",
+                    i < p ? e.u[split.u[i]].get_name() : m.q[split.q[i - p]].get_name()));
     for (Index j = 0; j < nr; ++j) essential_[split.q[j]] = essential[j];
     for (int i = 0; i < m.size(); ++i) follows_q_[i] = essential_[i];  // cyclic coordinates stay independent
 
@@ -198,8 +199,8 @@ std::string steady_nearby(const Mechanism& m, const Equations& e, const Start& s
     std::string text;
     for (int i = 0; i < m.size(); ++i)
         if (problem.essential()[i])
-            text += fmt::format("{}--at {}={}", text.empty() ? "" : " ", m.q[i].get_name(),
-                                static_cast<double>(root->at.q[i]));
+            text += say("{}--at {}={}", text.empty() ? "" : " ", m.q[i].get_name(),
+                        static_cast<double>(root->at.q[i]));
     return text;
 } catch (const std::runtime_error&) {  // there is no such state to suggest
     return {};

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 #include "linear/paths.hpp"
 #include "lower/lower.hpp"
@@ -227,8 +228,9 @@ Split split_of(const Residuals& r, const Instant<long double>& at, const std::ve
     const Values<long double> value(r, at);
     const auto refuse = [&](const char* which, std::size_t rank, int rows) {
         throw IntegrationError(
-            std::string("the ") + which + " constraints depend on each other at this state: rank " +
-                std::to_string(rank) + " of " + std::to_string(rows) + "; choose a state off the singular pose",
+            say("the {} constraints depend on each other at this state: rank {} of {}; choose a state off the "
+                "singular pose",
+                translated(which), rank, rows),
             static_cast<double>(at.t), {at.q.begin(), at.q.end()});
     };
     Split split;
@@ -236,7 +238,7 @@ Split split_of(const Residuals& r, const Instant<long double>& at, const std::ve
     for (int i = 0; i < r.n; ++i) order.push_back(preferred_q[i] ? 0 : 1);
     split.q_dependent = pivots(value.jacobian(r.position).leftCols(r.n), order);
     if (static_cast<int>(split.q_dependent.size()) < r.holonomic)
-        refuse("holonomic", split.q_dependent.size(), r.holonomic);
+        refuse(to_say("holonomic"), split.q_dependent.size(), r.holonomic);
     split.q = others(split.q_dependent, r.n);
     order.clear();
     for (int i = 0; i < r.s; ++i) {
@@ -245,7 +247,8 @@ Split split_of(const Residuals& r, const Instant<long double>& at, const std::ve
         order.push_back(follows ? 0 : preferred_u[i] ? 1 : 2);
     }
     split.u_dependent = pivots(value.jacobian(r.velocity).middleCols(r.n, r.s), order);
-    if (static_cast<int>(split.u_dependent.size()) < r.kept) refuse("velocity", split.u_dependent.size(), r.kept);
+    if (static_cast<int>(split.u_dependent.size()) < r.kept)
+        refuse(to_say("velocity"), split.u_dependent.size(), r.kept);
     split.u = others(split.u_dependent, r.s);
     return split;
 }

@@ -2,6 +2,7 @@
 #include "lower/articulated_bodies.hpp"
 
 #include "formalism/planar_chain.hpp"
+#include "language/say.hpp"
 #include "lower/link_frames.hpp"
 #include "program/solve.hpp"
 
@@ -113,10 +114,10 @@ private:
 }  // namespace
 
 std::string RecursionForm::text() const {
-    const std::string name = solve == Solve::matrix        ? "composite bodies"
-                             : solve == Solve::articulated ? "articulated bodies"
-                                                           : "chain from both ends";
-    return name + (axes == LinkAxes::still ? ", parallel axes" : "");
+    const std::string name = solve == Solve::matrix        ? to_say("composite bodies")
+                             : solve == Solve::articulated ? to_say("articulated bodies")
+                                                           : to_say("chain from both ends");
+    return name + (axes == LinkAxes::still ? std::string(", ") + to_say("parallel axes") : "");
 }
 
 RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,

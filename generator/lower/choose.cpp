@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
+#include "language/say.hpp"
 #include "notation/readable.hpp"
 #include "program/constants.hpp"
 #include "program/flatten.hpp"
@@ -77,7 +78,7 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
             if (!make_readable({&entry}, m)) return std::nullopt;
         if (!make_readable({&equations.gamma[k]}, m)) return std::nullopt;
     }
-    equations.formalism += ", textbook form";
+    equations.formalism += std::string(", ") + to_say("textbook form");
     return equations;
 }
 
@@ -156,7 +157,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
     const std::size_t before = programs.size();
     if (!equations.tree || !m.constraints.empty()) {
         Equations intermediate = equations;
-        intermediate.formalism += ", intermediate symbols";
+        intermediate.formalism += std::string(", ") + to_say("intermediate symbols");
         programs.push_back({lower(m, intermediate, energy, options)});
     }
     const bool has_matrix = equations.M.rows() > 0;
@@ -193,7 +194,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
         }
     if (programs.size() == before && !has_matrix)
         throw ModelError(
-            "no inertia resists some motion of the joints; give every body a mass and moments of inertia");
+            say("no inertia resists some motion of the joints; give every body a mass and moments of inertia"));
     if (programs.size() == before) programs.push_back({lower(m, equations, energy, options)});
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "formalism/kinematics.hpp"
+#include "language/say.hpp"
 #include "lower/articulated_bodies.hpp"
 #include "lower/energy_roots.hpp"
 #include "lower/lowering.hpp"
@@ -245,8 +246,8 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
         program.roots.push_back({Group::velocity, constraint.name, program.sum(0, velocity)});
     }
     if (!has_matrix && !by_tree.acceleration)
-        throw ModelError(
-            "the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'");
+        throw ModelError(say(
+            "the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'"));
     std::optional<std::vector<int>> solution = by_tree.acceleration && m.constraints.empty() ? by_tree.acceleration
                                                : normal_forces.any()
                                                    ? normal_forces.solve(lowering, program, mass, forcing)

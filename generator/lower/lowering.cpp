@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "language/say.hpp"
 #include "program/interpret.hpp"
 #include "symbolic/functions.hpp"
 
@@ -95,12 +96,13 @@ int Lowering::lowered(const ex& e) {
         return program_.call(operations().at(function_name(e)), std::move(args));
     }
     throw ModelError(
-        fmt::format("an expression of kind '{}' cannot be turned into code", ex_to<GiNaC::basic>(e).class_name()));
+        say("an expression of kind '{}' cannot be turned into code", ex_to<GiNaC::basic>(e).class_name()));
 }
 
 Rational Lowering::rational(const ex& e) {
     const GiNaC::numeric& value = ex_to<GiNaC::numeric>(e);
-    if (!value.is_rational()) throw ModelError("a number that is not rational cannot be turned into exact code");
+    if (!value.is_rational())
+        throw ModelError(say("a number that is not rational cannot be turned into exact code"));
     return cln::the<cln::cl_RA>(value.to_cl_N());
 }
 
@@ -136,7 +138,7 @@ int Lowering::symbol(const GiNaC::symbol& s) {
         default:
             break;
     }
-    throw ModelError(fmt::format("'{}' has no value", info.text()));
+    throw ModelError(say("'{}' has no value", info.text()));
 }
 
 int Lowering::parameter(int index) {

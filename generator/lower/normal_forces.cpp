@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "program/partials.hpp"
 #include "program/solve.hpp"
 
@@ -59,10 +60,10 @@ NormalForces::NormalForces(const Mechanism& m, const Equations& e) : e_(e) {
         if (row == e.lambda.end() && presses) continue;  // the contact is open
         if (row == e.lambda.end())
             throw ModelError(
-                fmt::format("friction '{}' needs {}, which the equations do not have: its constraint follows from "
-                            "others, or the speeds leave it out; give the normal force as an expression instead, "
-                            "or leave out what is redundant",
-                            f.name, f.multiplier->get_name()));
+                say("friction '{}' needs {}, which the equations do not have: its constraint follows from "
+                    "others, or the speeds leave it out; give the normal force as an expression instead, "
+                    "or leave out what is redundant",
+                    f.name, f.multiplier->get_name()));
         const auto known =
             std::find_if(pressed_.begin(), pressed_.end(), [&](const Pressed& p) { return is_it(p.multiplier); });
         if (known != pressed_.end()) {
@@ -77,9 +78,9 @@ NormalForces::NormalForces(const Mechanism& m, const Equations& e) : e_(e) {
     }
     const bool pulls = std::any_of(pressed_.begin(), pressed_.end(), [](const Pressed& p) { return p.may_pull; });
     if (pressed_.size() > 1 && pulls)
-        throw ModelError(
+        throw ModelError(say(
             "friction is on several constraints, whose reactions may have either sign, and each depends on the "
-            "others; make them unilateral contacts, which only press, or give the normal forces as expressions");
+            "others; make them unilateral contacts, which only press, or give the normal forces as expressions"));
 }
 
 void NormalForces::leave_out(Lowering& lowering, Program& program) const {

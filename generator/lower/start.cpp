@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -33,7 +34,7 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
     for (const Mechanism::Parameter& p : m_.parameters) {
         if (p.symbol.get_name() == name) {
             if (p.independent) return {name, Part::parameter, position};
-            throw ModelError(fmt::format("{}=…: '{}' is defined by other parameters; set those", name, name));
+            throw ModelError(say("{}=…: '{}' is defined by other parameters; set those", name, name));
         }
         position += p.independent ? 1 : 0;
         known.push_back(p.symbol.get_name());
@@ -42,8 +43,8 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
         if (m_.q[i].get_name() == name) return {name, Part::q, i};
         if (m_.q[i].get_name() + "'" == name) {
             if (plain_.speeds.empty()) return {name, Part::qdot, i};
-            throw ModelError(fmt::format("{}=…: the rates follow from the speeds here; set '{}'", name,
-                                         m_.speeds[0].u.get_name()));
+            throw ModelError(
+                say("{}=…: the rates follow from the speeds here; set '{}'", name, m_.speeds[0].u.get_name()));
         }
         known.push_back(m_.q[i].get_name());
         known.push_back(m_.q[i].get_name() + "'");
@@ -52,12 +53,11 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
         known.push_back(m_.speeds[k].u.get_name());
         if (known.back() != name) continue;
         if (!plain_.speeds.empty()) return {name, Part::speed, k};
-        throw ModelError(
-            fmt::format("{}=…: the scene gives rates, and '{}' follows from them; set those", name, name));
+        throw ModelError(say("{}=…: the scene gives rates, and '{}' follows from them; set those", name, name));
     }
     const std::string meant = nearest(name, known);
-    throw ModelError(fmt::format("{}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", name, name,
-                                 meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+    throw ModelError(say("{}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", name, name,
+                         meant.empty() ? "" : say("; did you mean '{}'?", meant)));
 }
 
 double& Starts::place(const Spot& spot, Start& start) {
@@ -78,7 +78,7 @@ double& Starts::place(const Spot& spot, Start& start) {
 Possible<Start> Starts::possible(const std::vector<double>& values) const {
     for (std::size_t k = 0; k < spots_.size(); ++k)
         if (!std::isfinite(values[k]))
-            return Obstacle{fmt::format("{}={}: expected a finite number", spots_[k].name, values[k])};
+            return Obstacle{say("{}={}: expected a finite number", spots_[k].name, values[k])};
     Start start = plain_;
     const auto replace = [&](bool parameters) {
         for (std::size_t k = 0; k < spots_.size(); ++k)
@@ -100,11 +100,11 @@ Possible<Start> Starts::possible(const std::vector<double>& values) const {
     for (int i = 0; i < m_.size(); ++i)
         if (!std::isfinite(start.q[i]) || !std::isfinite(start.qdot[i]))
             return Obstacle{
-                fmt::format("the initial value of '{}' is not finite at these parameters", m_.q[i].get_name())};
+                say("the initial value of '{}' is not finite at these parameters", m_.q[i].get_name())};
     for (std::size_t k = 0; k < start.speeds.size(); ++k)
         if (!std::isfinite(start.speeds[k]))
-            return Obstacle{fmt::format("the initial value of '{}' is not finite at these parameters",
-                                        m_.speeds[k].u.get_name())};
+            return Obstacle{
+                say("the initial value of '{}' is not finite at these parameters", m_.speeds[k].u.get_name())};
     return start;
 }
 

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 
@@ -21,12 +22,12 @@ void add_speeds(Building& here) {
     for (std::size_t i = 0; i < here.scene.speeds.size(); ++i)
         here.attempt([&] {
             const Speed& s = here.scene.speeds[i];
-            const std::string what = "speed '" + s.name.text + "'";
+            const std::string what = say("speed '{}'", s.name.text);
             SourceScope source(*here.m.z, "speed " + s.name.text);
             Mechanism::Speed& made = here.m.speeds[i];
             made.form = here.m.z->name(here.translator.scalar(s.form));
             std::tie(made.row, made.drift) = linear_form(made.form, what, s.form.place(), here.m);
-            if (all_zero(made.row)) throw SceneMistake{{s.form.place(), what + " contains no rate"}};
+            if (all_zero(made.row)) throw SceneMistake{{s.form.place(), say("{} contains no rate", what)}};
             if (has_start) made.start = s.initial ? here.m.z->expand(here.translator.scalar(s.initial)) : ex(0);
         });
 }
@@ -95,8 +96,8 @@ Mechanism built(Building& here) {
     const Scene& scene = here.scene;
     if (scene.polynomial)
         throw ModelError(
-            "the scene has a [polynomial] and no mechanism, so it has no equations of motion; ask for its "
-            "`stability`");
+            say("the scene has a [polynomial] and no mechanism, so it has no equations of motion; ask for its "
+                "`stability`"));
     Mechanism& m = here.m;
     m.name = std::filesystem::path(scene.file).stem().string();
     m.title = scene.title;

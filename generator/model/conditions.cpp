@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "alembert/tolerances.hpp"
+#include "language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 #include "model/energy.hpp"
@@ -33,9 +34,9 @@ void add_norm(Building& here, const FrameQuaternion& quaternion, int index) {
     if (!moves && !(std::abs(square - 1) <= 1e-9))
         throw SceneMistake{
             {quaternion.e[0].place,
-             fmt::format("the sum of squares of the quaternion of frame '{}' is {:.12g} at the start; expected 1: "
-                         "divide each initial value by {:.12g}, or give them as guesses",
-                         quaternion.of.text, square, std::sqrt(square))}};
+             say("the sum of squares of the quaternion of frame '{}' is {:.12g} at the start; expected 1: "
+                 "divide each initial value by {:.12g}, or give them as guesses",
+                 quaternion.of.text, square, std::sqrt(square))}};
     const std::string multiplier = multiplier_of(quaternion).text;
     here.m.constraints.push_back(
         constraint_of({.name = quaternion.of.text,
@@ -58,7 +59,7 @@ std::vector<Mechanism::Constraint> rows_along_axes(Building& here, const Rolling
     for (int k = 0; k < 3; ++k) {
         const std::string name = rule.name.text + "_" + "xyz"[k];
         const ex value = dot(slip, here.places.orientation(rule.axes.text).axis(k), *here.m.z);
-        const auto [row, drift] = linear_form(value, "rolling '" + name + "'", rule.contact.place, here.m);
+        const auto [row, drift] = linear_form(value, say("rolling '{}'", name), rule.contact.place, here.m);
         if (std::all_of(row.begin(), row.end(),
                         [&](const ex& entry) { return is_identically_zero(entry, here.m); })) {
             if (drifts && !drift.is_zero()) return {};
@@ -113,15 +114,15 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
     bool any = false;
     for (int k = 0; k < 3; ++k) {
         const std::string name = rule.name.text + "_" + "xyz"[k];
-        const auto [row, drift] = linear_form(slip[k], "rolling '" + name + "'", rule.contact.place, here.m);
+        const auto [row, drift] = linear_form(slip[k], say("rolling '{}'", name), rule.contact.place, here.m);
         if (std::all_of(row.begin(), row.end(),
                         [&](const ex& entry) { return is_identically_zero(entry, here.m); })) {
             if (drifts && !drift.is_zero())
                 throw SceneMistake{
                     {rule.name.place,
-                     fmt::format("rolling '{}' cannot hold: along {} the contact moves by itself, whatever the "
-                                 "coordinates' rates",
-                                 rule.name.text, "xyz"[k])}};
+                     say("rolling '{}' cannot hold: along {} the contact moves by itself, whatever the "
+                         "coordinates' rates",
+                         rule.name.text, "xyz"[k])}};
             here.translator.know(multipliers[k].text, 0);
             continue;
         }
@@ -142,10 +143,9 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
         {.name = rule.name.text, .axes = rule.axes.text, .along = rows_along_axes(here, rule, slip, drifts)});
     if (!any)
         throw SceneMistake{
-            {rule.name.place,
-             fmt::format("rolling '{}' says nothing: the point of '{}' at the contact moves with '{}' "
-                         "in every motion",
-                         rule.name.text, rule.body.text, rule.on.text)}};
+            {rule.name.place, say("rolling '{}' says nothing: the point of '{}' at the contact moves with '{}' "
+                                  "in every motion",
+                                  rule.name.text, rule.body.text, rule.on.text)}};
 }
 
 void add_constraint(Building& here, const ConstraintRule& rule, int index) {
@@ -170,9 +170,9 @@ void need_closed(Building& here, const Joint& joint, const ex& value, int k) {
     if (std::abs(gap) <= tolerance::initial_values) return;
     throw SceneMistake{
         {joint.name.place,
-         fmt::format("joint '{}' cannot close: in its locked direction {} (translations x, y, z, then rotations, "
-                     "as far as locked) the bodies stand apart {}, and no coordinate can change that",
-                     joint.name.text, k, moves ? "as time goes on" : fmt::format("by {:.6g}", gap))}};
+         say("joint '{}' cannot close: in its locked direction {} (translations x, y, z, then rotations, "
+             "as far as locked) the bodies stand apart {}, and no coordinate can change that",
+             joint.name.text, k, moves ? say("as time goes on") : say("by {:.6g}", gap))}};
 }
 
 void close(Building& here, const Joint& joint, int index) {
@@ -210,9 +210,9 @@ void add_unilateral(Building& here, const UnilateralRule& rule, int index) {
     const double restitution = here.number_at(rule.restitution);
     if (!(restitution >= 0 && restitution <= 1))
         throw SceneMistake{{rule.restitution.place(),
-                            fmt::format("the restitution of '{}' is {}; expected a number from 0 (the bodies stay "
-                                        "together) to 1 (no energy is lost)",
-                                        rule.name.text, restitution)}};
+                            say("the restitution of '{}' is {}; expected a number from 0 (the bodies stay "
+                                "together) to 1 (no energy is lost)",
+                                rule.name.text, restitution)}};
     here.m.unilateral.push_back(
         {.gap = constraint_of({.name = rule.name.text,
                                .holonomic = true,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "model/translate.hpp"
 #include "symbolic/functions.hpp"
 
@@ -21,11 +22,10 @@ GiNaC::ex value_of(const Tree& tree) {
             return exact_number(tree.text);
         case Tree::Kind::name:
             if (tree.text == "pi" && tree.primes == 0) return GiNaC::Pi;
-            throw ModelError(
-                fmt::format("'{}' is no number; expected numbers, pi and functions of them", tree.text));
+            throw ModelError(say("'{}' is no number; expected numbers, pi and functions of them", tree.text));
         case Tree::Kind::call:
             if (const auto value = apply_function(tree.text, args)) return *value;
-            throw ModelError(fmt::format("{}(…) gives no number here", tree.text));
+            throw ModelError(say("{}(…) gives no number here", tree.text));
         case Tree::Kind::sum:
             return GiNaC::add(GiNaC::exvector(args.begin(), args.end()));
         case Tree::Kind::product:
@@ -39,15 +39,15 @@ GiNaC::ex value_of(const Tree& tree) {
         case Tree::Kind::derivative:
             break;
     }
-    throw ModelError("a derivative is no number; expected numbers, pi and functions of them");
+    throw ModelError(say("a derivative is no number; expected numbers, pi and functions of them"));
 }
 
 double nearest_double(const GiNaC::ex& value) {
     const GiNaC::ex number = value.evalf();
     if (!GiNaC::is_a<GiNaC::numeric>(number) || !GiNaC::ex_to<GiNaC::numeric>(number).is_real())
-        throw ModelError("this is no real number");
+        throw ModelError(say("this is no real number"));
     const double result = GiNaC::ex_to<GiNaC::numeric>(number).to_double();
-    if (!std::isfinite(result)) throw ModelError("this is beyond the range of double precision");
+    if (!std::isfinite(result)) throw ModelError(say("this is beyond the range of double precision"));
     return result;
 }
 
@@ -56,7 +56,7 @@ double nearest_double(const GiNaC::ex& value) {
 GiNaC::ex constant_value(const std::string& text) {
     std::vector<Diagnostic> mistakes;
     const Expression expression = parse_expression(text, {}, mistakes);
-    if (!expression) throw ModelError(mistakes.empty() ? "this is no expression" : mistakes[0].message);
+    if (!expression) throw ModelError(mistakes.empty() ? say("this is no expression") : mistakes[0].message);
     try {
         const GiNaC::ex value = value_of(*expression.tree);
         nearest_double(value);
@@ -64,7 +64,7 @@ GiNaC::ex constant_value(const std::string& text) {
     } catch (const ModelError&) {
         throw;
     } catch (const std::exception&) {  // thrown by GiNaC and CLN at poles, for 0^0 and on overflow
-        throw ModelError("this has no value: it divides by zero, or is too large");
+        throw ModelError(say("this has no value: it divides by zero, or is too large"));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "language/say.hpp"
 #include "model/energy.hpp"
 #include "model/translate.hpp"
 
@@ -15,11 +16,11 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr const char* of_second_degree =
+constexpr const char* of_second_degree = to_say(
     ". Only constraints that are linear in the rates determine which displacements are virtual. For others, as in "
     "the "
     "example of Appell and Hamel, the motion depends on the mechanism that keeps them: describe that mechanism by "
-    "constraints that are linear in its rates";
+    "constraints that are linear in its rates");
 
 bool is_nonlinear(const ex& coefficient, const Mechanism& m) {
     for (const ex& slope : m.z->pull_back({{coefficient, 1}}, m.qdot))
@@ -36,8 +37,8 @@ std::pair<std::vector<ex>, ex> linear_form(const ex& value, const std::string& w
     for (int i = 0; i < m.size(); ++i) {
         if (m.z->depends(row[i], m.qdot) && is_nonlinear(row[i], m))
             throw SceneMistake{
-                {at, fmt::format("{} is not linear in the rates; expected a sum of coefficients times rates{}",
-                                 what, advice)}};
+                {at, say("{} is not linear in the rates; expected a sum of coefficients times rates{}", what,
+                         advice)}};
         rest.push_back(-row[i] * m.qdot[i]);
     }
     const ex drift = m.z->name(GiNaC::add(std::move(rest)));
@@ -67,12 +68,12 @@ Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& m) {
         velocity = m.time_derivative({value})[0];
     } else {
         std::tie(made.row, made.drift) =
-            linear_form(value, "constraint '" + rule.name + "'", rule.at, m, of_second_degree);
+            linear_form(value, say("constraint '{}'", rule.name), rule.at, m, of_second_degree);
         if (!rule.drifts) made.drift = 0;
     }
     if (all_zero(made.row))
-        throw SceneMistake{{rule.at, fmt::format("constraint '{}' contains no {}", rule.name,
-                                                 rule.holonomic ? "coordinate" : "rate")}};
+        throw SceneMistake{{rule.at, say("constraint '{}' contains no {}", rule.name,
+                                         rule.holonomic ? say("coordinate") : say("rate"))}};
     made.acceleration = z.name(-m.time_derivative_without_acceleration({velocity})[0]);
     return made;
 }

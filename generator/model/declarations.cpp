@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "alembert/inertia.hpp"
+#include "language/say.hpp"
 #include "model/building.hpp"
 
 namespace alembert {
@@ -108,26 +109,26 @@ void require(Building& here, const Expression& e, const std::string& what, std::
     here.attempt([&] {
         const double value = here.number_at(e);
         if (!std::isfinite(value))
-            throw SceneMistake{{e.place(), what + " is not a finite real number at the scene's values"}};
+            throw SceneMistake{{e.place(), say("{} is not a finite real number at the scene's values", what)}};
         if (least && value < *least)
-            throw SceneMistake{{e.place(), fmt::format("{} is {}; expected zero or more", what, value)}};
+            throw SceneMistake{{e.place(), say("{} is {}; expected zero or more", what, value)}};
     });
 }
 
 void check_values(Building& here) {
-    for (const Parameter& p : here.scene.parameters) require(here, p.value, "parameter '" + p.name.text + "'");
+    for (const Parameter& p : here.scene.parameters) require(here, p.value, say("parameter '{}'", p.name.text));
     for (const Coordinate& c : here.scene.coordinates) {
-        require(here, c.initial, "the initial value of '" + c.name.text + "'");
-        require(here, c.rate, "the initial rate of '" + c.name.text + "'");
+        require(here, c.initial, say("the initial value of '{}'", c.name.text));
+        require(here, c.rate, say("the initial rate of '{}'", c.name.text));
     }
     for (const Speed& s : here.scene.speeds)
-        if (s.initial) require(here, s.initial, "the initial value of '" + s.name.text + "'");
+        if (s.initial) require(here, s.initial, say("the initial value of '{}'", s.name.text));
     for (const Particle& p : here.scene.particles)
-        require(here, p.mass, "the mass of particle '" + p.name.text + "'", 0);
+        require(here, p.mass, say("the mass of particle '{}'", p.name.text), 0);
     for (const Body& b : here.scene.bodies) {
-        require(here, b.mass, "the mass of body '" + b.name.text + "'", 0);
+        require(here, b.mass, say("the mass of body '{}'", b.name.text), 0);
         if (!b.inertia) continue;
-        const std::string what = "the moment of inertia of body '" + b.name.text + "'";
+        const std::string what = say("the moment of inertia of body '{}'", b.name.text);
         if (b.inertia->planar) {
             require(here, *b.inertia->planar, what, 0);
             continue;

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 
@@ -22,19 +23,19 @@ void need_coefficients(Building& here, const FrictionRule& rule) {
     if (sliding < 0)
         throw SceneMistake{
             {rule.coefficient.place(),
-             fmt::format("the coefficient of friction '{}' is {}; expected 0 or more", rule.name.text, sliding)}};
+             say("the coefficient of friction '{}' is {}; expected 0 or more", rule.name.text, sliding)}};
     if (!rule.resting) return;
     const double resting = here.number_at(rule.resting);
     if (resting < sliding)
-        throw SceneMistake{{rule.resting.place(),
-                            fmt::format("the static coefficient of friction '{}' is {}, less than its coefficient "
-                                        "{}; what sticks resists at least as much as what slides",
-                                        rule.name.text, resting, sliding)}};
+        throw SceneMistake{
+            {rule.resting.place(), say("the static coefficient of friction '{}' is {}, less than its coefficient "
+                                       "{}; what sticks resists at least as much as what slides",
+                                       rule.name.text, resting, sliding)}};
     if (sliding == 0 && resting > 0)
-        throw SceneMistake{{rule.coefficient.place(),
-                            fmt::format("friction '{}' has a static coefficient and slides without any; give a "
-                                        "coefficient above 0, however small",
-                                        rule.name.text)}};
+        throw SceneMistake{
+            {rule.coefficient.place(), say("friction '{}' has a static coefficient and slides without any; give a "
+                                           "coefficient above 0, however small",
+                                           rule.name.text)}};
 }
 
 /// The multiplier of the constraint, row or contact of that name.
@@ -56,20 +57,19 @@ Pressing pressing_on(Building& here, const FrictionRule& rule) {
     const std::string meant = nearest(rule.on->text, known);
     throw SceneMistake{
         {rule.on->place,
-         fmt::format(
-             "friction '{}' is on '{}', and no constraint, row of a rolling or joint, or unilateral has this "
+         say("friction '{}' is on '{}', and no constraint, row of a rolling or joint, or unilateral has this "
              "name and a multiplier{}",
              rule.name.text, rule.on->text,
-             !meant.empty()  ? fmt::format("; did you mean '{}'?", meant)
+             !meant.empty()  ? say("; did you mean '{}'?", meant)
              : known.empty() ? ""
-                             : fmt::format("; there are {}", fmt::join(known, ", ")))}};
+                             : say("; there are {}", fmt::join(known, ", ")))}};
 }
 
 // −μ N sign(v)
 void add_friction(Building& here, const FrictionRule& rule, int index) {
     const Origin origin{Origin::Kind::friction, index, rule.name.text};
-    const std::string what = label(origin);
-    SourceScope source(*here.m.z, what);
+    const std::string what = shown_label(origin);
+    SourceScope source(*here.m.z, label(origin));
     need_coefficients(here, rule);
     Mechanism::Friction made{.name = rule.name.text,
                              .slip = here.m.z->name(here.translator.scalar(rule.slip)),
@@ -85,10 +85,10 @@ void add_friction(Building& here, const FrictionRule& rule, int index) {
     } else {
         made.normal = here.translator.scalar(rule.normal);
     }
-    const auto [row, drift] = linear_form(made.slip, "the slip of " + what, rule.slip.place(), here.m);
+    const auto [row, drift] = linear_form(made.slip, say("the slip of {}", what), rule.slip.place(), here.m);
     if (all_zero(row))
         throw SceneMistake{
-            {rule.slip.place(), fmt::format("the slip of {} contains no rate, so nothing slides there", what)}};
+            {rule.slip.place(), say("the slip of {} contains no rate, so nothing slides there", what)}};
     const ex side = *here.translator.applied("sign", {made.slip});
     here.m.loads.push_back(
         {.origin = origin, .pairs = {{made.slip, here.m.z->name(-made.coefficient * made.normal * side)}}});
@@ -101,9 +101,9 @@ void need_given_normal_forces(const Mechanism& m, std::string_view who) {
     for (const Mechanism::Friction& f : m.frictions)
         if (f.multiplier)
             throw ModelError(
-                fmt::format("{} does not know friction whose normal force is a reaction, as that of "
-                            "'{}'; give it as an expression, `normal`, in place of `on`",
-                            who, f.name));
+                say("{} does not know friction whose normal force is a reaction, as that of "
+                    "'{}'; give it as an expression, `normal`, in place of `on`",
+                    who, f.name));
 }
 
 void add_frictions(Building& here) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "model/building.hpp"
 #include "model/energy.hpp"
 #include "model/joints.hpp"
@@ -44,9 +45,9 @@ void add_rotation(Building& here, const Body& b, const ex& mass, int index) {
     if (b.inertia->planar) {
         if (!w[0].is_zero() || !w[1].is_zero())
             throw SceneMistake{
-                {b.inertia->place, fmt::format("body '{}' turns in space and has one moment of inertia; expected "
-                                               "three, [Ixx, Iyy, Izz], or a tensor",
-                                               b.name.text)}};
+                {b.inertia->place, say("body '{}' turns in space and has one moment of inertia; expected "
+                                       "three, [Ixx, Iyy, Izz], or a tensor",
+                                       b.name.text)}};
         rotation.inertia[2] = here.translator.scalar(*b.inertia->planar);
         energy = rotation.inertia[2] * w[2] * w[2] / 2;
     } else {
@@ -64,10 +65,10 @@ void add_rotation(Building& here, const Body& b, const ex& mass, int index) {
         const Vector3 turning = cross(orientation.to_inertial(w, *here.m.z), r, *here.m.z);
         for (int k = 0; k < 3; ++k)
             if (vanishes(d[k] - turning[k], here.m) == false)
-                throw SceneMistake{{b.about->place,
-                                    fmt::format("point '{}' is not fixed in body '{}'; its moments of inertia can "
-                                                "only be given about a point that moves with it",
-                                                b.about->text, b.name.text)}};
+                throw SceneMistake{
+                    {b.about->place, say("point '{}' is not fixed in body '{}'; its moments of inertia can "
+                                         "only be given about a point that moves with it",
+                                         b.about->text, b.name.text)}};
         energy -= mass / 2 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         rotation.about = r;
     }

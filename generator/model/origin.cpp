@@ -3,34 +3,38 @@
 
 #include <fmt/format.h>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
-std::string label(const Origin& origin) {
+namespace {
+
+/// With a place for the number, {0}, and for the name, {1}.
+const char* pattern(const Origin& origin) {
     using Kind = Origin::Kind;
-    const int number = origin.index + 1;
     switch (origin.kind) {
         case Kind::particle:
-            return "particle " + origin.name;
+            return to_say("particle {1}");
         case Kind::body:
-            return "body " + origin.name;
+            return to_say("body {1}");
         case Kind::rotation:
-            return "rotation of body " + origin.name;
+            return to_say("rotation of body {1}");
         case Kind::gravity:
-            return "gravity on " + origin.name;
+            return origin.on_body ? to_say("gravity on body {1}") : to_say("gravity on particle {1}");
         case Kind::spring:
-            return fmt::format("spring {}", number);
+            return to_say("spring {0}");
         case Kind::damper:
-            return fmt::format("damper {}", number);
+            return to_say("damper {0}");
         case Kind::force:
-            return fmt::format("force {} at {}", number, origin.name);
+            return to_say("force {0} at {1}");
         case Kind::torque:
-            return fmt::format("torque {} on {}", number, origin.name);
+            return to_say("torque {0} on {1}");
         case Kind::impulse:
-            return fmt::format("impulse {} at {}", number, origin.name);
+            return to_say("impulse {0} at {1}");
         case Kind::generalized_force:
-            return "force on " + origin.name;
+            return to_say("force on {1}");
         case Kind::generalized_impulse:
-            return "impulse on " + origin.name;
+            return to_say("impulse on {1}");
         case Kind::given_kinetic:
             return "[energy] kinetic";
         case Kind::given_potential:
@@ -40,13 +44,25 @@ std::string label(const Origin& origin) {
         case Kind::rayleigh:
             return "[dissipation]";
         case Kind::friction:
-            return "friction " + origin.name;
+            return to_say("friction {1}");
     }
-    return {};
+    return "";
+}
+
+}  // namespace
+
+std::string label(const Origin& origin) {
+    const int number = origin.index + 1;
+    return fmt::vformat(pattern(origin), fmt::make_format_args(number, origin.name));
+}
+
+std::string shown_label(const Origin& origin) {
+    const int number = origin.index + 1;
+    return translated_with(pattern(origin), fmt::make_format_args(number, origin.name));
 }
 
 Origin gravity_on(const Origin& mass) {
-    return {Origin::Kind::gravity, mass.index, label(mass)};
+    return {Origin::Kind::gravity, mass.index, mass.name, mass.kind == Origin::Kind::body};
 }
 
 }  // namespace alembert

@@ -33,10 +33,14 @@ struct Origin {
     /// Position in the scene's table of that kind; for gravity, in the table of the mass on which it acts.
     int index = 0;
     std::string name = {};  ///< of the particle, body, point, frame or coordinate; empty if the kind has none
+    bool on_body = false;   ///< for gravity: whether the mass is a body
 };
 
 /// "body A", "rotation of body A", "spring 1", "force 2 at P", "[energy] kinetic".
 std::string label(const Origin& origin);
+
+/// The same in the language of the reader; `label` is for emitted code, which is English.
+std::string shown_label(const Origin& origin);
 
 /// Gravity on a particle or body.
 Origin gravity_on(const Origin& mass);

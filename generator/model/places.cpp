@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/places.hpp"
 
+#include "language/say.hpp"
 #include "model/joints.hpp"
 #include "model/parameter_values.hpp"
 
@@ -87,7 +88,7 @@ Vector3 Places::unit_axis(const Rotation& r) {
     const Vector3 a = vector(r.axis);
     const ex square = m_.z->expand(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
     if (ParameterValues(m_).number(square) == 0.0)
-        throw SceneMistake{{r.axis.place, "this axis is the zero vector; expected a direction"}};
+        throw SceneMistake{{r.axis.place, say("this axis is the zero vector; expected a direction")}};
     return scale(1 / sqrt(square), a, *m_.z);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cctype>
 
+#include "language/say.hpp"
 #include "scene/functions.hpp"
 #include "symbolic/functions.hpp"
 #include "symbolic/unspecified.hpp"
@@ -54,23 +55,23 @@ Value Translator::value(const Expression& expression) {
 ex Translator::scalar_of(const Tree& tree) {
     const Value value = evaluate(tree);
     if (const ex* scalar = std::get_if<ex>(&value)) return *scalar;
-    throw SceneMistake{{current_->place(tree.offset),
-                        "a vector stands where a number is expected; take a component "
-                        "with dot(…, ex(N)) or its length with norm(…)"}};
+    throw SceneMistake{
+        {current_->place(tree.offset), say("a vector stands where a number is expected; take a component "
+                                           "with dot(…, ex(N)) or its length with norm(…)")}};
 }
 
 Vector3 Translator::vector_of(const Tree& tree) {
     const Value value = evaluate(tree);
     if (const Vector3* vector = std::get_if<Vector3>(&value)) return *vector;
-    throw SceneMistake{{current_->place(tree.offset), "a number stands where a vector is expected"}};
+    throw SceneMistake{{current_->place(tree.offset), say("a number stands where a vector is expected")}};
 }
 
 ex Translator::differentiated(ex value, int times, const Tree& tree) {
     for (int i = 0; i < times; ++i) {
         if (mechanism_.z->depends(value, without_derivative_))
             throw SceneMistake{{current_->place(tree.offset),
-                                "the derivative of an acceleration, a multiplier or an unknown function: "
-                                "mechanics gives none; differentiate what has rates only"}};
+                                say("the derivative of an acceleration, a multiplier or an unknown function: "
+                                    "mechanics gives none; differentiate what has rates only")}};
         value = mechanism_.time_derivative({value})[0];
     }
     return value;
@@ -133,7 +134,7 @@ Value Translator::named(const Tree& tree) {
     if (auto found = later_.find(tree.text); found != later_.end()) {
         const auto make = std::move(found->second);
         later_[tree.text] = [&tree, place]() -> Value {
-            throw SceneMistake{{place, fmt::format("'{}' is defined by itself, through the geometry", tree.text)}};
+            throw SceneMistake{{place, say("'{}' is defined by itself, through the geometry", tree.text)}};
         };
         const Expression* const here = current_;
         values_[tree.text] = make();
@@ -144,7 +145,7 @@ Value Translator::named(const Tree& tree) {
         const ex* const scalar = std::get_if<ex>(&found->second);
         return scalar ? differentiated(*scalar, tree.primes, tree) : found->second;
     }
-    throw SceneMistake{{place, fmt::format("unknown name '{}' in this expression", tree.text)}};
+    throw SceneMistake{{place, say("unknown name '{}' in this expression", tree.text)}};
 }
 
 Vector3 Translator::rate_of(const Vector3& v) const {
@@ -200,7 +201,7 @@ Value Translator::call(const Tree& tree) {
     if (tree.text == "(-)") {  // x'(-), if it is known
         const std::string name = name_of(0) + "'(-)";
         if (const auto found = values_.find(name); found != values_.end()) return found->second;
-        throw SceneMistake{{current_->place(tree.offset), fmt::format("unknown rate '{}'", name)}};
+        throw SceneMistake{{current_->place(tree.offset), say("unknown rate '{}'", name)}};
     }
     if (tree.text == "vel") return queries_.velocity(name_of(0));
     if (tree.text == "acc") return rate_of(queries_.velocity(name_of(0)));
@@ -225,7 +226,7 @@ Value Translator::call(const Tree& tree) {
         return unspecified_value(
             {.function = open->second, .arguments = args, .orders = std::vector<int>(args.size(), 0)});
     if (const auto value = applied(tree.text, args)) return *value;
-    throw SceneMistake{{current_->place(tree.offset), fmt::format("unknown function '{}'", tree.text)}};
+    throw SceneMistake{{current_->place(tree.offset), say("unknown function '{}'", tree.text)}};
 }
 
 Value Translator::evaluate(const Tree& tree) {
@@ -271,7 +272,7 @@ Value Translator::evaluate(const Tree& tree) {
                         vector = std::get<Vector3>(value);
                     else
                         throw SceneMistake{{current_->place(arg->offset),
-                                            "a product of two vectors; write dot(a,b) or cross(a,b)"}};
+                                            say("a product of two vectors; write dot(a,b) or cross(a,b)")}};
                 }
                 const ex product = GiNaC::mul(std::move(factors));
                 if (vector) return scale(product, *vector, z);
@@ -279,12 +280,12 @@ Value Translator::evaluate(const Tree& tree) {
             }
         }
     } catch (const GiNaC::pole_error&) {
-        throw SceneMistake{{current_->place(tree.offset), "this divides by zero"}};
+        throw SceneMistake{{current_->place(tree.offset), say("this divides by zero")}};
     } catch (const std::overflow_error&) {
-        throw SceneMistake{{current_->place(tree.offset), "this divides by zero"}};
+        throw SceneMistake{{current_->place(tree.offset), say("this divides by zero")}};
     } catch (const std::domain_error&) {
-        throw SceneMistake{
-            {current_->place(tree.offset), "this is 0^0, which has no value; expected another base or exponent"}};
+        throw SceneMistake{{current_->place(tree.offset),
+                            say("this is 0^0, which has no value; expected another base or exponent")}};
     }
     return ex(0);
 }

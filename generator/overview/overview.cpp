@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/formulas.hpp"
 #include "state/assemble.hpp"
@@ -193,43 +194,44 @@ Overview overview(Scene scene, const OverviewOptions& options) {
     Overview all{.scene = std::move(begun.scene), .mechanism = std::move(begun.mechanism)};
     all.warnings = std::move(begun.warnings);
     all.start = start_state(all.mechanism);
-    const auto tell = [&](const char* what) {
+    const auto tell = [&](const std::string& what) {
         if (options.wishes.progress) options.wishes.progress(what, 0);
     };
     const Scene& s = all.scene;
     if (!options.section.empty()) section_rule(all, options.section);  // throws before anything long is done
     const bool is_readable = all.mechanism.size() <= readable_size;
-    tell("deriving");
+    tell(say("deriving"));
     all.derived = attempted([&] { return derive(s, {.by = options.by}); });
-    tell("checking claims");
-    all.checked = s.claims.empty() ? left_out<CheckedScene>("The scene makes no claims.")
+    tell(say("checking claims"));
+    all.checked = s.claims.empty() ? left_out<CheckedScene>(say("The scene makes no claims."))
                                    : attempted([&] { return check(s, options.by); });
-    tell("comparing formalisms");
-    const std::string too_large =
-        "Left out here, as the scene is large; the program does it when asked: alembert ";
+    tell(say("comparing formalisms"));
+    const auto too_large = [](const char* verb) {
+        return say("Left out here, as the scene is large; the program does it when asked: alembert {}", verb);
+    };
     all.agreed = is_readable ? attempted([&] { return agree(s, work_of_agreement); })
-                             : left_out<Agreed>(too_large + "agree");
-    tell("auditing constraints");
-    all.audited = is_readable ? attempted([&] { return audit(s); }) : left_out<Audited>(too_large + "audit");
-    tell("looking for equilibria");
+                             : left_out<Agreed>(too_large("agree"));
+    tell(say("auditing constraints"));
+    all.audited = is_readable ? attempted([&] { return audit(s); }) : left_out<Audited>(too_large("audit"));
+    tell(say("looking for equilibria"));
     const std::string too_large_here = too_large_to_judge(all.mechanism);
     all.rest = too_large_here.empty() ? attempted([&] { return judged(s, options.by); })
                                       : left_out<JudgedEquilibria>(too_large_here);
-    tell("drawing");
+    tell(say("drawing"));
     all.drawing = attempted([&] { return draw(s, all.mechanism); });
     all.struck = s.impulses.empty() && s.generalized_impulses.empty()
-                     ? left_out<Struck>("The scene has no impulses.")
+                     ? left_out<Struck>(say("The scene has no impulses."))
                      : attempted([&] { return impact(s); });
     all.emitted = attempted([&] { return emission(s, {.by = options.by}); });
     all.motion = options.moves ? attempted([&] { return watched(all, options); })
-                               : left_out<WatchedMotion>("The scene was not run.");
+                               : left_out<WatchedMotion>(say("The scene was not run."));
     if (options.measures) {
         BenchOptions wishes{.wishes = options.wishes};
         wishes.wishes.by = options.by;
         wishes.wishes.sample = 0;
         all.bench = attempted([&] { return bench(s, wishes); });
     } else {
-        all.bench = left_out<Bench>("No methods were measured.");
+        all.bench = left_out<Bench>(say("No methods were measured."));
     }
     return all;
 }

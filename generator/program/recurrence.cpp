@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "program/series_building.hpp"
 
 namespace alembert {
@@ -135,7 +136,8 @@ double Recurrences::products() const {
 }
 
 std::optional<std::string> obstacle_to_recurrences(const Program& program, bool with_work) {
-    if (program.singular) return "the mass matrix is singular at every state: there are no accelerations to emit";
+    if (program.singular)
+        return say("the mass matrix is singular at every state: there are no accelerations to emit");
     std::vector<int> roots = program.right_hand_side();
     const std::vector<int> power = with_work ? program.nodes_of(Group::power) : std::vector<int>();
     roots.insert(roots.end(), power.begin(), power.end());
@@ -144,12 +146,12 @@ std::optional<std::string> obstacle_to_recurrences(const Program& program, bool 
         if (node.op == Op::unspecified) program.refuse_unspecified(node);
         if (node.is_constant()) continue;
         if (node.op == Op::abs || node.op == Op::sign || node.op == Op::min || node.op == Op::max)
-            return fmt::format(
+            return say(
                 "method 'taylor' needs functions that have a power series everywhere, and {}(...) has a kink; "
                 "take dop853",
                 name_of(node.op));
         if (node.op == Op::variable && node.variable.kind == Variable::Kind::unknown)
-            return "method 'taylor': the equations name something that no state gives; take dop853";
+            return say("method 'taylor': the equations name something that no state gives; take dop853");
     }
     return std::nullopt;
 }

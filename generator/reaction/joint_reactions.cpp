@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "lower/held_loads.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
@@ -106,8 +107,8 @@ std::array<double, 3> three(const std::vector<double>& value, const std::vector<
 
 JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     if (mechanism.given_lagrangian)
-        throw ModelError(
-            "reactions of joints need masses and loads; a given Lagrangian does not say which body bears what");
+        throw ModelError(say(
+            "reactions of joints need masses and loads; a given Lagrangian does not say which body bears what"));
     Mechanism m = build(released(scene));
     for (std::size_t r = 0; r < mechanism.rollings.size(); ++r)
         if (mechanism.rollings[r].is_along) m = along_axes(std::move(m), static_cast<int>(r));

@@ -5,19 +5,21 @@
 
 #include <array>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 const char* name_of(Agreement::Verdict verdict) {
-    return std::array{"proved", "refuted", "undecided"}[static_cast<std::size_t>(verdict)];
+    return std::array{to_say("proved"), to_say("refuted"), to_say("undecided")}[static_cast<std::size_t>(verdict)];
 }
 
 std::string how_it_was_proved(const Agreement& a) {
     if (a.normal_form)
-        return fmt::format(
+        return say(
             "The normal forms of all entries of M and f are equal; so are the accelerations at {} random points "
             "modulo 2^61 - 1\n",
             a.points);
-    return fmt::format(
+    return say(
         "The accelerations are equal at {} random points modulo 2^61 - 1; the chance that a difference was missed "
         "is below 2^{:.0f}\n",
         a.points, a.failure);
@@ -46,10 +48,10 @@ std::string as_text(const Agreed& agreed, const Ink& ink) {
                                                                          : ink.unsure;
     std::string names;
     for (const Equations& e : agreed.derivations.equations) names += (names.empty() ? "" : ", ") + e.formalism;
-    std::string text = fmt::format("{}: {}{}{}\n", names, tone, name_of(a.verdict), ink.end);
+    std::string text = fmt::format("{}: {}{}{}\n", names, tone, translated(name_of(a.verdict)), ink.end);
     text += a.verdict == Agreement::Verdict::proved ? how_it_was_proved(a) : a.reason + "\n";
     for (const auto& [name, reason] : agreed.derivations.refused)
-        text += fmt::format("{} does not apply: {}\n", name, reason);
+        text += say("{} does not apply: {}\n", name, reason);
     return text + fmt::format("{:.3f} s\n", agreed.seconds);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "language/say.hpp"
 #include "notation/text.hpp"
 #include "report/page.hpp"
 
@@ -12,8 +13,8 @@ namespace alembert {
 
 namespace {
 
-const char* answer(const std::optional<bool>& value) {
-    return value ? (*value ? "yes" : "no") : "undecided";
+std::string answer(const std::optional<bool>& value) {
+    return value ? (*value ? say("yes") : say("no")) : say("undecided");
 }
 
 }  // namespace
@@ -74,57 +75,60 @@ std::string as_text(const Audited& audited) {
     const Audit& audit = audited.audit;
     const Mechanism& m = audited.mechanism;
     std::string page;
-    put(page, "{} coordinate{}, rank {}: {} degree{} of freedom", m.size(), m.size() == 1 ? "" : "s", audit.rank,
-        audit.degrees_of_freedom, audit.degrees_of_freedom == 1 ? "" : "s");
+    say_on(page, "{} coordinate{}, rank {}: {} degree{} of freedom", m.size(), m.size() == 1 ? "" : "s",
+           audit.rank, audit.degrees_of_freedom, audit.degrees_of_freedom == 1 ? "" : "s");
     if (audit.integrals && m.size() - *audit.integrals != audit.degrees_of_freedom)
-        put(page, " (independent rates), {} coordinates that can be reached", m.size() - *audit.integrals);
+        say_on(page, " (independent rates), {} coordinates that can be reached", m.size() - *audit.integrals);
     put(page, "\n");
     if (!m.identities.empty())
-        put(page, "Left out, since they hold wherever the bodies are: {}\n", fmt::join(m.identities, ", "));
+        say_on(page, "Left out, since they hold wherever the bodies are: {}\n", fmt::join(m.identities, ", "));
     for (const Mechanism::Friction& f : m.frictions)
-        put(page, "friction {} has three modes: it sticks, or slips one way or the other\n", f.name);
+        say_on(page, "friction {} has three modes: it sticks, or slips one way or the other\n", f.name);
     if (audit.constraints.empty()) {
-        put(page, "There are no constraints.\n");
+        say_on(page, "There are no constraints.\n");
         return page;
     }
     std::size_t width = 10;
     for (const AuditedConstraint& c : audit.constraints) width = std::max(width, c.name.size());
-    put(page, "\n{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9}\n", "constraint", width, "kind",
-        "time", "integrable", "alone", "redundant", "position", "velocity");
+    put(page, "\n{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9}\n", say("constraint"), width,
+        say("kind"), say("time"), say("integrable"), say("alone"), say("redundant"), say("position"),
+        say("velocity"));
     const auto size = [](double residual) {
-        return std::isfinite(residual) ? fmt::format("{:.2g}", residual) : std::string("unknown");
+        return std::isfinite(residual) ? fmt::format("{:.2g}", residual) : say("unknown");
     };
     for (const AuditedConstraint& c : audit.constraints)
         put(page, "{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9}\n", c.name, width,
-            c.holonomic ? "holonomic" : "nonholonomic", c.rheonomic ? "rheonomic" : "scleronomic",
-            answer(c.integrable), answer(c.alone), c.redundant ? "yes" : "no",
-            c.holonomic ? size(c.residual[0]) : "-", size(c.residual[1]));
+            c.holonomic ? say("holonomic") : say("nonholonomic"),
+            c.rheonomic ? say("rheonomic") : say("scleronomic"), answer(c.integrable), answer(c.alone),
+            c.redundant ? say("yes") : say("no"), c.holonomic ? size(c.residual[0]) : "-", size(c.residual[1]));
     put(page, "\n");
     for (const AuditedConstraint& c : audit.constraints) {
-        if (c.integral) put(page, "{}: {} = const\n", c.name, text(*c.integral));
+        if (c.integral) say_on(page, "{}: {} = const\n", c.name, text(*c.integral));
         for (const std::string& note : c.notes) put(page, "{}: {}\n", c.name, note);
     }
     for (const auto& [name, integral] : audit.combinations)
-        put(page, "{} is integrable{}\n", name, integral ? fmt::format(": {} = const", text(*integral)) : "");
+        say_on(page, "{} is integrable{}\n", name, integral ? say(": {} = const", text(*integral)) : "");
     for (const std::string& note : audit.notes) put(page, "{}\n", note);
     for (const Adjusted& a : audit.adjusted)
-        put(page, "adjusted {} from {:.6g} to {:.17g}\n", a.name, a.from, a.to);
+        say_on(page, "adjusted {} from {:.6g} to {:.17g}\n", a.name, a.from, a.to);
     for (const SingularPose& pose : audit.singular_poses) {
         std::string where, among;
         for (int i = 0; i < m.size(); ++i)
             where += fmt::format("{}{} = {:.10g}", i == 0 ? "" : ", ", m.q[i].get_name(), pose.q[i]);
         for (const int k : pose.among)
             among += fmt::format("{}'{}'", among.empty() ? "" : ", ", m.constraints[k].name);
-        put(page, "the rank drops to {} {}at {}: {} {}\n", pose.rank, pose.given ? "at the initial state, " : "",
-            where, among, pose.among.size() == 1 ? "has no row left" : "become dependent");
+        say_on(page, "the rank drops to {} {}at {}: {} {}\n", pose.rank,
+               pose.given ? say("at the initial state, ") : "", where, among,
+               pose.among.size() == 1 ? say("has no row left") : say("become dependent"));
     }
-    put(page, "The rank is that at states which obey the constraints, with the scene's parameters{}.\n",
-        audit.exact_rank ? "; exact arithmetic modulo 2^61 - 1 finds the same" : ", in floating point");
+    say_on(
+        page, "The rank is that at states which obey the constraints, with the scene's parameters{}.\n",
+        audit.exact_rank ? say("; exact arithmetic modulo 2^61 - 1 finds the same") : say(", in floating point"));
     if (audit.failure < 0)
-        put(page,
-            "Integrable: Frobenius' condition, exactly, for general parameters; the chance of a wrong yes is "
-            "below 2^{:.0f}.\n",
-            audit.failure);
+        say_on(page,
+               "Integrable: Frobenius' condition, exactly, for general parameters; the chance of a wrong yes is "
+               "below 2^{:.0f}.\n",
+               audit.failure);
     return page;
 }
 

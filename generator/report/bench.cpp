@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 #include "report/work_precision.hpp"
 
@@ -60,7 +61,7 @@ std::vector<Curve> curves_of(const std::vector<Measured>& runs) {
 
 /// Adds the fastest run of each library at each error.
 void add_best(std::string& page, const std::vector<Measured>& runs) {
-    put(page, "\nfastest to an error of at most\n");
+    say_on(page, "\nfastest to an error of at most\n");
     for (int decade = 3; decade <= 13; ++decade) {
         std::map<bool, const Measured*> best;
         for (const Measured& run : runs) {
@@ -76,14 +77,15 @@ void add_best(std::string& page, const std::vector<Measured>& runs) {
                                     ours ? best[ours]->method : best[ours]->who + " " + best[ours]->method,
                                     1e6 * best[ours]->seconds);
         if (best[true] != nullptr && best[false] != nullptr)
-            line += fmt::format("   ratio {:.2f}", best[true]->seconds / best[false]->seconds);
+            line += say("   ratio {:.2f}", best[true]->seconds / best[false]->seconds);
         put(page, "{}\n", line);
     }
 }
 
 void add_runs(std::string& page, const std::vector<Measured>& runs) {
-    put(page, "{:<22}{:>11}{:>11}{:>13}{:>12}{:>9}{:>11}{:>11}{:>11}\n", "method", "tolerance", "error", "time us",
-        "evaluations", "steps", "energy", "constraint", "momentum");
+    put(page, "{:<22}{:>11}{:>11}{:>13}{:>12}{:>9}{:>11}{:>11}{:>11}\n", say("method"), say("tolerance"),
+        say("error"), say("time us"), say("evaluations"), say("steps"), say("energy"), say("constraint"),
+        say("momentum"));
     const auto cell = [](const std::optional<double>& value) {
         return value ? fmt::format("{:.1e}", *value) : std::string("-");
     };
@@ -91,7 +93,7 @@ void add_runs(std::string& page, const std::vector<Measured>& runs) {
         const std::string name = run.who == "alembert" ? run.method : run.who + " " + run.method;
         const std::string given = run.step ? fmt::format("h {:.1e}", *run.step) : cell(run.tolerance);
         put(page, "{:<22}{:>11}{:>11}{:>13.1f}{:>12}{:>9}{:>11}{:>11}{:>11}\n", name, given,
-            run.failure.empty() ? cell(run.error) : "failed", 1e6 * run.seconds, run.evaluations, run.steps,
+            run.failure.empty() ? cell(run.error) : say("failed"), 1e6 * run.seconds, run.evaluations, run.steps,
             cell(run.energy_drift), cell(run.constraint_error), cell(run.momentum_error));
     }
 }
@@ -130,8 +132,9 @@ Json as_json(const Bench& b) {
 
 std::string as_text(const Bench& b) {
     std::string page;
-    put(page, "{}: {} operations a right-hand side; to t = {:g}\n", b.formulation, b.operations, b.end);
-    put(page, "reference: {} digits, by {}\n\n", b.reference.digits, b.reference.by);
+    say_on(page, "{}: {} operations a right-hand side; to t = {:g}\n", translated_parts(b.formulation),
+           b.operations, b.end);
+    say_on(page, "reference: {} digits, by {}\n\n", b.reference.digits, b.reference.by);
     add_runs(page, b.runs);
     add_best(page, b.runs);
     return page;
@@ -143,7 +146,7 @@ std::string as_csv(const Bench& b) {
 
 std::string as_svg(const Bench& b) {
     const std::string& name = b.mechanism.title.empty() ? b.mechanism.name : b.mechanism.title;
-    return work_precision(curves_of(b.runs), fmt::format("{} until t = {:g}", name, b.end));
+    return work_precision(curves_of(b.runs), say("{} until t = {:g}", name, b.end));
 }
 
 }  // namespace alembert

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/branches.hpp"
 #include "report/page.hpp"
 
@@ -130,21 +131,21 @@ struct Panel {
 void add_legend(std::string& svg, const Branches& found) {
     double row = top + 12;
     const double at = width - right + 16;
-    const auto line = [&](const char* words, Stable stable) {
+    const auto line = [&](const std::string& words, Stable stable) {
         put(svg,
             "<path d='M{0} {1}h34' stroke='#1f6fb4' stroke-width='1.8'{2}/><text x='{3}' y='{4}'>{5}</text>\n", at,
             row, dash_of(stable), at + 42, row + 4, words);
         row += 20;
     };
-    line("stable", Stable::yes);
-    line("unstable", Stable::no);
-    line("undecided", Stable::undecided);
+    line(say("stable"), Stable::yes);
+    line(say("unstable"), Stable::no);
+    line(say("undecided"), Stable::undecided);
     std::vector<PointKind> kinds;
     for (const SpecialPoint& point : found.points)
         if (std::find(kinds.begin(), kinds.end(), point.kind) == kinds.end()) kinds.push_back(point.kind);
     for (const PointKind kind : kinds) {
         put(svg, "<circle cx='{}' cy='{}' r='4' fill='{}'/><text x='{}' y='{}'>{}</text>\n", at + 17, row,
-            colour_of(kind), at + 42, row + 4, name_of(kind));
+            colour_of(kind), at + 42, row + 4, translated(name_of(kind)));
         row += 20;
     }
 }

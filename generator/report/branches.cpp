@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/branches.hpp"
 
+#include "language/say.hpp"
 #include "report/equilibria.hpp"
 #include "report/page.hpp"
 
@@ -37,24 +38,24 @@ std::string as_text(const Branches& found) {
     const Mechanism& m = found.mechanism;
     std::string page;
     if (!found.scene.title.empty()) put(page, "{}\n\n", found.scene.title);
-    put(page, "{} branch{} of equilibria for {} from {} to {}\n", found.branches.size(),
-        found.branches.size() == 1 ? "" : "es", found.parameter, found.from, found.to);
+    say_on(page, "{} branch{} of equilibria for {} from {} to {}\n", found.branches.size(),
+           found.branches.size() == 1 ? "" : "es", found.parameter, found.from, found.to);
     for (std::size_t k = 0; k < found.branches.size(); ++k) {
         const Branch& branch = found.branches[k];
         double low = HUGE_VAL, high = -HUGE_VAL;
         for (const BranchPoint& point : branch.points)
             low = std::min(low, point.parameter), high = std::max(high, point.parameter);
-        put(page, "  {:>2}. {} from {:.10g} to {:.10g}, {} points{}\n", k + 1, found.parameter, low, high,
-            branch.points.size(), branch.closed ? ", closed" : "");
+        say_on(page, "  {:>2}. {} from {:.10g} to {:.10g}, {} points{}\n", k + 1, found.parameter, low, high,
+               branch.points.size(), branch.closed ? say(", closed") : "");
     }
     put(page, "\n");
     for (const SpecialPoint& point : found.points) {
-        put(page, "{} at {} = {:.12g}\n", name_of(point.kind), found.parameter, point.parameter);
+        say_on(page, "{} at {} = {:.12g}\n", translated(name_of(point.kind)), found.parameter, point.parameter);
         for (int i = 0; i < m.size(); ++i)
             if (found.essential[i]) put(page, "     {} = {:.10g}\n", m.q[i].get_name(), point.q[i] + 0.0);
     }
-    if (found.points.empty()) put(page, "no folds or bifurcations\n");
-    if (found.cut) put(page, "At least one branch was given up before its end.\n");
+    if (found.points.empty()) say_on(page, "no folds or bifurcations\n");
+    if (found.cut) say_on(page, "At least one branch was given up before its end.\n");
     return page;
 }
 

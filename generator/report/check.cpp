@@ -5,24 +5,27 @@
 
 #include <array>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 const char* name_of(Verdict verdict) {
-    return std::array{"proved", "refuted", "undecided", "vacuous"}[static_cast<std::size_t>(verdict)];
+    return std::array{to_say("proved"), to_say("refuted"), to_say("undecided"),
+                      to_say("vacuous")}[static_cast<std::size_t>(verdict)];
 }
 
 std::string words_of(const Slip& slip) {
-    if (slip.kind == "sign") return "a sign: of the term " + slip.term;
-    if (slip.kind == "factor") return "a factor: in the term " + slip.term;
-    if (slip.kind == "lost_dot") return "a lost dot or square: in the term " + slip.term;
-    if (slip.kind == "missing_term") return "a term is missing: " + slip.term;
-    if (slip.kind == "extra_term") return "a term too many: " + slip.term;
-    if (slip.kind == "swapped_trig") return "sine and cosine exchanged: in the term " + slip.term;
-    if (slip.kind == "wrong_argument") return "another angle: in the term " + slip.term;
-    if (slip.kind == "wrong_arm") return "another length or arm: in the term " + slip.term;
-    if (slip.kind == "wrong_row") return "a force that belongs into another equation: " + slip.term;
-    if (slip.kind == "wrong_unit") return "a term of another dimension than the others: " + slip.term;
-    return "unknown";
+    if (slip.kind == "sign") return say("a sign: of the term {}", slip.term);
+    if (slip.kind == "factor") return say("a factor: in the term {}", slip.term);
+    if (slip.kind == "lost_dot") return say("a lost dot or square: in the term {}", slip.term);
+    if (slip.kind == "missing_term") return say("a term is missing: {}", slip.term);
+    if (slip.kind == "extra_term") return say("a term too many: {}", slip.term);
+    if (slip.kind == "swapped_trig") return say("sine and cosine exchanged: in the term {}", slip.term);
+    if (slip.kind == "wrong_argument") return say("another angle: in the term {}", slip.term);
+    if (slip.kind == "wrong_arm") return say("another length or arm: in the term {}", slip.term);
+    if (slip.kind == "wrong_row") return say("a force that belongs into another equation: {}", slip.term);
+    if (slip.kind == "wrong_unit") return say("a term of another dimension than the others: {}", slip.term);
+    return say("unknown");
 }
 
 namespace {
@@ -58,26 +61,27 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     const std::string& tone = c.verdict == Verdict::proved    ? ink.good
                               : c.verdict == Verdict::refuted ? ink.bad
                                                               : ink.unsure;
-    std::string page = fmt::format("{}{:<9}{}  {}\n", tone, name_of(c.verdict), ink.end, text_of(claim.equation));
+    std::string page =
+        fmt::format("{}{:<9}{}  {}\n", tone, translated(name_of(c.verdict)), ink.end, text_of(claim.equation));
     const auto line = [&page](const std::string& label, const std::string& text) {
         page += fmt::format("{:<9}  {}{}\n", "", label, text);
     };
     if (!claim.source.empty()) line("", claim.source);
-    if (!c.where.empty()) line("where ", fmt::format("{}", fmt::join(c.where, ", ")));
+    if (!c.where.empty()) line(say("where "), fmt::format("{}", fmt::join(c.where, ", ")));
     if (!c.reason.empty()) line("", c.reason);
     if (c.verdict != Verdict::refuted) return page;
-    if (!c.nearest.empty()) line("nearest right equation: ", c.nearest);
-    if (!c.difference.empty()) line("the claim has beyond that: ", c.difference);
+    if (!c.nearest.empty()) line(say("nearest right equation: "), c.nearest);
+    if (!c.difference.empty()) line(say("the claim has beyond that: "), c.difference);
     if (c.likely) {
-        line("likely ", words_of(*c.likely));
-        line("right is: ", c.likely->repair);
+        line(say("likely "), words_of(*c.likely));
+        line(say("right is: "), c.likely->repair);
     }
     if (!c.counterexample.empty()) {
         std::string state;
         for (const auto& [name, value] : c.counterexample)
             state += (state.empty() ? "" : ", ") + name + " = " + value;
-        line("it fails at ", state);
-        line("where left - right = ", c.residual);
+        line(say("it fails at "), state);
+        line(say("where left - right = "), c.residual);
     }
     return page;
 }
@@ -97,8 +101,9 @@ std::string as_text(const CheckedScene& checked, const Ink& ink) {
     std::string page;
     for (std::size_t k = 0; k < checked.checked.claims.size(); ++k)
         page += text_of(checked.scene.claims[k], checked.checked.claims[k], ink);
-    return page + (checked.checked.complete ? "With the constraints, the claims that hold determine the motion.\n"
-                                            : "The claims that hold do not determine the motion.\n");
+    return page + (checked.checked.complete
+                       ? say("With the constraints, the claims that hold determine the motion.\n")
+                       : say("The claims that hold do not determine the motion.\n"));
 }
 
 }  // namespace alembert

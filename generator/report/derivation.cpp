@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "language/say.hpp"
 #include "notation/latex.hpp"
 #include "notation/text.hpp"
 #include "report/formula_page.hpp"
@@ -22,12 +23,12 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     for (const Phrase& q : shown.coordinates) names += (names.empty() ? "" : ", ") + n.inline_phrase(q);
     const int freedom = shown.degrees_of_freedom;
     std::vector<Block> blocks{
-        {fmt::format("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
-                     freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
+        {say("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
+             freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
          {}}};
 
     if (!shown.angular.empty())
-        blocks.push_back({"Angular velocities along the axes of the bodies:", statements(shown.angular)});
+        blocks.push_back({say("Angular velocities along the axes of the bodies:"), statements(shown.angular)});
     std::vector<Statement> energies = shown.energies;
     const auto total = [&](const char* letter, const Phrase& value) {
         energies.push_back({Statement::Kind::energy, letter, "", {}, value});
@@ -38,11 +39,12 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
         total("T", shown.kinetic);
         total("V", shown.potential);
     }
-    blocks.push_back(
-        {shown.lagrangian ? "2. The Lagrangian, as the scene gives it:" : "2. Kinetic and potential energy:",
-         statements(energies)});
-    blocks.push_back({shown.forces.empty() ? "3. No force does virtual work beside what is in the energies."
-                                           : "3. Generalized forces, from the virtual work dW = sum of Q(q) dq:",
+    blocks.push_back({shown.lagrangian ? say("2. The Lagrangian, as the scene gives it:")
+                                       : say("2. Kinetic and potential energy:"),
+                      statements(energies)});
+    blocks.push_back({shown.forces.empty()
+                          ? say("3. No force does virtual work beside what is in the energies.")
+                          : say("3. Generalized forces, from the virtual work dW = sum of Q(q) dq:"),
                       statements(shown.forces)});
     for (std::size_t k = 0; k < shown.sections.size(); ++k) {
         const Section& section = shown.sections[k];
@@ -51,8 +53,8 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
             blocks.back().equalities.emplace_back(n.phrase(left), n.phrase(right));
     }
     if (!shown.sections.empty()) return blocks;
-    blocks.push_back({shown.lagrangian ? "4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q:"
-                                       : "4. For Lagrange's equations d/dt dT/dq' - dT/dq = Q:",
+    blocks.push_back({shown.lagrangian ? say("4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q:")
+                                       : say("4. For Lagrange's equations d/dt dT/dq' - dT/dq = Q:"),
                       statements(shown.derivatives)});
     return blocks;
 }
@@ -62,8 +64,8 @@ std::string scaling(const Phrase& row, const Phrase& divisor, const Notation& n)
     const bool is_fraction = divisor.kind == Phrase::Kind::quotient && divisor.args[0].is_number(1);
     const bool is_part = divisor.kind == Phrase::Kind::number && divisor.value < 1;
     const Phrase factor = is_fraction ? divisor.args[1] : is_part ? phrases::number(1 / divisor.value) : divisor;
-    return fmt::format("The equation of {} has been {} by {}.", n.inline_phrase(row),
-                       is_fraction || is_part ? "multiplied" : "divided", n.inline_phrase(factor));
+    return say("The equation of {} has been {} by {}.", n.inline_phrase(row),
+               is_fraction || is_part ? say("multiplied") : say("divided"), n.inline_phrase(factor));
 }
 
 }  // namespace
@@ -127,7 +129,7 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
     const Derivation& shown = d.shown;
     std::vector<Block> blocks;
     if (!shown.definitions.empty()) {
-        blocks.push_back({"The equations are beyond the readable size; intermediate symbols:", {}});
+        blocks.push_back({say("The equations are beyond the readable size; intermediate symbols:"), {}});
         for (const auto& [name, value] : shown.definitions)
             blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
         for (const Section& section : shown.sections) {
@@ -144,70 +146,69 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
     if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
     for (const auto& [speed, form] : shown.speeds)
         blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
-    blocks.push_back({fmt::format("Equations of motion ({}{}):", shown.title,
-                                  !d.by.empty()                     ? ""
-                                  : !d.equations.speeds_are_rates() ? "; the scene has generalized speeds"
-                                  : free && d.has_unilateral_reactions
-                                      ? "; the coordinates are independent while all gaps are open"
-                                  : free ? "; the coordinates are independent"
-                                         : "; the coordinates are not independent"),
+    blocks.push_back({say("Equations of motion ({}{}):", shown.title,
+                          !d.by.empty()                     ? ""
+                          : !d.equations.speeds_are_rates() ? say("; the scene has generalized speeds")
+                          : free && d.has_unilateral_reactions
+                              ? say("; the coordinates are independent while all gaps are open")
+                          : free ? say("; the coordinates are independent")
+                                 : say("; the coordinates are not independent")),
                       {}});
     for (const ReadableEquation& e : shown.equations)
         blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
     if (!shown.abbreviations.empty()) {
-        blocks.push_back({"with the scene's definitions:", {}});
+        blocks.push_back({say("with the scene's definitions:"), {}});
         for (const auto& [name, value] : shown.abbreviations)
             blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
     }
     if (shown.has_unit_quaternions)
-        blocks.push_back({"e.e = 1 of each quaternion e has been used in all terms, after differentiation.", {}});
+        blocks.push_back(
+            {say("e.e = 1 of each quaternion e has been used in all terms, after differentiation."), {}});
     for (const Phrase& positive : shown.positive)
-        blocks.push_back({fmt::format("on the sheet of roots where {} > 0", n.inline_phrase(positive)), {}});
+        blocks.push_back({say("on the sheet of roots where {} > 0", n.inline_phrase(positive)), {}});
     if (!shown.kinematics.empty()) {
-        blocks.push_back({"with the rates of the coordinates:", {}});
+        blocks.push_back({say("with the rates of the coordinates:"), {}});
         for (const auto& [rate, value] : shown.kinematics)
             blocks.back().equalities.emplace_back(n.phrase(rate), n.phrase(value));
     }
     for (const Phrase& pole : shown.poles)
-        blocks.push_back(
-            {fmt::format("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
+        blocks.push_back({say("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
     if (!shown.constraints.empty()) {
         const bool all = d.equations.A.empty();
-        blocks.push_back(
-            {all ? "The constraints, which the speeds obey:"
-                 : "with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):",
-             {}});
+        blocks.push_back({all ? say("The constraints, which the speeds obey:")
+                              : say("with the constraints (multipliers stand on the right with a plus: M q'' = F "
+                                    "+ A^T lambda):"),
+                          {}});
         for (const auto& [name, phrase] : shown.constraints)
             blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
     }
     if (!shown.shares.empty()) {
-        blocks.push_back({"with the least reactions, since constraints depend on each other:", {}});
+        blocks.push_back({say("with the least reactions, since constraints depend on each other:"), {}});
         for (const ReadableEquation& e : shown.shares)
             blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
     }
     if (!shown.reactions.empty()) {
-        blocks.push_back({"Reactions as generalized forces, Q = A^T lambda:", {}});
+        blocks.push_back({say("Reactions as generalized forces, Q = A^T lambda:"), {}});
         for (const Statement& r : shown.reactions)
             blocks.back().equalities.emplace_back(n.left(r), n.phrase(r.value));
     }
     if (!d.joint_loads.empty()) {
-        blocks.push_back(
-            {"Joints bear, as force and moment on the child at its point, along the joint's axes in the parent:",
-             {}});
+        blocks.push_back({say("Joints bear, as force and moment on the child at its point, along the joint's axes "
+                              "in the parent:"),
+                          {}});
         for (const Statement& s : d.joint_loads)
             blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
     }
     if (!shown.gaps.empty()) {
         blocks.push_back(
-            {"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});
+            {say("with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:"), {}});
         for (const auto& [name, phrase] : shown.gaps)
             blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}),
                                                   n.phrase(phrase));
     }
     for (const Derivation::Rubs& f : shown.frictions)
         blocks.push_back(
-            {fmt::format(
-                 "Friction '{}' acts with the force {} against the sliding velocity {}. Where that is 0 it "
+            {say("Friction '{}' acts with the force {} against the sliding velocity {}. Where that is 0 it "
                  "sticks: the velocity stays 0, and a force of at most {} takes the place of the sliding "
                  "one.",
                  f.name, n.inline_phrase(f.sliding), n.inline_phrase(f.slip), n.inline_phrase(f.sticking)),

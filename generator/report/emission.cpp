@@ -2,6 +2,7 @@
 #include "report/emission.hpp"
 
 #include "emit/layout.hpp"
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -31,20 +32,20 @@ std::string as_text(const Emission& e, const std::vector<std::string>& paths) {
     const Operations& count = e.source.operations;
     std::string page;
     for (const std::string& path : paths) put(page, "{}\n", path);
-    put(page, "{}; {} a right-hand side ({}, {}, {}, {})\n", e.source.formulation,
-        counted(count.total(), "operation"), counted(count.additions, "addition"),
-        counted(count.multiplications, "multiplication"), counted(count.divisions, "division"),
-        counted(count.functions, "function"));
+    say_on(page, "{}; {} a right-hand side ({}, {}, {}, {})\n", translated_parts(e.source.formulation),
+           shown_count(count.total(), to_say("operation")), shown_count(count.additions, to_say("addition")),
+           shown_count(count.multiplications, to_say("multiplication")),
+           shown_count(count.divisions, to_say("division")), shown_count(count.functions, to_say("function")));
     if (e.derivatives)
-        put(page, "the Jacobian takes {} ({})\n", counted(e.derivatives->operations.total(), "operation"),
-            e.derivatives->route);
+        say_on(page, "the Jacobian takes {} ({})\n",
+               shown_count(e.derivatives->operations.total(), to_say("operation")), e.derivatives->route);
     if (e.choice.runner_up)
-        put(page, "next best: {}, {}\n", e.choice.runner_up->formulation,
-            counted(e.choice.runner_up->cost.operations, "operation"));
+        say_on(page, "next best: {}, {}\n", translated_parts(e.choice.runner_up->formulation),
+               shown_count(e.choice.runner_up->cost.operations, to_say("operation")));
     if (!e.mechanism.unilateral.empty())
         page +=
-            "this is the motion while all gaps are open; simulate emits the other contact modes as it meets "
-            "them\n";
+            say("this is the motion while all gaps are open; simulate emits the other contact modes as it meets "
+                "them\n");
     return page;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/equilibria.hpp"
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -68,10 +69,11 @@ std::string as_text(const Equilibria& found) {
     for (std::size_t k = 0; k < found.list.size(); ++k) {
         const Equilibrium& one = found.list[k];
         if (one.moving.empty())
-            put(page, "{}. Equilibrium{}\n", k + 1, one.isolated ? "" : ", one of a continuum");
+            say_on(page, "{}. Equilibrium{}\n", k + 1, one.isolated ? "" : say(", one of a continuum"));
         else
-            put(page, "{}. Steady motion in which {} {}{}\n", k + 1, fmt::join(one.moving, ", "),
-                one.moving.size() == 1 ? "moves" : "move", one.isolated ? "" : ", one of a continuum");
+            say_on(page, "{}. Steady motion in which {} {}{}\n", k + 1, fmt::join(one.moving, ", "),
+                   one.moving.size() == 1 ? say("moves") : say("move"),
+                   one.isolated ? "" : say(", one of a continuum"));
         for (int i = 0; i < m.size(); ++i) {
             put(page, "     {} = {:.16g}", m.q[i].get_name(), one.start.q[i] + 0.0);
             if (one.start.qdot[i] != 0) put(page, ", {}' = {:.10g}", m.q[i].get_name(), one.start.qdot[i]);
@@ -79,24 +81,25 @@ std::string as_text(const Equilibria& found) {
                 put(page, "  = {}", one.exact->text[i]);
             put(page, "\n");
         }
-        if (one.exact && !one.exact->where.empty()) put(page, "   where {}\n", fmt::join(one.exact->where, ", "));
-        put(page, "   stable: {} ({})\n\n", name_of(one.judgement.stable), one.judgement.because);
+        if (one.exact && !one.exact->where.empty())
+            say_on(page, "   where {}\n", fmt::join(one.exact->where, ", "));
+        say_on(page, "   stable: {} ({})\n\n", translated(name_of(one.judgement.stable)), one.judgement.because);
     }
     if (!found.cyclic.empty())
-        put(page, "Nothing depends on {}: any value will do.\n", fmt::join(found.cyclic, ", "));
+        say_on(page, "Nothing depends on {}: any value will do.\n", fmt::join(found.cyclic, ", "));
     if (found.search.in_families > 1)
-        put(page, "{} roots belong to continua, of which one is shown.\n", found.search.in_families);
+        say_on(page, "{} roots belong to continua, of which one is shown.\n", found.search.in_families);
     for (const ClosedRoot& root : found.absent) {
-        put(page, "Not at these parameters:");
+        say_on(page, "Not at these parameters:");
         for (int i = 0; i < m.size(); ++i)
             if (!root.text[i].empty()) put(page, " {} = {},", m.q[i].get_name(), root.text[i]);
-        put(page, " where {}\n", fmt::join(root.where, ", "));
+        say_on(page, " where {}\n", fmt::join(root.where, ", "));
     }
     if (found.closed)
-        put(page, "Solved in the parameters: these are all, modulo whole turns.\n");
+        say_on(page, "Solved in the parameters: these are all, modulo whole turns.\n");
     else if (!found.list.empty())
-        put(page, "Found by Newton's method from {} starts; there may be more (--starts N searches longer).\n",
-            found.search.starts);
+        say_on(page, "Found by Newton's method from {} starts; there may be more (--starts N searches longer).\n",
+               found.search.starts);
     return page;
 }
 

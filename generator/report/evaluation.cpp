@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -24,8 +25,8 @@ std::size_t widest_name(const Evaluation& e) {
 }
 
 /// The name that `audit` gives to a mode of dry friction.
-const char* mode_of(int side) {
-    return side == 0 ? "stick" : side > 0 ? "slip +" : "slip -";
+std::string mode_of(int side) {
+    return side == 0 ? say("stick") : side > 0 ? say("slip +") : say("slip -");
 }
 
 }  // namespace
@@ -60,7 +61,8 @@ Json as_json(const Evaluation& e, bool reactions) {
 std::string as_text(const Evaluation& e) {
     const std::size_t width = widest_name(e);
     std::string page;
-    put(page, "t = {}\n\n{:<{}}{:>24}{:>24}{:>24}\n", e.time, "", width, "value", "rate", "acceleration");
+    put(page, "t = {}\n\n{:<{}}{:>24}{:>24}{:>24}\n", e.time, "", width, say("value"), say("rate"),
+        say("acceleration"));
     for (std::size_t i = 0; i < e.coordinates.size(); ++i)
         put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}\n", e.coordinates[i], width, e.q[i], e.rates[i],
             e.accelerations[i]);
@@ -68,13 +70,14 @@ std::string as_text(const Evaluation& e) {
         put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", e.speeds[k].first, width, e.speeds[k].second,
             e.speed_rates[k].second);
     for (const auto& [name, value] : e.multipliers) put(page, "{:<{}}{:>24.16g}\n", name, width, value);
-    for (const auto& [name, side] : e.frictions) put(page, "friction {}: {}\n", name, mode_of(side));
-    for (const std::string& line : e.adjusted) put(page, "adjusted {}\n", line);
+    for (const auto& [name, side] : e.frictions) say_on(page, "friction {}: {}\n", name, mode_of(side));
+    for (const std::string& line : e.adjusted) say_on(page, "adjusted {}\n", line);
     put(page, "\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", e.kinetic, e.potential, e.energy);
     for (const auto& [name, value] : e.outputs) put(page, "{} = {:.16g}\n", name, value);
-    if (!e.joint_loads.empty()) page += "\nJoints exert on their children, along the joint's axes:\n";
+    if (!e.joint_loads.empty()) page += say("\nJoints exert on their children, along the joint's axes:\n");
     for (const JointLoad& load : e.joint_loads)
-        for (const auto& [what, v] : {std::pair("force", &load.force), std::pair("moment", &load.moment)})
+        for (const auto& [what, v] :
+             {std::pair(say("force"), &load.force), std::pair(say("moment"), &load.moment)})
             put(page, "{:<{}}{:<8}{:>24.16g}{:>24.16g}{:>24.16g}\n", load.joint, width, what, (*v)[0], (*v)[1],
                 (*v)[2]);
     return page;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 #include "report/stability_charts.hpp"
 
@@ -24,14 +25,14 @@ Json as_json(const LyapunovExponents& found) {
 std::string as_text(const LyapunovExponents& found) {
     std::string page;
     if (!found.title.empty()) put(page, "{}\n\n", found.title);
-    put(page, "Lyapunov exponents over {:g} s, in floating point (a motion, no proof):\n\n{:>20}{:>28}\n",
-        found.duration, "exponent, 1/s", "moved in the second half by");
+    say_on(page, "Lyapunov exponents over {:g} s, in floating point (a motion, no proof):\n\n{:>20}{:>28}\n",
+           found.duration, say("exponent, 1/s"), say("moved in the second half by"));
     for (std::size_t k = 0; k < found.exponents.size(); ++k)
         put(page, "{:>20.8g}{:>28.2g}\n", found.exponents[k] + 0.0, found.spread[k]);
-    if (found.sum) put(page, "\nTheir sum is {:.10g}", *found.sum + 0.0);
-    if (found.sum && found.divergence) put(page, "; the mean divergence is {:.10g}", *found.divergence + 0.0);
+    if (found.sum) say_on(page, "\nTheir sum is {:.10g}", *found.sum + 0.0);
+    if (found.sum && found.divergence) say_on(page, "; the mean divergence is {:.10g}", *found.divergence + 0.0);
     if (found.sum) page += "\n";
-    page += "\nEstimates until t:\n";
+    page += say("\nEstimates until t:\n");
     for (const LyapunovExponents::Row& row : found.rows) {
         put(page, "{:>12.6g}", row.time);
         for (const double one : row.estimates) put(page, "{:>16.7g}", one + 0.0);

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "report/figure_shapes.hpp"
 #include "state/assemble.hpp"
@@ -18,28 +19,28 @@ std::string description_of(const Drawing& drawing) {
         switch (kind) {
             case Kind::disc:
             case Kind::block:
-                return "mass";
+                return to_say("mass");
             case Kind::rod:
-                return "rod without mass";
+                return to_say("rod without mass");
             case Kind::bar:
             case Kind::plate:
             case Kind::box:
-                return "body";
+                return to_say("body");
             case Kind::ring:
-                return "disc or wheel";
+                return to_say("disc or wheel");
             case Kind::ball:
-                return "ball";
+                return to_say("ball");
             case Kind::support:
-                return "hinge on the ground";
+                return to_say("hinge on the ground");
             case Kind::pin:
-                return "hinge";
+                return to_say("hinge");
             case Kind::spring:
             case Kind::coil:
-                return "spring";
+                return to_say("spring");
             case Kind::damper:
-                return "damper";
+                return to_say("damper");
             case Kind::force:
-                return "force";
+                return to_say("force");
             default:
                 return nullptr;
         }
@@ -48,8 +49,8 @@ std::string description_of(const Drawing& drawing) {
         if (const char* const name = word(e.kind)) ++count[name];
     std::string text;
     for (const auto& [name, number] : count)
-        text += fmt::format("{}{} x {}", text.empty() ? "" : ", ", number, name);
-    return text.empty() ? "The figure of the scene." : "The figure shows: " + text + ".";
+        text += (text.empty() ? "" : ", ") + say("{} x {}", number, translated(name));
+    return text.empty() ? say("The figure of the scene.") : say("The figure shows: {}.", text);
 }
 
 std::string figure_of(const Scene& scene) {

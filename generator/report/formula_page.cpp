@@ -9,6 +9,7 @@
 
 #include <cctype>
 
+#include "language/say.hpp"
 #include "notation/latex.hpp"
 #include "notation/mathml.hpp"
 #include "notation/text.hpp"
@@ -132,9 +133,9 @@ std::string text_left(const Statement& s) {
         case Statement::Kind::force:
             return fmt::format("{}({})", s.letter, text(*s.by));
         case Statement::Kind::work:
-            return fmt::format("Q({}) of {}", text(*s.by), s.of);
+            return say("Q({}) of {}", text(*s.by), s.of);
         default:
-            return s.of.empty() ? s.letter : fmt::format("{} of {}", s.letter, s.of);
+            return s.of.empty() ? s.letter : say("{} of {}", s.letter, s.of);
     }
 }
 

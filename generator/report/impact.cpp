@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/impact.hpp"
 
+#include "language/say.hpp"
 #include "notation/latex.hpp"
 #include "notation/text.hpp"
 #include "report/page.hpp"
@@ -26,42 +27,42 @@ std::vector<std::pair<std::string, double>> reactions(const Impact& hit, const M
 
 void add_formulas(std::string& page, const Impact& hit, const Mechanism& m) {
     if (!hit.equations.empty()) {
-        put(page, "Equations of the impact (x' is a rate after, x'(-) before{}):\n",
-            hit.conditions.empty() ? "" : "; multipliers are the impulses of reactions");
+        say_on(page, "Equations of the impact (x' is a rate after, x'(-) before{}):\n",
+               hit.conditions.empty() ? "" : say("; multipliers are the impulses of reactions"));
         for (const ReadableEquation& e : hit.equations) put(page, "  {}\n", equality(e));
         for (const auto& [name, condition] : hit.conditions)
             put(page, "  {}    ({})\n", equality(condition), name);
         put(page, "\n");
     }
     if (!hit.solution.empty()) {
-        put(page, "Solution where the scene starts:\n");
+        say_on(page, "Solution where the scene starts:\n");
         for (int i = 0; i < m.size(); ++i) put(page, "  {}' = {}\n", m.q[i].get_name(), text(hit.solution[i]));
-        for (const auto& [name, value] : hit.reactions) put(page, "  impulse of {} = {}\n", name, text(value));
-        if (hit.energy_loss) put(page, "  T before - T after = {}\n", text(*hit.energy_loss));
+        for (const auto& [name, value] : hit.reactions) say_on(page, "  impulse of {} = {}\n", name, text(value));
+        if (hit.energy_loss) say_on(page, "  T before - T after = {}\n", text(*hit.energy_loss));
         put(page, "\n");
     }
-    if (!hit.silence.empty()) put(page, "Not shown in symbols: {}.\n\n", hit.silence);
+    if (!hit.silence.empty()) say_on(page, "Not shown in symbols: {}.\n\n", hit.silence);
 }
 
 void add_numbers(std::string& page, const Impact& hit, const Mechanism& m) {
     for (const std::string& name : hit.imposed)
-        put(page, "The rates before break constraint '{}'; it is imposed suddenly, and plastically.\n", name);
+        say_on(page, "The rates before break constraint '{}'; it is imposed suddenly, and plastically.\n", name);
     if (hit.numbers.collisions > 1)
-        put(page, "{} collisions follow each other in the same instant.\n", hit.numbers.collisions);
+        say_on(page, "{} collisions follow each other in the same instant.\n", hit.numbers.collisions);
     for (std::size_t k = 0; k < hit.contacts.size(); ++k)
-        put(page, "Contact '{}' {}.\n", m.unilateral[hit.contacts[k]].gap.name,
-            hit.numbers.stays_closed[k] ? "stays closed" : "opens");
-    put(page, "{:<16}{:>24}{:>24}{:>24}\n", "", "value", "rate before", "rate after");
+        say_on(page, "Contact '{}' {}.\n", m.unilateral[hit.contacts[k]].gap.name,
+               hit.numbers.stays_closed[k] ? say("stays closed") : say("opens"));
+    put(page, "{:<16}{:>24}{:>24}{:>24}\n", "", say("value"), say("rate before"), say("rate after"));
     for (int i = 0; i < m.size(); ++i)
         put(page, "{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", m.q[i].get_name(), hit.start.q[i], hit.start.qdot[i],
             hit.numbers.after[i]);
     for (const auto& [name, value] : reactions(hit, m))
-        put(page, "{:<16}{:>24.16g}    (impulse of the reaction)\n", name, value);
-    for (const std::string& line : hit.adjusted) put(page, "adjusted {}\n", line);
-    put(page, "\nT before = {:.16g}\nT after = {:.16g}\n", hit.kinetic_before, hit.kinetic_after);
-    if (!m.impulses.empty()) put(page, "work of the impulses = {:.16g}\n", hit.numbers.work);
-    if (hit.floors != 0) put(page, "work of moving constraints = {:.16g}\n", hit.floors);
-    put(page, "lost in constraints and contacts = {:.16g}\n", hit.numbers.loss);
+        say_on(page, "{:<16}{:>24.16g}    (impulse of the reaction)\n", name, value);
+    for (const std::string& line : hit.adjusted) say_on(page, "adjusted {}\n", line);
+    say_on(page, "\nT before = {:.16g}\nT after = {:.16g}\n", hit.kinetic_before, hit.kinetic_after);
+    if (!m.impulses.empty()) say_on(page, "work of the impulses = {:.16g}\n", hit.numbers.work);
+    if (hit.floors != 0) say_on(page, "work of moving constraints = {:.16g}\n", hit.floors);
+    say_on(page, "lost in constraints and contacts = {:.16g}\n", hit.numbers.loss);
 }
 
 }  // namespace
@@ -112,9 +113,9 @@ std::string as_text(const Struck& struck) {
     std::string page;
     if (!struck.scene.title.empty()) put(page, "{}\n\n", struck.scene.title);
     if (struck.hit.nothing_happens)
-        page +=
+        page += say(
             "Nothing is struck: no impulses, every constraint is obeyed, no closed contact approaches. The rates "
-            "stay as they are.\n\n";
+            "stay as they are.\n\n");
     else
         add_formulas(page, struck.hit, struck.mechanism);
     add_numbers(page, struck.hit, struck.mechanism);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -52,22 +53,22 @@ Json as_json(const SceneInertia& found) {
 
 std::string as_text(const SceneInertia& found) {
     std::string page;
-    put(page, "{}{}\n", fmt::join(found.of, ", "), found.of.size() > 1 ? " together" : "");
-    put(page, "mass: {}\n", with_number(found.mass_text, found.mass));
-    page += "mass centre, from O along N:\n";
+    put(page, "{}{}\n", fmt::join(found.of, ", "), found.of.size() > 1 ? say(" together") : "");
+    say_on(page, "mass: {}\n", with_number(found.mass_text, found.mass));
+    page += say("mass centre, from O along N:\n");
     for (std::size_t i = 0; i < 3; ++i)
         put(page, "  {}: {}\n", "xyz"[i], with_number(found.centre_text[i], found.centre[i]));
-    put(page, "tensor of inertia about {}, along the axes of {}:\n",
-        found.about.empty() ? "the mass centre" : found.about, found.along);
+    say_on(page, "tensor of inertia about {}, along the axes of {}:\n",
+           found.about.empty() ? say("the mass centre") : found.about, found.along);
     const char* const names[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
     const std::size_t rows[] = {0, 1, 2, 0, 1, 2}, columns[] = {0, 1, 2, 1, 2, 0};
     for (std::size_t k = 0; k < 6; ++k)
         put(page, "  {}: {}\n", names[k],
             with_number(found.tensor_text[rows[k]][columns[k]],
                         found.tensor(static_cast<Eigen::Index>(rows[k]), static_cast<Eigen::Index>(columns[k]))));
-    page += "principal moments and axes:\n";
+    page += say("principal moments and axes:\n");
     for (const PrincipalMoment& p : found.principal)
-        put(page, "  {:.10g} about ({:.6g}, {:.6g}, {:.6g})\n", p.moment, p.axis[0], p.axis[1], p.axis[2]);
+        say_on(page, "  {:.10g} about ({:.6g}, {:.6g}, {:.6g})\n", p.moment, p.axis[0], p.axis[1], p.axis[2]);
     return page;
 }
 

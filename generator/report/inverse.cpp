@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -23,8 +24,8 @@ std::string as_text(const InverseLoads& needed) {
     std::size_t width = 16;
     for (const std::string& name : needed.coordinates) width = std::max(width, name.size() + 1);
     std::string page;
-    put(page, "t = {:.6g}\n\n{:<{}}{:>24}{:>24}{:>24}{:>24}\n", needed.time, "", width, "value", "rate",
-        "acceleration", "load");
+    put(page, "t = {:.6g}\n\n{:<{}}{:>24}{:>24}{:>24}{:>24}\n", needed.time, "", width, say("value"), say("rate"),
+        say("acceleration"), say("load"));
     for (std::size_t i = 0; i < needed.coordinates.size(); ++i)
         put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", needed.coordinates[i], width, needed.q[i],
             needed.rates[i], needed.accelerations[i], needed.loads[i]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "notation/text.hpp"
 #include "report/formula_page.hpp"
 #include "report/kinematics.hpp"
@@ -55,13 +56,13 @@ public:
         for (const FrameKinematics& f : s_.frames) frame(f);
         for (const PointKinematics& p : s_.points) point(p);
         if (too_long_)
-            say("What is not written is too long to be read" +
-                std::string(with_values_ ? "; its value is told." : "."));
+            tell(with_values_ ? say("What is not written is too long to be read; its value is told.")
+                              : say("What is not written is too long to be read."));
         return std::move(blocks_);
     }
 
 private:
-    void say(std::string words) { blocks_.push_back({std::move(words), {}}); }
+    void tell(std::string words) { blocks_.push_back({std::move(words), {}}); }
 
     void add(const std::string& left, const std::string& right) {
         blocks_.back().equalities.emplace_back(left, right);
@@ -106,58 +107,59 @@ private:
         for (const TurnStep& turn : f.turns) {
             const bool is_readable = turn.angle && is_known(turn.axis);
             if (!is_readable) {
-                words.emplace_back(turn.angle ? "a turn" : "a quaternion");
+                words.emplace_back(turn.angle ? say("a turn") : say("a quaternion"));
                 continue;
             }
             const Phrase axis =
                 phrases::tuple({*turn.axis[0].formula, *turn.axis[1].formula, *turn.axis[2].formula});
-            words.push_back(fmt::format("{} about {}", n_.inline_phrase(*turn.angle), n_.inline_phrase(axis)));
+            words.push_back(say("{} about {}", n_.inline_phrase(*turn.angle), n_.inline_phrase(axis)));
         }
         return fmt::format("{}", fmt::join(words, ", "));
     }
 
     void frame(const FrameKinematics& f) {
-        const std::string what = f.is_body ? "Body" : "Frame";
+        const std::string what = f.is_body ? say("Body") : say("Frame");
         if (!f.same_as.empty() &&
             (f.same_as == "N" || std::any_of(s_.frames.begin(), s_.frames.end(),
                                              [&](const FrameKinematics& o) { return o.name == f.same_as; })))
-            return say(fmt::format("{} {} has the axes of {}.", what, f.name, f.same_as));
+            return tell(say("{} {} has the axes of {}.", what, f.name, f.same_as));
         std::string words = fmt::format("{} {}", what, f.name);
         if (!f.turns.empty())
-            words += fmt::format(", turned against {} by {}", f.parent, turns_in_words(f));
+            words += say(", turned against {} by {}", f.parent, turns_in_words(f));
         else
-            words += fmt::format(", at rest in {}", f.parent);
-        say(words + "; along N:");
+            words += say(", at rest in {}", f.parent);
+        tell(say("{}; along N:", words));
         cosines(f);
         vector("omega", f.name, f.omega.along_N);
         vector("alpha", f.name, f.alpha.along_N);
         if (!is_same(f.omega.along_N, f.omega.own) || !is_same(f.alpha.along_N, f.alpha.own)) {
-            say(fmt::format("Along {} itself:", f.name));
+            tell(say("Along {} itself:", f.name));
             vector("omega", f.name, f.omega.own);
             vector("alpha", f.name, f.alpha.own);
         }
         if (steps_) steps(f);
         if (!with_values_) return;
         const auto turned = [](const Turn<double>& t) {
-            return fmt::format(", turned by {:.10g} about ({:.10g}, {:.10g}, {:.10g})", t.angle, t.axis[0],
-                               t.axis[1], t.axis[2]);
+            return say(", turned by {:.10g} about ({:.10g}, {:.10g}, {:.10g})", t.angle, t.axis[0], t.axis[1],
+                       t.axis[2]);
         };
-        say(fmt::format("{} at the state{}:", f.name, f.turn ? turned(*f.turn) : ""));
+        tell(say("{} at the state{}:", f.name, f.turn ? turned(*f.turn) : ""));
         add(left("omega", f.name), value_of(f.omega.along_N));
         add(left("alpha", f.name), value_of(f.alpha.along_N));
     }
 
     void steps(const FrameKinematics& f) {
         if (f.turns.size() + (f.carried ? 1 : 0) < 2) return;
-        say(fmt::format("Angular velocity, turn by turn along {}: each adds its rate along its axis;", f.parent));
+        tell(say("Angular velocity, turn by turn along {}: each adds its rate along its axis;", f.parent));
         if (f.carried) vector("omega", f.parent, (*f.carried)[0]);
         for (std::size_t k = 0; k < f.turns.size(); ++k)
             vector(fmt::format("omega_{}", k + 1), f.name, f.turns[k].omega);
-        say("angular acceleration: its second rate, and omega x omega, since the turns before it take its axis "
-            "along:");
+        tell(say(
+            "angular acceleration: its second rate, and omega x omega, since the turns before it take its axis "
+            "along:"));
         if (f.carried) {
             part("alpha", f.parent, (*f.carried)[1]);
-            part("omega x omega", f.name + " in " + f.parent, (*f.carried)[2]);
+            part("omega x omega", say("{} in {}", f.name, f.parent), (*f.carried)[2]);
         }
         for (std::size_t k = 0; k < f.turns.size(); ++k) {
             part(fmt::format("alpha_{}", k + 1), f.name, f.turns[k].alpha);
@@ -166,12 +168,12 @@ private:
     }
 
     void point(const PointKinematics& p) {
-        say(fmt::format("Point {}, along N:", p.name));
+        tell(say("Point {}, along N:", p.name));
         vector("r", p.name, p.position.along_N);
         vector("v", p.name, p.velocity.along_N);
         vector("a", p.name, p.acceleration.along_N);
         if (!p.along.empty()) {
-            say(fmt::format("{} along {}:", p.name, p.along));
+            tell(say("{} along {}:", p.name, p.along));
             vector("r", p.name, p.position.own);
             vector("v", p.name, p.velocity.own);
             vector("a", p.name, p.acceleration.own);
@@ -179,7 +181,7 @@ private:
         if (steps_)
             for (const PlaceStep& step : p.places) steps(p, step);
         if (!with_values_) return;
-        say(fmt::format("{} at the state:", p.name));
+        tell(say("{} at the state:", p.name));
         add(left("r", p.name), value_of(p.position.along_N));
         add(left("v", p.name), value_of(p.velocity.along_N));
         add(left("a", p.name), value_of(p.acceleration.along_N));
@@ -187,16 +189,16 @@ private:
 
     void steps(const PointKinematics& p, const PlaceStep& step) {
         if (!step.turns) return;
-        const std::string along = step.frame.empty() ? "the axes of the joint" : step.frame;
-        say(fmt::format("{}, reached from {} along {}: beside the velocity of {} it has omega x r + v_relative,",
-                        p.name, p.from, along, p.from));
+        const std::string along = step.frame.empty() ? say("the axes of the joint") : step.frame;
+        tell(say("{}, reached from {} along {}: beside the velocity of {} it has omega x r + v_relative,", p.name,
+                 p.from, along, p.from));
         part("r", p.name, step.offset);
         part("omega x r", p.name, step.turning_velocity);
         part("v_relative", p.name, step.relative_velocity);
-        say(fmt::format(
-            "and beside the acceleration of {} the tangential alpha x r, the centripetal omega x (omega x "
-            "r), Coriolis's 2 omega x v_relative and the relative one:",
-            p.from));
+        tell(
+            say("and beside the acceleration of {} the tangential alpha x r, the centripetal omega x (omega x "
+                "r), Coriolis's 2 omega x v_relative and the relative one:",
+                p.from));
         part("a_tangential", p.name, step.tangential);
         part("a_centripetal", p.name, step.centripetal);
         part("a_Coriolis", p.name, step.coriolis);
@@ -219,7 +221,7 @@ std::string as_page(const SceneKinematics& s, const std::string& format, bool st
     if (!is_text) return n.page(blocks);
     if (!s.scene.title.empty()) blocks.insert(blocks.begin(), {s.scene.title, {}});
     if (!s.no_accelerations.empty())
-        blocks.push_back({"There are no accelerations at the state: " + s.no_accelerations, {}});
+        blocks.push_back({say("There are no accelerations at the state: {}", s.no_accelerations), {}});
     return n.page(blocks);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/modes.hpp"
 #include "report/page.hpp"
 
@@ -59,10 +60,10 @@ void add_matrices(std::string& page, const Linearization& near) {
             add(page, letter, m, near.speeds, columns);
     };
     const bool full = near.speeds.size() == near.coordinates.size() && near.paired;
-    put(page, "{} = 0 for small deviations, with\n\n",
-        full          ? "M q'' + (C + G) q' + (K + N) q"
-        : near.paired ? "M r'' + (C + G) r' + (K + N) r"
-                      : "M w' + (C + G) w + P r");
+    say_on(page, "{} = 0 for small deviations, with\n\n",
+           full          ? "M q'' + (C + G) q' + (K + N) q"
+           : near.paired ? "M r'' + (C + G) r' + (K + N) r"
+                         : "M w' + (C + G) w + P r");
     show("M", near.M, rates);
     show("C", near.C, near.speeds);
     show("G", near.G, near.speeds);
@@ -73,18 +74,19 @@ void add_matrices(std::string& page, const Linearization& near) {
         show("P", near.P, near.coordinates);
     }
     if (!zeros.empty()) put(page, "  {} = 0\n\n", fmt::join(zeros, " = "));
-    put(page, "x' = A x{}, with\n\n", near.inputs.empty() ? "" : " + B (inputs)");
+    say_on(page, "x' = A x{}, with\n\n", near.inputs.empty() ? "" : say(" + B (inputs)"));
     add(page, "A", near.A, near.states, near.states);
     if (!near.inputs.empty()) add(page, "B", near.B, near.states, near.inputs);
     if (near.outputs.empty()) return;
-    put(page, "the outputs change by output_state x{}, with\n\n",
-        near.inputs.empty() ? "" : " + output_input (inputs)");
+    say_on(page, "the outputs change by output_state x{}, with\n\n",
+           near.inputs.empty() ? "" : say(" + output_input (inputs)"));
     add(page, "output_state", near.output_state, near.outputs, near.states);
     if (!near.inputs.empty()) add(page, "output_input", near.output_input, near.outputs, near.inputs);
 }
 
 void add_eigenvalues(std::string& page, const Linearization& near) {
-    put(page, "{:>24}{:>24}{:>16}{:>16}\n", "eigenvalue, real", "imaginary", "period", "damping ratio");
+    put(page, "{:>24}{:>24}{:>16}{:>16}\n", say("eigenvalue, real"), say("imaginary"), say("period"),
+        say("damping ratio"));
     for (const std::complex<double>& value : near.eigenvalues) {
         if (value.imag() < 0) continue;
         put(page, "{:>24.16g}{:>24}", value.real() + 0.0,
@@ -97,7 +99,7 @@ void add_eigenvalues(std::string& page, const Linearization& near) {
 
 void add(std::string& page, const decltype(LinearizedScene::symbols)& symbols) {
     if (symbols.empty()) return;
-    put(page, "In the parameters:\n\n");
+    say_on(page, "In the parameters:\n\n");
     std::vector<std::string> zeros;
     for (const auto& [name, rows] : symbols) {
         std::size_t width = 1;
@@ -166,10 +168,10 @@ std::string as_text(const LinearizedScene& d, bool with_modes) {
     std::string page;
     if (!d.scene.title.empty()) put(page, "{}\n\n", d.scene.title);
     if (near.moving.empty())
-        put(page, "About the equilibrium\n");
+        say_on(page, "About the equilibrium\n");
     else
-        put(page, "About the steady motion in which {} {}\n", fmt::join(near.moving, ", "),
-            near.moving.size() == 1 ? "moves" : "move");
+        say_on(page, "About the steady motion in which {} {}\n", fmt::join(near.moving, ", "),
+               near.moving.size() == 1 ? say("moves") : say("move"));
     for (int i = 0; i < d.mechanism.size(); ++i) {
         const auto shown = [](double x, bool guess) { return guess && std::abs(x) < 1e-14 ? 0.0 : x + 0.0; };
         const double rate = shown(start.qdot[i], d.mechanism.qdot_is_guess[i]);
@@ -177,10 +179,10 @@ std::string as_text(const LinearizedScene& d, bool with_modes) {
         if (rate != 0) put(page, ", {}' = {:.10g}", d.mechanism.q[i].get_name(), rate);
         put(page, "\n");
     }
-    if (!near.dependent.empty()) put(page, "eliminated: {}\n", fmt::join(near.dependent, ", "));
+    if (!near.dependent.empty()) say_on(page, "eliminated: {}\n", fmt::join(near.dependent, ", "));
     if (!near.left_out.empty())
-        put(page, "left out, as nothing else depends on {}: {}\n", near.left_out.size() == 1 ? "it" : "them",
-            fmt::join(near.left_out, ", "));
+        say_on(page, "left out, as nothing else depends on {}: {}\n",
+               near.left_out.size() == 1 ? say("it") : say("them"), fmt::join(near.left_out, ", "));
     put(page, "\n");
     add_matrices(page, near);
     add(page, d.symbols);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -22,16 +23,16 @@ Json as_json(const std::vector<LinearMode>& modes, const std::vector<std::string
 }
 
 std::string as_text(const std::vector<LinearMode>& modes, const std::vector<std::string>& states) {
-    std::string page = "Modes: x = Re(v e^(eigenvalue t)), the largest element of v is 1\n";
+    std::string page = say("Modes: x = Re(v e^(eigenvalue t)), the largest element of v is 1\n");
     for (const LinearMode& mode : modes) {
         const bool turns = mode.eigenvalue.imag() != 0;
-        put(page, "\n  eigenvalue {:.8g}{}\n", mode.eigenvalue.real() + 0.0,
-            turns ? fmt::format(" +- {:.8g}i", mode.eigenvalue.imag()) : "");
+        say_on(page, "\n  eigenvalue {:.8g}{}\n", mode.eigenvalue.real() + 0.0,
+               turns ? fmt::format(" +- {:.8g}i", mode.eigenvalue.imag()) : "");
         for (std::size_t k = 0; k < states.size(); ++k) {
             const std::complex<double> x = mode.vector[static_cast<Eigen::Index>(k)];
             if (turns)
-                put(page, "    {:<12}{:>16.8g}{:>12.4f} deg\n", states[k], std::abs(x),
-                    std::arg(x) * 180 / M_PI + 0.0);
+                say_on(page, "    {:<12}{:>16.8g}{:>12.4f} deg\n", states[k], std::abs(x),
+                       std::arg(x) * 180 / M_PI + 0.0);
             else
                 put(page, "    {:<12}{:>16.8g}\n", states[k], x.real() + 0.0);
         }

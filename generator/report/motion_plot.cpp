@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "report/plot_panels.hpp"
 
 namespace alembert {
@@ -68,22 +69,21 @@ std::string account_of(const Run& run) {
         const auto first = std::find_if(events.begin(), events.end(), happens);
         if (first == events.end()) continue;
         const auto count = std::count_if(events.begin(), events.end(), happens);
-        add(fmt::format("event {} at t = {:.4g}{}", run.mechanism.events[k].name, first->time,
-                        count > 1 ? fmt::format(" and {} more", count - 1) : ""));
+        add(say("event {} at t = {:.4g}{}", run.mechanism.events[k].name, first->time,
+                count > 1 ? say(" and {} more", count - 1) : ""));
     }
     for (std::size_t k = 0; k < run.contacts.size(); ++k) {
         std::string counts;
-        for (const auto& [kind, name] : {std::pair{ContactEvent::Kind::impact, "impact"},
-                                         {ContactEvent::Kind::rest, "rest"},
-                                         {ContactEvent::Kind::release, "release"}}) {
+        for (const auto& [kind, name] : {std::pair{ContactEvent::Kind::impact, to_say("impact")},
+                                         {ContactEvent::Kind::rest, to_say("rest")},
+                                         {ContactEvent::Kind::release, to_say("release")}}) {
             const auto count = std::count_if(run.motion.contacts.begin(), run.motion.contacts.end(),
                                              [&, kind = kind](const ContactEvent& e) {
                                                  return e.contact == static_cast<int>(k) && e.kind == kind;
                                              });
-            if (count > 0)
-                counts += fmt::format("{}{} {}{}", counts.empty() ? "" : ", ", count, name, count == 1 ? "" : "s");
+            if (count > 0) counts += (counts.empty() ? "" : ", ") + shown_count(count, name);
         }
-        if (!counts.empty()) add(fmt::format("contact {}: {}", run.contacts[k], counts));
+        if (!counts.empty()) add(say("contact {}: {}", run.contacts[k], counts));
     }
     return text;
 }
@@ -117,11 +117,11 @@ std::string happenings(const Run& run, const PlotArea& area) {
 
 std::string motion_plot(const Run& run, const std::vector<std::string>& columns) {
     PlotSheet sheet{.title = run.mechanism.title.empty() ? run.mechanism.name : run.mechanism.title,
-                    .about = fmt::format("Charts over the time until {:.6g} s.", run.motion.final_time())};
+                    .about = say("Charts over the time until {:.6g} s.", run.motion.final_time())};
     if (const std::string account = account_of(run); !account.empty()) sheet.captions.push_back(account);
-    if (run.failure) sheet.captions.emplace_back("The motion broke off: the numbers failed.");
+    if (run.failure) sheet.captions.emplace_back(say("The motion broke off: the numbers failed."));
     for (const std::string& caption : sheet.captions) sheet.about += " " + caption;
-    return plot_panels(sheet, lines_of(run, columns), "t in s",
+    return plot_panels(sheet, lines_of(run, columns), say("t in s"),
                        [&run](const PlotArea& area) { return happenings(run, area); });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The derivation, the claims, the agreement of formalisms, the constraints.
+#include "language/say.hpp"
 #include "notation/latex.hpp"
 #include "notation/text.hpp"
 #include "report/agree.hpp"
@@ -43,7 +44,7 @@ void add_blocks(PageParts& page, const std::vector<Block>& blocks) {
         std::size_t shown = 0;
         for (const auto& [left, right] : block.equalities) {
             if (++shown > definitions_shown) {
-                put(page.body, "<p>… and {} more.</p>\n", block.equalities.size() - definitions_shown);
+                put(page.body, "<p>{}</p>\n", say("… and {} more.", block.equalities.size() - definitions_shown));
                 break;
             }
             page.body += equation(left, right);
@@ -61,7 +62,7 @@ std::string equations_in(const Derivation& shown, std::string (*write)(const Phr
 }  // namespace
 
 void add_derivation(PageParts& page, const Overview& all) {
-    page.section("derivation", "Derivation");
+    page.section("derivation", say("Derivation"));
     if (!all.derived.value) {
         page.problem(all.derived.problem);
         page.end();
@@ -77,7 +78,7 @@ void add_derivation(PageParts& page, const Overview& all) {
     add_blocks(page, plain);
     put(page.body, "<p class=\"buttons\">");
     page.copy("LaTeX", equations_in(d.shown, latex, " \\\\\n"));
-    page.copy("text", equations_in(d.shown, text, "\n"));
+    page.copy(say("text"), equations_in(d.shown, text, "\n"));
     put(page.body, "</p>\n");
     page.end();
 }
@@ -100,32 +101,32 @@ std::string marked(const std::string& equation, const std::optional<Slip>& likel
 
 void add_claim(std::string& body, const Claim& claim, const CheckedClaim& c) {
     const std::string equation = text_of(claim.equation);
-    put(body, "<li class=\"claim {0}\"><p><strong class=\"verdict\">{0}</strong> <code>{1}</code></p>\n",
-        name_of(c.verdict), marked(equation, c.likely));
+    put(body, "<li class=\"claim {}\"><p><strong class=\"verdict\">{}</strong> <code>{}</code></p>\n",
+        name_of(c.verdict), translated(name_of(c.verdict)), marked(equation, c.likely));
     if (!claim.source.empty()) put(body, "<p class=\"source\">{}</p>\n", html(claim.source));
     if (!c.reason.empty()) put(body, "<p>{}</p>\n", html(c.reason));
     if (c.verdict == Verdict::proved)
         put(body, "<p class=\"hint\">{}</p>\n",
-            c.normal_form ? "Proved by normal form."
-                          : fmt::format("Proved by exact evaluation at random states; the chance of an error is "
-                                        "below 2<sup>{:.0f}</sup>.",
-                                        c.failure));
+            c.normal_form ? say("Proved by normal form.")
+                          : say("Proved by exact evaluation at random states; the chance of an error is below {}.",
+                                fmt::format("2<sup>{:.0f}</sup>", c.failure)));
     if (c.verdict == Verdict::refuted) {
         if (c.likely) {
-            put(body, "<p>Likely {}.</p>\n", html(words_of(*c.likely)));
+            put(body, "<p>{}</p>\n", html(say("Likely {}.", words_of(*c.likely))));
             if (!c.likely->repair.empty())
-                put(body, "<p>Right is: <code class=\"repair\">{}</code></p>\n", html(c.likely->repair));
+                put(body, "<p>{}<code class=\"repair\">{}</code></p>\n", say("Right is: "),
+                    html(c.likely->repair));
         }
         if (!c.nearest.empty() && (!c.likely || c.likely->repair.empty()))
-            put(body, "<p>Nearest right equation: <code>{}</code></p>\n", html(c.nearest));
+            put(body, "<p>{}<code>{}</code></p>\n", say("Nearest right equation: "), html(c.nearest));
         if (!c.difference.empty())
-            put(body, "<p>The claim has beyond the nearest right equation: <code>{}</code></p>\n",
+            put(body, "<p>{}<code>{}</code></p>\n", say("The claim has beyond the nearest right equation: "),
                 html(c.difference));
         if (!c.counterexample.empty()) {
-            put(body, "<details><summary>A state at which it fails</summary><dl class=\"state\">");
+            put(body, "<details><summary>{}</summary><dl class=\"state\">", say("A state at which it fails"));
             for (const auto& [name, value] : c.counterexample)
                 put(body, "<div><dt>{}</dt><dd>{}</dd></div>", html(name), html(value));
-            put(body, "</dl><p>There left − right = {}</p></details>\n", html(c.residual));
+            put(body, "</dl><p>{}</p></details>\n", html(say("There left − right = {}", c.residual)));
         }
     }
     put(body, "</li>\n");
@@ -135,7 +136,7 @@ void add_claim(std::string& body, const Claim& claim, const CheckedClaim& c) {
 
 void add_claims(PageParts& page, const Overview& all) {
     if (!all.checked.was_asked) return;
-    page.section("claims", "Claims");
+    page.section("claims", say("Claims"));
     if (!all.checked.value) {
         page.problem(all.checked.problem);
         page.end();
@@ -146,13 +147,13 @@ void add_claims(PageParts& page, const Overview& all) {
     for (std::size_t k = 0; k < checked.claims.size(); ++k)
         add_claim(page.body, all.checked.value->scene.claims[k], checked.claims[k]);
     put(page.body, "</ol>\n<p>{}</p>\n",
-        checked.complete ? "With the constraints, the claims that hold determine the motion."
-                         : "The claims that hold do not determine the motion.");
+        checked.complete ? say("With the constraints, the claims that hold determine the motion.")
+                         : say("The claims that hold do not determine the motion."));
     page.end();
 }
 
 void add_agreement(PageParts& page, const Overview& all) {
-    page.section("agreement", "Agreement of the formalisms");
+    page.section("agreement", say("Agreement of the formalisms"));
     if (!all.agreed.value) {
         page.problem(all.agreed.problem);
         page.end();
@@ -163,11 +164,13 @@ void add_agreement(PageParts& page, const Overview& all) {
     std::string names;
     for (const Equations& e : agreed.derivations.equations) names += (names.empty() ? "" : ", ") + e.formalism;
     const bool alone = agreed.derivations.equations.size() < 2;
-    put(page.body, "<p><strong class=\"verdict {0}\">{0}</strong> {1}: {2}.</p>\n<p>{3}</p>\n", name_of(a.verdict),
-        alone ? "for the only formalism that applies" : "These formalisms give the same equations", html(names),
+    put(page.body, "<p><strong class=\"verdict {}\">{}</strong> {}</p>\n<p>{}</p>\n", name_of(a.verdict),
+        translated(name_of(a.verdict)),
+        html(alone ? say("for the only formalism that applies: {}.", names)
+                   : say("These formalisms give the same equations: {}.", names)),
         html(a.verdict == Agreement::Verdict::proved ? how_it_was_proved(a) : a.reason));
     if (!agreed.derivations.refused.empty()) {
-        put(page.body, "<details><summary>Formalisms that do not apply here</summary><ul>\n");
+        put(page.body, "<details><summary>{}</summary><ul>\n", say("Formalisms that do not apply here"));
         for (const auto& [name, reason] : agreed.derivations.refused)
             put(page.body, "<li><strong>{}</strong>: {}</li>\n", html(name), html(reason));
         put(page.body, "</ul></details>\n");
@@ -178,26 +181,25 @@ void add_agreement(PageParts& page, const Overview& all) {
 void add_constraints(PageParts& page, const Overview& all) {
     const Mechanism& m = all.mechanism;
     if (m.constraints.empty() && m.unilateral.empty() && m.redundant.empty() && m.identities.empty()) return;
-    page.section("constraints", "Constraints");
+    page.section("constraints", say("Constraints"));
     if (!all.audited.value) {
         page.problem(all.audited.problem);
     } else {
         const Audit& audit = all.audited.value->audit;
-        put(page.body,
-            "<div class=\"scroll\"><table>\n<caption>{} coordinates, rank {}: {} degree{} of freedom</caption>\n"
-            "<thead><tr><th scope=\"col\">constraint</th><th scope=\"col\">kind</th><th "
-            "scope=\"col\">integrable</th>"
-            "<th scope=\"col\">redundant</th><th scope=\"col\">residual at the start</th></tr></thead>\n<tbody>\n",
-            m.size(), audit.rank, audit.degrees_of_freedom, audit.degrees_of_freedom == 1 ? "" : "s");
+        begin_table(
+            page.body,
+            say("{} coordinates, rank {}: {} degree{} of freedom", m.size(), audit.rank, audit.degrees_of_freedom,
+                audit.degrees_of_freedom == 1 ? "" : "s"),
+            {say("constraint"), say("kind"), say("integrable"), say("redundant"), say("residual at the start")});
         for (const AuditedConstraint& c : audit.constraints)
             put(page.body,
                 "<tr><th scope=\"row\">{}</th><td>{}{}</td><td>{}</td><td>{}</td><td>{:.2g}</td></tr>\n",
-                html(c.name), c.holonomic ? "holonomic" : "nonholonomic", c.rheonomic ? ", depends on time" : "",
-                c.integrable ? (*c.integrable ? "yes" : "no") : "undecided", c.redundant ? "yes" : "no",
-                c.holonomic ? c.residual[0] : c.residual[1]);
-        put(page.body,
-            "</tbody></table></div>\n<details><summary>The whole audit</summary><pre>{}</pre></details>\n",
-            html(as_text(*all.audited.value)));
+                html(c.name), c.holonomic ? say("holonomic") : say("nonholonomic"),
+                c.rheonomic ? say(", depends on time") : "",
+                c.integrable ? (*c.integrable ? say("yes") : say("no")) : say("undecided"),
+                c.redundant ? say("yes") : say("no"), c.holonomic ? c.residual[0] : c.residual[1]);
+        put(page.body, "</tbody></table></div>\n<details><summary>{}</summary><pre>{}</pre></details>\n",
+            say("The whole audit"), html(as_text(*all.audited.value)));
         if (!audit.problem.empty()) page.problem(audit.problem);
     }
     page.end();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/figure.hpp"
 #include "report/figure_shapes.hpp"
 #include "report/page_parts.hpp"
@@ -40,17 +41,19 @@ void add_controls(PageParts& page, const FigureShapes& shapes, double duration) 
         return badness(a) < badness(b);
     });
     put(page.body,
-        "<div class=\"controls\" role=\"group\" aria-label=\"Animation\">\n"
-        "<button type=\"button\" id=\"play\" aria-pressed=\"false\">Play</button>\n"
-        "<label class=\"scrub\"><span>Time</span> <input type=\"range\" id=\"time\" min=\"0\" max=\"1000\" "
-        "value=\"0\"></label>\n<output id=\"clock\">t = 0 s</output>\n<label>Speed <select id=\"speed\">");
+        "<div class=\"controls\" role=\"group\" aria-label=\"{0}\">\n"
+        "<button type=\"button\" id=\"play\" aria-pressed=\"false\">{1}</button>\n"
+        "<label class=\"scrub\"><span>{2}</span> <input type=\"range\" id=\"time\" min=\"0\" max=\"1000\" "
+        "value=\"0\"></label>\n<output id=\"clock\">t = 0 s</output>\n<label>{3} <select id=\"speed\">",
+        say("Animation"), say("Play"), say("Time"), say("Speed"));
     for (const double s : speeds)
         put(page.body, "<option value=\"{0}\"{1}>{0}×</option>", s, s == *best ? " selected" : "");
-    put(page.body, "</select></label>\n<label><input type=\"checkbox\" id=\"trace\"> Trace</label>\n");
-    if (!shapes.is_plane) put(page.body, "<button type=\"button\" id=\"view\">Turn back</button>\n");
+    put(page.body, "</select></label>\n<label><input type=\"checkbox\" id=\"trace\"> {}</label>\n", say("Trace"));
+    if (!shapes.is_plane) put(page.body, "<button type=\"button\" id=\"view\">{}</button>\n", say("Turn back"));
     put(page.body, "</div>\n");
     if (!shapes.is_plane)
-        put(page.body, "<p class=\"hint\">Turn the view with the mouse, a finger, or the arrow keys.</p>\n");
+        put(page.body, "<p class=\"hint\">{}</p>\n",
+            say("Turn the view with the mouse, a finger, or the arrow keys."));
 }
 
 /// Draws a force that is zero at some poses of the motion there too, along the direction in which it acts next.
@@ -80,7 +83,7 @@ void add_waiting_forces(Drawing& drawing, std::vector<Pose>& poses) {
 }  // namespace
 
 void add_figure(PageParts& page, const Overview& all) {
-    page.section("figure", "Figure and motion");
+    page.section("figure", say("Figure and motion"));
     std::optional<Drawing> drawing = all.drawing.value;
     if (!drawing || !drawing->obstacle.empty()) {
         page.problem(drawing ? drawing->obstacle : all.drawing.problem);
@@ -106,8 +109,10 @@ void add_figure(PageParts& page, const Overview& all) {
     const FigureShapes shapes = shapes_of(*drawing, poses, q);
     put(page.body, "<div class=\"stage{}\"{}>\n", shapes.is_plane ? "" : " space",
         shapes.is_plane ? ""
-                        : " tabindex=\"0\" role=\"group\" aria-label=\"Figure in space, turned by arrow keys\"");
-    page.body += as_svg(shapes, poses[0], q[0], "Figure: " + all.mechanism.name, description_of(*drawing), true);
+                        : fmt::format(" tabindex=\"0\" role=\"group\" aria-label=\"{}\"",
+                                      say("Figure in space, turned by arrow keys")));
+    page.body +=
+        as_svg(shapes, poses[0], q[0], say("Figure: {}", all.mechanism.name), description_of(*drawing), true);
     put(page.body, "</div>\n");
     if (moves) {
         add_controls(page, shapes,
@@ -148,24 +153,20 @@ std::string six_digits(double x) {
     return std::abs(x) < 1e-14 ? "0" : fmt::format("{:.6g}", x);
 }
 
-void table(std::string& page, const std::string& caption, const std::vector<std::string>& columns) {
-    put(page, "<div class=\"scroll\"><table>\n<caption>{}</caption>\n<thead><tr>", html(caption));
-    for (const std::string& column : columns) put(page, "<th scope=\"col\">{}</th>", html(column));
-    put(page, "</tr></thead>\n<tbody>\n");
-}
-
 }  // namespace
 
 void add_mechanism(PageParts& page, const Overview& all) {
     const Mechanism& m = all.mechanism;
-    page.section("mechanism", "Coordinates and parameters");
+    page.section("mechanism", say("Coordinates and parameters"));
     if (all.derived.value) {
         const int freedom = all.derived.value->shown.degrees_of_freedom;
-        put(page.body, "<p>The system has <strong>{} degree{} of freedom</strong>.</p>\n", freedom,
-            freedom == 1 ? "" : "s");
+        put(page.body, "<p>{}</p>\n",
+            say("The system has {}{} degree{} of freedom{}.", "<strong>", freedom, freedom == 1 ? "" : "s",
+                "</strong>"));
     }
     std::string& body = page.body;
-    table(body, "Coordinates", {"symbol", "at the start", "rate at the start", "unit", "meaning"});
+    begin_table(body, say("Coordinates"),
+                {say("symbol"), say("at the start"), say("rate at the start"), say("unit"), say("meaning")});
     for (std::size_t k = 0; k < m.q.size(); ++k)
         put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
             symbol(m, m.q[k]), six_digits(all.start.q[k]), six_digits(all.start.qdot[k]),
@@ -173,7 +174,7 @@ void add_mechanism(PageParts& page, const Overview& all) {
             html(k < all.scene.coordinates.size() ? all.scene.coordinates[k].about : ""));
     put(body, "</tbody></table></div>\n");
     if (!m.speeds.empty()) {
-        table(body, "Generalized speeds", {"symbol", "form", "unit", "meaning"});
+        begin_table(body, say("Generalized speeds"), {say("symbol"), say("form"), say("unit"), say("meaning")});
         for (std::size_t k = 0; k < m.speeds.size(); ++k)
             put(body, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
                 symbol(m, m.speeds[k].u), html(all.scene.speeds[k].form.text), html(unit_text(m.speeds[k].unit)),
@@ -181,7 +182,7 @@ void add_mechanism(PageParts& page, const Overview& all) {
         put(body, "</tbody></table></div>\n");
     }
     if (!m.parameters.empty()) {
-        table(body, "Parameters", {"symbol", "value", "unit", "meaning"});
+        begin_table(body, say("Parameters"), {say("symbol"), say("value"), say("unit"), say("meaning")});
         for (std::size_t k = 0; k < m.parameters.size(); ++k) {
             const Parameter& given = all.scene.parameters[k];
             put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
@@ -191,7 +192,8 @@ void add_mechanism(PageParts& page, const Overview& all) {
         put(body, "</tbody></table></div>\n");
     }
     if (!m.inputs.empty()) {
-        table(body, "Given functions of time", {"symbol", "value", "unit", "meaning"});
+        begin_table(body, say("Given functions of time"),
+                    {say("symbol"), say("value"), say("unit"), say("meaning")});
         for (const Input& input : all.scene.inputs)
             put(body,
                 "<tr><th scope=\"row\"><span class=\"letters\">{}</span></th><td><code>{}</code></td><td>{}</td>"

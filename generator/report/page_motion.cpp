@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "language/say.hpp"
 #include "report/page_parts.hpp"
 #include "report/page_plot.hpp"
 #include "report/run.hpp"
@@ -50,14 +51,14 @@ public:
         const std::size_t n = m.q.size();
         put(page_.body, "<div class=\"plots\">\n");
         by_unit(
-            "Coordinates", 0, n, [&](std::size_t k) { return m.q[k].get_name(); },
+            say("Coordinates"), 0, n, [&](std::size_t k) { return m.q[k].get_name(); },
             [&](std::size_t k) { return m.units[k]; }, 1);
         by_unit(
-            "Rates", 0, n, [&](std::size_t k) { return m.q[k].get_name() + "'"; },
+            say("Rates"), 0, n, [&](std::size_t k) { return m.q[k].get_name() + "'"; },
             [&](std::size_t k) { return rate_unit(m.units[k]); }, 1 + n);
         energies();
-        named("Multipliers", 1 + 2 * n, energy_column(), "");
-        named("Outputs and speeds", energy_column() + 1, rows_.columns.size(), "");
+        named(say("Multipliers"), 1 + 2 * n, energy_column(), "");
+        named(say("Outputs and speeds"), energy_column() + 1, rows_.columns.size(), "");
         residuals();
         phase_portraits();
         put(page_.body, "</div>\n");
@@ -122,8 +123,8 @@ private:
             show(title, groups[g].first, lines);
         }
         if (groups.size() > plots_of_a_kind)
-            put(page_.body, "<p class=\"hint\">{}: the first {} of {} are shown.</p>\n", title,
-                plots_of_a_kind * lines_in_plot, to - from);
+            put(page_.body, "<p class=\"hint\">{}</p>\n",
+                say("{}: the first {} of {} are shown.", title, plots_of_a_kind * lines_in_plot, to - from));
     }
 
     void named(const std::string& title, std::size_t from, std::size_t to, const std::string& unit) {
@@ -142,22 +143,22 @@ private:
         }
         std::vector<double> energy = column(energy_column());
         lines.push_back(line("E", energy));
-        show("Energies", unit, lines);
+        show(say("Energies"), unit, lines);
         if (!motion_.run.energy.conserved || energy.empty()) return;
         const double start = energy[0];
         for (double& e : energy) e -= start;
-        show("Change of the energy", unit, {line("E - E0", energy)});
+        show(say("Change of the energy"), unit, {line("E - E0", energy)});
     }
 
     void residuals() {
-        const auto show_all = [&](const char* title, const std::vector<std::vector<double>>& values) {
+        const auto show_all = [&](const std::string& title, const std::vector<std::vector<double>>& values) {
             std::vector<PagePlotLine> lines;
             for (std::size_t k = 0; k < std::min(values.size(), lines_in_plot); ++k)
                 lines.push_back(line(motion_.constraints[k], values[k]));
-            if (!lines.empty()) show(title, "residual", lines);
+            if (!lines.empty()) show(title, say("residual"), lines);
         };
-        show_all("Residuals of the constraints", motion_.position);
-        show_all("Residuals of their rates", motion_.velocity);
+        show_all(say("Residuals of the constraints"), motion_.position);
+        show_all(say("Residuals of their rates"), motion_.velocity);
     }
 
     void phase_portraits() {
@@ -167,7 +168,7 @@ private:
             if (!columns_.contains(1 + k) || !columns_.contains(1 + n + k)) continue;
             const std::string name = m.q[k].get_name();
             page_.body +=
-                page_plot({.title = "Phase portrait",
+                page_plot({.title = say("Phase portrait"),
                            .x_name = name,
                            .x_unit = unit_text(m.units[k]),
                            .y_name = name + "'",
@@ -188,11 +189,11 @@ private:
 const char* kind_of(const ContactEvent& event) {
     switch (event.kind) {
         case ContactEvent::Kind::impact:
-            return "impact";
+            return to_say("impact");
         case ContactEvent::Kind::release:
-            return "release";
+            return to_say("release");
         default:
-            return "rest";
+            return to_say("rest");
     }
 }
 
@@ -210,37 +211,37 @@ int point_of_contact(const Overview& all, const std::string& name) {
 }  // namespace
 
 void add_plots(PageParts& page, const Overview& all) {
-    page.section("plots", "Plots");
+    page.section("plots", say("Plots"));
     if (all.motion.value && all.motion.value->run.rows.rows() > 1)
         Plots(page, all, *all.motion.value).all();
     else
-        page.problem(all.motion.problem.empty() ? "There is no motion to plot." : all.motion.problem);
+        page.problem(all.motion.problem.empty() ? say("There is no motion to plot.") : all.motion.problem);
     page.end();
 }
 
 void add_motion(PageParts& page, const Overview& all) {
     if (!all.motion.value) return;
     const Run& run = all.motion.value->run;
-    page.section("run", "How the motion was made");
+    page.section("run", say("How the motion was made"));
     if (run.failure) page.problem(*run.failure);
     for (const std::string& doubt : run.doubts) put(page.body, "<p class=\"warning\">{}</p>\n", html(doubt));
     put(page.body, "<dl class=\"facts\">");
-    const auto fact = [&](const char* name, const std::string& value) {
+    const auto fact = [&](const std::string& name, const std::string& value) {
         put(page.body, "<div><dt>{}</dt><dd>{}</dd></div>\n", name, html(value));
     };
     const Statistics& s = run.motion.statistics;
-    fact("equations", run.solver.formulation);
-    fact("method", s.method + (run.why_method.empty() ? "" : " (" + run.why_method + ")"));
-    fact("steps", fmt::format("{} accepted, {} rejected, {} evaluations of {} operations", s.steps, s.rejected,
-                              s.evaluations, run.solver.operations));
+    fact(say("equations"), translated_parts(run.solver.formulation));
+    fact(say("method"), s.method + (run.why_method.empty() ? "" : " (" + run.why_method + ")"));
+    fact(say("steps"), say("{} accepted, {} rejected, {} evaluations of {} operations", s.steps, s.rejected,
+                           s.evaluations, run.solver.operations));
     if (run.estimate && run.estimate->value)
-        fact("estimated error at the end", fmt::format("{:.2g}, by a second run", *run.estimate->value));
+        fact(say("estimated error at the end"), say("{:.2g}, by a second run", *run.estimate->value));
     if (run.energy.conserved)
-        fact("drift of the energy", fmt::format("{:.2g} of its size", run.energy.drift));
+        fact(say("drift of the energy"), say("{:.2g} of its size", run.energy.drift));
     else
-        fact("work balance", fmt::format("{:.2g} of the energy's size", run.energy.balance));
+        fact(say("work balance"), say("{:.2g} of the energy's size", run.energy.balance));
     if (run.is_constrained())
-        fact("largest residual of a constraint", fmt::format("{:.2g}", run.constraint_drift));
+        fact(say("largest residual of a constraint"), fmt::format("{:.2g}", run.constraint_drift));
     put(page.body, "</dl>\n");
 
     Json& happenings = page.data["happenings"] = Json::array();
@@ -252,10 +253,10 @@ void add_motion(PageParts& page, const Overview& all) {
     std::vector<Happening> list;
     for (const ContactEvent& e : run.motion.contacts) {
         const std::string& name = run.contacts[static_cast<std::size_t>(e.contact)];
-        list.push_back({e.time, std::string(kind_of(e)) + " " + name, point_of_contact(all, name)});
+        list.push_back({e.time, translated(kind_of(e)) + " " + name, point_of_contact(all, name)});
     }
     for (const EventRecord& e : run.motion.events)
-        list.push_back({e.time, "event " + e.name + (e.impulse.empty() ? "" : ", with an impulse"),
+        list.push_back({e.time, say("event {}", e.name) + (e.impulse.empty() ? "" : say(", with an impulse")),
                         e.impulse.empty() || !all.drawing.value || all.drawing.value->traced.empty()
                             ? -1
                             : all.drawing.value->traced[0]});
@@ -263,12 +264,14 @@ void add_motion(PageParts& page, const Overview& all) {
     constexpr std::size_t most = 200;
     if (!list.empty()) {
         put(page.body,
-            "<details><summary>{} contact{} and event{}</summary><div class=\"scroll\"><table><thead><tr>"
-            "<th scope=\"col\">time</th><th scope=\"col\">what</th></tr></thead><tbody>\n",
-            list.size(), list.size() == 1 ? "" : "s", list.size() == 1 ? "" : "s");
+            "<details><summary>{}</summary><div class=\"scroll\"><table><thead><tr>"
+            "<th scope=\"col\">{}</th><th scope=\"col\">{}</th></tr></thead><tbody>\n",
+            say("{} contact{} and event{}", list.size(), list.size() == 1 ? "" : "s", list.size() == 1 ? "" : "s"),
+            say("time"), say("what"));
         for (std::size_t k = 0; k < std::min(list.size(), most); ++k)
             put(page.body, "<tr><td>{:.9g}</td><td>{}</td></tr>\n", list[k].time, html(list[k].text));
-        if (list.size() > most) put(page.body, "<tr><td></td><td>… and {} more</td></tr>\n", list.size() - most);
+        if (list.size() > most)
+            put(page.body, "<tr><td></td><td>{}</td></tr>\n", say("… and {} more", list.size() - most));
         put(page.body, "</tbody></table></div></details>\n");
     }
     for (std::size_t k = 0; k < std::min(list.size(), most); ++k)
@@ -285,11 +288,13 @@ void add_code(PageParts& page, const Overview& all) {
     }
     const std::string& code = all.emitted.value->source.text;
     constexpr std::size_t most = 200'000;
-    put(page.body, "<p>The right-hand side of the equations as C++ that needs no library: {} operations.</p>\n",
-        all.emitted.value->source.operations.total());
+    put(page.body, "<p>{}</p>\n",
+        say("The right-hand side of the equations as C++ that needs no library: {} operations.",
+            all.emitted.value->source.operations.total()));
     if (code.size() > most) {
-        put(page.body, "<p>It is {} kB long and left out here; <code>alembert emit</code> writes it.</p>\n",
-            code.size() / 1000);
+        put(page.body, "<p>{}</p>\n",
+            say("It is {} kB long and left out here; {} writes it.", code.size() / 1000,
+                "<code>alembert emit</code>"));
         page.end();
         return;
     }
@@ -300,7 +305,7 @@ void add_code(PageParts& page, const Overview& all) {
 }
 
 void add_commands(PageParts& page, const Overview& all, const std::string& by) {
-    page.section("commands", "How to make this page");
+    page.section("commands", say("How to make this page"));
     std::string file = all.scene.file;
     if (const std::size_t slash = file.rfind('/'); slash != std::string::npos) file.erase(0, slash + 1);
     std::string quoted = "'";
@@ -322,10 +327,9 @@ void add_commands(PageParts& page, const Overview& all, const std::string& by) {
                  "\n";
     }
     put(page.body,
-        "<pre>{}</pre>\n<details><summary>The scene</summary><pre class=\"code\"><code>{}</code></pre>"
-        "</details>\n",
-        html(lines), html(all.scene.text));
-    page.copy("scene", all.scene.text);
+        "<pre>{}</pre>\n<details><summary>{}</summary><pre class=\"code\"><code>{}</code></pre></details>\n",
+        html(lines), say("The scene"), html(all.scene.text));
+    page.copy(say("scene"), all.scene.text);
     page.end();
 }
 

@@ -23,6 +23,9 @@ struct PageParts {
     void problem(const std::string& message);
 };
 
+/// Begins a table, whose rows follow, with a heading for each column.
+void begin_table(std::string& body, const std::string& caption, const std::vector<std::string>& columns);
+
 /// "m^2" as m².
 std::string unit_text(std::string unit);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/figure_shapes.hpp"
 #include "report/html.hpp"
 #include "report/page.hpp"
@@ -50,7 +51,7 @@ std::string tick_text(double value, double step) {
 }
 
 std::string axis_label(const std::string& name, const std::string& unit) {
-    const std::string in = name.empty() || unit.empty() ? "" : " in ";
+    const std::string in = name.empty() || unit.empty() ? "" : say(" in ");
     return "<tspan class=\"letters\">" + svg_letters(name) + "</tspan>" + "<tspan" +
            (name.find_first_of("_0123456789") == std::string::npos ? "" : " dy=\"-4\"") + ">" + in + html(unit) +
            "</tspan>";
@@ -105,7 +106,7 @@ std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x
     for (const PagePlotLine& line : lines) columns += fmt::format("{}{}", columns.empty() ? "" : ",", line.column);
     std::string page;
     put(page, "<figure class=\"plot\">\n<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\"", width, height,
-        html(labels.title + (labels.points ? ": " + labels.y_name : "") + " over " + labels.x_name));
+        html(say("{} over {}", labels.title + (labels.points ? ": " + labels.y_name : ""), labels.x_name)));
     if (!labels.points)
         put(page,
             " data-columns=\"{}\" data-x-column=\"{}\" data-x=\"{:.17g},{:.17g}\" data-y=\"{:.17g},{:.17g}\"",

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -73,7 +75,7 @@ std::string heading_of(const PlotPanel& panel) {
     if (panel.offset != 0)
         names += fmt::format(" {} {:.9g}", panel.offset < 0 ? "+" : "−", std::abs(panel.offset));
     const std::string& unit = panel.lines.front().unit;
-    return unit.empty() ? names : names + " in " + unit;
+    return unit.empty() ? names : say("{} in {}", names, unit);
 }
 
 std::string described(const PlotPanel& panel) {
@@ -81,9 +83,9 @@ std::string described(const PlotPanel& panel) {
     for (const PlottedLine& line : panel.lines) {
         if (line.points.empty()) continue;
         const auto [least, most] = range_of({.lines = {line}}, second);
-        text += fmt::format(" {}: from {:.4g} to {:.4g} {}, between {:.4g} and {:.4g}.", line.name,
-                            line.points.front().second + panel.offset, line.points.back().second + panel.offset,
-                            line.unit, least + panel.offset, most + panel.offset);
+        text += say(" {}: from {:.4g} to {:.4g} {}, between {:.4g} and {:.4g}.", line.name,
+                    line.points.front().second + panel.offset, line.points.back().second + panel.offset, line.unit,
+                    least + panel.offset, most + panel.offset);
     }
     return text;
 }

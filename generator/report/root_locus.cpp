@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 #include "report/plot.hpp"
 #include "report/stability_charts.hpp"
@@ -21,7 +22,7 @@ std::size_t most_roots(const RootLocus& locus) {
 }
 
 std::string edge_in_words(SpectrumOf of) {
-    return of == SpectrumOf::multipliers ? "the unit circle" : "the imaginary axis";
+    return of == SpectrumOf::multipliers ? say("the unit circle") : say("the imaginary axis");
 }
 
 std::string shown_root(std::complex<double> root) {
@@ -57,15 +58,15 @@ std::string as_svg(const RootLocus& locus) {
     low_x = std::min(low_x, 0.0), high_x = std::max(high_x, 0.0);
     PlotSheet sheet{
         .width = locus_left + locus_width + 130,
-        .title = locus.title.empty() ? "Root locus" : locus.title,
-        .about = fmt::format("Roots in the complex plane over {}.", locus.name),
-        .captions = {fmt::format("{} from {:g} (circles) to {:g} (crosses)", locus.name, locus.from, locus.to)}};
+        .title = locus.title.empty() ? say("Root locus") : locus.title,
+        .about = say("Roots in the complex plane over {}.", locus.name),
+        .captions = {say("{} from {:g} (circles) to {:g} (crosses)", locus.name, locus.from, locus.to)}};
     const double top = plot_top(sheet) + 10;
     sheet.height = top + locus_height + 56;
     std::string svg = plot_begin(sheet);
     const PlotArea area{linear_scale(low_x, high_x, locus_left, locus_left + locus_width, 0.06),
                         linear_scale(-high_y, high_y, top + locus_height, top, 0.06)};
-    svg += plot_axes(area, {.x = "real part", .y = "imaginary part"}) + edge_of_locus(locus, area);
+    svg += plot_axes(area, {.x = say("real part"), .y = say("imaginary part")}) + edge_of_locus(locus, area);
     for (std::size_t k = 0; k < most_roots(locus); ++k) {
         PlotPoints points;
         for (const Spectra::Roots& roots : locus.roots)
@@ -131,13 +132,13 @@ Json as_json(const RootLocus& locus) {
 std::string as_text(const RootLocus& locus) {
     std::string page;
     if (!locus.title.empty()) put(page, "{}\n\n", locus.title);
-    put(page, "Roots over {} from {:g} to {:g}, in floating point, at {} values.\n", locus.name, locus.from,
-        locus.to, locus.values.size());
-    if (locus.crossings.empty()) put(page, "None crosses {}.\n", edge_in_words(locus.of));
+    say_on(page, "Roots over {} from {:g} to {:g}, in floating point, at {} values.\n", locus.name, locus.from,
+           locus.to, locus.values.size());
+    if (locus.crossings.empty()) say_on(page, "None crosses {}.\n", edge_in_words(locus.of));
     for (const RootLocus::Crossing& one : locus.crossings)
-        put(page, "{} = {:.15g}: {} cross{} {} ({}), beyond it are {} before and {} after\n", locus.name,
-            one.value, shown_root(one.root), one.root.imag() == 0 ? "es" : "", edge_in_words(locus.of),
-            name_of(one.kind), one.before, one.after);
+        say_on(page, "{} = {:.15g}: {} cross{} {} ({}), beyond it are {} before and {} after\n", locus.name,
+               one.value, shown_root(one.root), one.root.imag() == 0 ? "es" : "", edge_in_words(locus.of),
+               translated(name_of(one.kind)), one.before, one.after);
     return page;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "emit/layout.hpp"
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -15,11 +16,11 @@ constexpr std::size_t most_lines = 20;
 const char* word(ContactEvent::Kind kind) {
     switch (kind) {
         case ContactEvent::Kind::impact:
-            return "impact";
+            return to_say("impact");
         case ContactEvent::Kind::release:
-            return "release";
+            return to_say("release");
         default:
-            return "rest";
+            return to_say("rest");
     }
 }
 
@@ -38,13 +39,12 @@ std::string text_of(const std::vector<EventRecord>& events, const Mechanism& m) 
     std::string text;
     for (std::size_t i = 0; i < events.size(); ++i) {
         if (i + 1 == most_lines && events.size() > most_lines) {
-            text += fmt::format("… and {} more, then\n", events.size() - most_lines);
+            text += say("… and {} more, then\n", events.size() - most_lines);
             i = events.size() - 1;
         }
         const EventRecord& event = events[i];
-        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].name,
-                            event.time,
-                            event.impulse.empty() ? "" : fmt::format(", energy gain {:.6g}", event.energy_gain));
+        text += say("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].name,
+                    event.time, event.impulse.empty() ? "" : say(", energy gain {:.6g}", event.energy_gain));
     }
     return text;
 }
@@ -66,14 +66,14 @@ std::string text_of(const std::vector<ContactEvent>& events, const std::vector<s
     std::string text;
     for (std::size_t i = 0; i < std::min(events.size(), most_lines); ++i) {
         const ContactEvent& e = events[i];
-        text += fmt::format("contact {}: {} at t = {:.15g}", names[static_cast<std::size_t>(e.contact)],
-                            word(e.kind), e.time);
+        text += say("contact {}: {} at t = {:.15g}", names[static_cast<std::size_t>(e.contact)],
+                    translated(word(e.kind)), e.time);
         if (e.kind == ContactEvent::Kind::impact)
-            text += fmt::format(", speed {:.6g} -> {:.6g}, energy loss {:.6g}", e.speed_before, e.speed_after,
-                                e.energy_loss);
+            text +=
+                say(", speed {:.6g} -> {:.6g}, energy loss {:.6g}", e.speed_before, e.speed_after, e.energy_loss);
         text += "\n";
     }
-    if (events.size() > most_lines) text += fmt::format("… and {} more\n", events.size() - most_lines);
+    if (events.size() > most_lines) text += say("… and {} more\n", events.size() - most_lines);
     return text;
 }
 
@@ -93,19 +93,19 @@ Json contacts_of(const Run& run) {
 std::string text_of(const std::vector<Run::FrictionChange>& changes, const Mechanism& m) {
     std::string text;
     for (std::size_t k = 0; k < std::min(changes.size(), most_lines); ++k)
-        text += fmt::format("friction {}: {} at t = {:.15g}\n",
-                            m.frictions[static_cast<std::size_t>(changes[k].friction)].name,
-                            changes[k].side == 0  ? "sticks"
-                            : changes[k].side > 0 ? "slips (+)"
-                                                  : "slips (-)",
-                            changes[k].time);
-    if (changes.size() > most_lines) text += fmt::format("… and {} more\n", changes.size() - most_lines);
+        text += say("friction {}: {} at t = {:.15g}\n",
+                    m.frictions[static_cast<std::size_t>(changes[k].friction)].name,
+                    changes[k].side == 0  ? say("sticks")
+                    : changes[k].side > 0 ? say("slips (+)")
+                                          : say("slips (-)"),
+                    changes[k].time);
+    if (changes.size() > most_lines) text += say("… and {} more\n", changes.size() - most_lines);
     return text;
 }
 
 /// A change of method in words: "radau from t = 0.31 on: …".
 std::string described(const Switch& s) {
-    return fmt::format(
+    return say(
         "{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} "
         "s)",
         s.method, s.time, s.largest_eigenvalue, s.step);
@@ -113,28 +113,29 @@ std::string described(const Switch& s) {
 
 Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
     const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
-    Json result{{"value", number(e.value)},
-                {"by", e.by},
-                {"trustworthy", reasons.empty()},
-                {"norm",
-                 "value: at most max |error| / max(1, |y|) of coordinates, rates and speeds at the end; scaled: "
-                 "max |error| / how far components of "
-                 "that unit move in the run"},
-                {"scaled", number(e.scaled)},
-                {"reasons", reasons}};
+    Json result{
+        {"value", number(e.value)},
+        {"by", e.by},
+        {"trustworthy", reasons.empty()},
+        {"norm",
+         say("value: at most max |error| / max(1, |y|) of coordinates, rates and speeds at the end; scaled: "
+             "max |error| / how far components of "
+             "that unit move in the run")},
+        {"scaled", number(e.scaled)},
+        {"reasons", reasons}};
     if (e.lyapunov) result["lyapunov_exponent"] = *e.lyapunov;
     if (e.horizon) result["no_digit_after"] = *e.horizon;
     return result;
 }
 
-const char* word(SideChange::Kind kind) {
+std::string word(SideChange::Kind kind) {
     switch (kind) {
         case SideChange::Kind::sliding:
-            return "stays zero";
+            return say("stays zero");
         case SideChange::Kind::leaving:
-            return "leaves zero";
+            return say("leaves zero");
         default:
-            return "changes sign";
+            return say("changes sign");
     }
 }
 
@@ -154,13 +155,13 @@ std::string text_of(const std::vector<Run::Side>& changes) {
     std::string page;
     for (std::size_t k = 0; k < std::min(most, changes.size()); ++k)
         put(page, "t = {:.15g}: {} {}\n", changes[k].time, changes[k].name, word(changes[k].kind));
-    if (changes.size() > most) put(page, "… and {} such changes more\n", changes.size() - most);
+    if (changes.size() > most) say_on(page, "… and {} such changes more\n", changes.size() - most);
     return page;
 }
 
 /// The reason why the result should not be trusted; empty if there is none.
 std::string warning_of(const Run& run) {
-    return run.doubts.empty() ? std::string() : fmt::format("NOT TRUSTWORTHY: {}", fmt::join(run.doubts, "; "));
+    return run.doubts.empty() ? std::string() : say("NOT TRUSTWORTHY: {}", fmt::join(run.doubts, "; "));
 }
 
 /// " of 67 operations"; empty if all accelerations are constants.
@@ -168,57 +169,59 @@ std::string of_operations(const Run& run) {
     const int count = run.solver.operations;
     if (count == 0) return "";
     const bool varies = run.motion.phases.size() > 1 && !run.contacts.empty();
-    return fmt::format(" of {}{}", varies ? "at most " : "", counted(count, "operation"));
+    return say(" of {}{}", varies ? say("at most ") : "", shown_count(count, to_say("operation")));
 }
 
 /// Adds the method, the end of the motion and the contacts that were closed then.
 void add_motion(std::string& page, const Run& run) {
     const Statistics& s = run.motion.statistics;
-    put(page, "{} with {}: {}, {} rejected, {}{}\n", run.solver.formulation, s.method, counted(s.steps, "step"),
-        s.rejected, counted(s.evaluations, "evaluation"), of_operations(run));
+    say_on(page, "{} with {}: {}, {} rejected, {}{}\n", translated_parts(run.solver.formulation), s.method,
+           shown_count(s.steps, to_say("step")), s.rejected, shown_count(s.evaluations, to_say("evaluation")),
+           of_operations(run));
     if (!run.why_method.empty()) put(page, "{}: {}\n", s.method, run.why_method);
     if (s.switched) put(page, "{}\n", described(*s.switched));
     if (run.solver.jacobian_operations)
-        put(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
+        say_on(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
     page += text_of(run.motion.events, run.mechanism);
     page += text_of(run.motion.contacts, run.contacts);
     page += text_of(run.friction_changes, run.mechanism);
     page += text_of(run.side_changes);
-    put(page, "\nat t = {:.15g}\n", run.motion.final_time());
+    say_on(page, "\nat t = {:.15g}\n", run.motion.final_time());
     const std::size_t width = column_for(run.speeds, column_for(run.coordinates, 16));
     for (std::size_t i = 0; i < run.coordinates.size(); ++i)
-        put(page, "{:<{}}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], width, run.final_coordinates[i],
-            run.final_rates[i]);
+        say_on(page, "{:<{}}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], width, run.final_coordinates[i],
+               run.final_rates[i]);
     for (std::size_t k = 0; k < run.speeds.size(); ++k)
         put(page, "{:<{}}{:>24.16g}\n", run.speeds[k], width, run.final_speeds[k]);
     if (run.contacts.empty()) return;
     std::string closed;
     for (const int k : run.motion.phases.back().closed)
         closed += (closed.empty() ? "" : ", ") + run.contacts[static_cast<std::size_t>(k)];
-    put(page, "closed: {}\n", closed.empty() ? "no contact" : closed);
+    say_on(page, "closed: {}\n", closed.empty() ? say("no contact") : closed);
 }
 
 /// Adds the accuracy of the numbers.
 void add_account(std::string& page, const Run& run) {
     if (run.estimate && run.estimate->value) {
         const ErrorEstimate& e = *run.estimate;
-        put(page, "\nestimated error {:.1e} ({:.1e} of the motion's size), by {}\n", *e.value, *e.scaled, e.by);
+        say_on(page, "\nestimated error {:.1e} ({:.1e} of the motion's size), by {}\n", *e.value, *e.scaled, e.by);
         if (e.lyapunov)
-            put(page, "chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n", *e.lyapunov,
-                *e.horizon);
+            say_on(page, "chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n",
+                   *e.lyapunov, *e.horizon);
     }
     const EnergyAccount& energy = run.energy;
-    if (energy.impact_loss != 0) put(page, "\nlost in impacts {:.10g}", energy.impact_loss);
-    if (run.mechanism.has_kicks()) put(page, "\ngained by impulses {:.10g}", energy.impulse_work);
+    if (energy.impact_loss != 0) say_on(page, "\nlost in impacts {:.10g}", energy.impact_loss);
+    if (run.mechanism.has_kicks()) say_on(page, "\ngained by impulses {:.10g}", energy.impulse_work);
     if (energy.conserved)
-        put(page, "\nenergy drift {:.2e}\n", energy.drift);
+        say_on(page, "\nenergy drift {:.2e}\n", energy.drift);
     else
-        put(page, "\nenergy is not conserved; work balance {:.2e}\n", energy.balance);
-    if (energy.jacobi_conserved) put(page, "T2 - T0 + V is; its drift {:.2e}\n", energy.jacobi_drift);
-    if (run.is_constrained()) put(page, "constraint drift {:.2e}\n", run.constraint_drift);
-    for (const std::string& line : run.adjusted) put(page, "adjusted at the start: {}\n", line);
-    put(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.timings.derive,
-        run.timings.emit, run.timings.compile, run.solver.from_cache ? " (cached)" : "", run.timings.integrate);
+        say_on(page, "\nenergy is not conserved; work balance {:.2e}\n", energy.balance);
+    if (energy.jacobi_conserved) say_on(page, "T2 - T0 + V is; its drift {:.2e}\n", energy.jacobi_drift);
+    if (run.is_constrained()) say_on(page, "constraint drift {:.2e}\n", run.constraint_drift);
+    for (const std::string& line : run.adjusted) say_on(page, "adjusted at the start: {}\n", line);
+    say_on(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.timings.derive,
+           run.timings.emit, run.timings.compile, run.solver.from_cache ? say(" (cached)") : "",
+           run.timings.integrate);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/scene_page.hpp"
 
+#include "language/say.hpp"
 #include "report/page_files.hpp"
 #include "report/page_parts.hpp"
 #include "report/sha256.hpp"
@@ -9,17 +10,22 @@ namespace alembert {
 
 namespace {
 
+/// "en", "zh-CN": what the language of the reader is called in HTML.
+std::string language_tag() {
+    return say("en");
+}
+
 std::string head(const std::string& title, bool has_script) {
     std::string page;
     put(page,
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; base-uri 'none'; form-action "
         "'none'; style-src 'sha256-{}'{}\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" "
         "content=\"light dark\">\n<meta name=\"generator\" content=\"alembert\">\n<title>{}</title>\n"
         "<style>{}</style>\n</head>\n<body>\n",
-        sha256_base64(page_style), has_script ? "; script-src 'sha256-" + sha256_base64(page_script) + "'" : "",
-        html(title), page_style);
+        language_tag(), sha256_base64(page_style),
+        has_script ? "; script-src 'sha256-" + sha256_base64(page_script) + "'" : "", html(title), page_style);
     return page;
 }
 
@@ -32,6 +38,12 @@ std::string unit_text(std::string unit) {
     return unit;
 }
 
+void begin_table(std::string& body, const std::string& caption, const std::vector<std::string>& columns) {
+    put(body, "<div class=\"scroll\"><table>\n<caption>{}</caption>\n<thead><tr>", html(caption));
+    for (const std::string& column : columns) put(body, "<th scope=\"col\">{}</th>", html(column));
+    put(body, "</tr></thead>\n<tbody>\n");
+}
+
 void PageParts::section(const std::string& id, const std::string& heading) {
     contents.emplace_back(id, heading);
     put(body, "<section id=\"{0}\" aria-labelledby=\"{0}-heading\">\n<h2 id=\"{0}-heading\">{1}</h2>\n", id,
@@ -40,8 +52,8 @@ void PageParts::section(const std::string& id, const std::string& heading) {
 
 void PageParts::copy(const std::string& what, const std::string& text) {
     Json& copies = data["copies"];
-    put(body, "<button type=\"button\" class=\"copy\" data-copy=\"{}\">Copy {}</button>\n", copies.size(),
-        html(what));
+    put(body, "<button type=\"button\" class=\"copy\" data-copy=\"{}\">{}</button>\n", copies.size(),
+        html(say("Copy {}", what)));
     copies.push_back(text);
 }
 
@@ -52,6 +64,10 @@ void PageParts::problem(const std::string& message) {
 std::string as_html(const Overview& all, const ScenePageOptions& options) {
     PageParts parts;
     parts.data["copies"] = Json::array();
+    parts.data["words"] = {{"play", say("Play")},
+                           {"pause", say("Pause")},
+                           {"copied", say("Copied")},
+                           {"refused", say("Copying is not allowed")}};
     add_figure(parts, all);
     add_mechanism(parts, all);
     add_derivation(parts, all);
@@ -68,29 +84,31 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
 
     const std::string title = all.scene.title.empty() ? all.mechanism.name : all.scene.title;
     std::string page = head(title, true);
-    put(page, "<a class=\"skip\" href=\"#main\">To the content</a>\n<header>\n<h1>{}</h1>\n", html(title));
+    put(page, "<a class=\"skip\" href=\"#main\">{}</a>\n<header>\n<h1>{}</h1>\n", say("To the content"),
+        html(title));
     if (!all.scene.source.empty()) put(page, "<p class=\"source\">{}</p>\n", html(all.scene.source));
     if (!all.scene.notes.empty()) put(page, "<p class=\"notes\">{}</p>\n", html(all.scene.notes));
-    put(page, "<nav aria-label=\"Contents\"><ul>\n");
+    put(page, "<nav aria-label=\"{}\"><ul>\n", say("Contents"));
     for (const auto& [id, heading] : parts.contents)
         put(page, "<li><a href=\"#{}\">{}</a></li>\n", id, html(heading));
     put(page, "</ul></nav>\n</header>\n<main id=\"main\">\n");
     for (const std::string& warning : all.warnings)
         put(page, "<pre class=\"warning\" role=\"note\">{}</pre>\n", html(warning));
-    put(page, "{}</main>\n<footer>Made by alembert {} from {}.</footer>\n", parts.body, html(options.version),
-        html(all.mechanism.name + ".toml"));
+    put(page, "{}</main>\n<footer>{}</footer>\n", parts.body,
+        html(say("Made by alembert {} from {}.", options.version, all.mechanism.name + ".toml")));
     put(page, "<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n</body>\n</html>\n",
         script_json(parts.data), page_script);
     return page;
 }
 
 std::string error_page(const std::string& file, const std::string& message) {
-    std::string page = head("There is a mistake in " + file, false);
+    std::string page = head(say("There is a mistake in {}", file), false);
     put(page,
-        "<header><h1>The scene has a mistake</h1></header>\n<main id=\"main\"><section>\n<p>alembert cannot read "
-        "<code>{}</code>. It says:</p>\n<pre class=\"problem\" role=\"alert\">{}</pre>\n"
-        "<p>Repair this and make the page again.</p>\n</section></main>\n</body>\n</html>\n",
-        html(file), html(message));
+        "<header><h1>{}</h1></header>\n<main id=\"main\"><section>\n<p>{}</p>\n"
+        "<pre class=\"problem\" role=\"alert\">{}</pre>\n<p>{}</p>\n</section></main>\n</body>\n</html>\n",
+        say("The scene has a mistake"),
+        say("alembert cannot read {}. It says:", "<code>" + html(file) + "</code>"), html(message),
+        say("Repair this and make the page again."));
     return page;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/linearization.hpp"
 #include "report/modes.hpp"
 #include "report/page.hpp"
@@ -14,13 +15,13 @@ namespace {
 const char* side_name(RootOf::Side side) {
     switch (side) {
         case RootOf::Side::left:
-            return "left";
+            return to_say("left");
         case RootOf::Side::axis:
-            return "on the axis";
+            return to_say("on the axis");
         case RootOf::Side::right:
-            return "right";
+            return to_say("right");
         case RootOf::Side::unclear:
-            return "unclear";
+            return to_say("unclear");
     }
     return "";
 }
@@ -81,42 +82,43 @@ Json as_json(const Stability& s) {
 std::string as_text(const Stability& s, bool with_modes) {
     std::string page;
     if (!s.title.empty()) put(page, "{}\n\n", s.title);
-    put(page, "{}: {}.\n", name_of(s.verdict), s.reason);
-    if (s.theorem != StabilityTheorem::none) put(page, "By: {}\n", name_of(s.theorem));
+    say_on(page, "{}: {}.\n", translated(name_of(s.verdict)), s.reason);
+    if (s.theorem != StabilityTheorem::none) say_on(page, "By: {}\n", translated(name_of(s.theorem)));
     if (!s.states.empty())
-        put(page, "With respect to {}{}\n", fmt::join(s.states, ", "),
-            s.near && !s.near->matrices.cyclic.empty()
-                ? fmt::format(" (not {}, which nothing depends on)", fmt::join(s.near->matrices.cyclic, ", "))
-                : "");
+        say_on(page, "With respect to {}{}\n", fmt::join(s.states, ", "),
+               s.near && !s.near->matrices.cyclic.empty()
+                   ? say(" (not {}, which nothing depends on)", fmt::join(s.near->matrices.cyclic, ", "))
+                   : "");
     if (s.lyapunov) {
-        put(page, "\nV = {}: {}\n", s.lyapunov->function, s.lyapunov->sign);
-        put(page, "dV/dt{}: {}\n", s.lyapunov->rate.empty() ? "" : " = " + s.lyapunov->rate,
-            s.lyapunov->rate_sign);
-        if (!s.lyapunov->set.empty()) put(page, "dV/dt is zero where {}\n", s.lyapunov->set);
+        put(page, "\nV = {}: {}\n", s.lyapunov->function, translated(s.lyapunov->sign));
+        say_on(page, "dV/dt{}: {}\n", s.lyapunov->rate.empty() ? "" : " = " + s.lyapunov->rate,
+               translated(s.lyapunov->rate_sign));
+        if (!s.lyapunov->set.empty()) say_on(page, "dV/dt is zero where {}\n", s.lyapunov->set);
     }
     if (!s.multipliers.empty()) {
-        put(page, "\nPeriod {:.16g} s, multipliers over it:\n\n{:>24}{:>24}{:>20}{:>12}\n", s.period, "real",
-            "imaginary", "size", "radius");
+        say_on(page, "\nPeriod {:.16g} s, multipliers over it:\n\n{:>24}{:>24}{:>20}{:>12}\n", s.period,
+               say("real"), say("imaginary"), say("size"), say("radius"));
         for (std::size_t k = 0; k < s.multipliers.size(); ++k)
             put(page, "{:>24.16g}{:>24.16g}{:>20.12g}{:>12.1e}\n", s.multipliers[k].real(),
                 s.multipliers[k].imag() + 0.0, std::abs(s.multipliers[k]), s.radii[k]);
     }
     if (!s.eigenvalues.empty()) {
-        put(page, "\n{:>24}{:>24}{:>12}   {}\n", "eigenvalue, real", "imaginary", "radius", "side of the axis");
+        put(page, "\n{:>24}{:>24}{:>12}   {}\n", say("eigenvalue, real"), say("imaginary"), say("radius"),
+            say("side of the axis"));
         for (const RootOf& root : s.eigenvalues) {
             if (root.value.imag() < 0) continue;
             put(page, "{:>24.16g}{:>24}{:>12.1e}   {}\n", root.value.real() + 0.0,
                 root.value.imag() == 0 ? "" : fmt::format("+-{:.16g}", root.value.imag()), root.radius,
-                side_name(root.side));
+                translated(side_name(root.side)));
         }
     }
     if (with_modes && s.near) page += "\n" + as_text(modes_near(s), s.states);
     if (!s.conditions.empty()) {
-        put(page, "\nConditions, for {}:\n", s.conditions_for);
+        say_on(page, "\nConditions, for {}:\n", s.conditions_for);
         for (const std::string& condition : s.conditions) put(page, "  {}\n", condition);
     }
     if (!s.routh.empty()) {
-        put(page, "\nRouth's array:\n");
+        say_on(page, "\nRouth's array:\n");
         for (const std::string& row : s.routh) put(page, "  {}\n", row);
     }
     return page;

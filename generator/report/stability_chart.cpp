@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 #include "report/plot.hpp"
 #include "report/stability_charts.hpp"
@@ -36,29 +37,29 @@ const char* colour_of_kind(SpectrumKind kind) {
     return "#d0d0d0";
 }
 
-const char* meaning(SpectrumKind kind, SpectrumOf of) {
+std::string meaning(SpectrumKind kind, SpectrumOf of) {
     const bool circle = of == SpectrumOf::multipliers;
     switch (kind) {
         case SpectrumKind::inside:
-            return "asymptotically stable";
+            return say("asymptotically stable");
         case SpectrumKind::edge:
-            return circle ? "critical: on the circle" : "critical: on the axis";
+            return circle ? say("critical: on the circle") : say("critical: on the axis");
         case SpectrumKind::divergence:
-            return circle ? "unstable: beyond +1" : "unstable: divergence";
+            return circle ? say("unstable: beyond +1") : say("unstable: divergence");
         case SpectrumKind::flip:
-            return "unstable: beyond -1";
+            return say("unstable: beyond -1");
         case SpectrumKind::flutter:
-            return circle ? "unstable: a pair" : "unstable: flutter";
+            return circle ? say("unstable: a pair") : say("unstable: flutter");
         case SpectrumKind::none:
             break;
     }
-    return "nothing to judge found";
+    return say("nothing to judge found");
 }
 
-const char* roots_in_words(SpectrumOf of) {
-    return of == SpectrumOf::multipliers ? "Floquet multipliers"
-           : of == SpectrumOf::roots     ? "roots of the polynomial"
-                                         : "eigenvalues of the first approximation";
+std::string roots_in_words(SpectrumOf of) {
+    return of == SpectrumOf::multipliers ? say("Floquet multipliers")
+           : of == SpectrumOf::roots     ? say("roots of the polynomial")
+                                         : say("eigenvalues of the first approximation");
 }
 
 std::size_t count_of(const StabilityChart& chart, SpectrumKind kind) {
@@ -117,9 +118,9 @@ std::string path_of(const std::vector<ChartPoint>& points, const PlotArea& area)
 
 std::string as_svg(const StabilityChart& chart) {
     PlotSheet sheet{.width = left + chart_width + right,
-                    .title = chart.title.empty() ? "Stability" : chart.title,
-                    .about = fmt::format("Stability over {} and {}.", chart.x.name, chart.y.name),
-                    .captions = {fmt::format("by {}, in floating point", roots_in_words(chart.of))}};
+                    .title = chart.title.empty() ? say("Stability") : chart.title,
+                    .about = say("Stability over {} and {}.", chart.x.name, chart.y.name),
+                    .captions = {say("by {}, in floating point", roots_in_words(chart.of))}};
     const double top = plot_top(sheet) + 10;
     sheet.height = top + chart_height + 56;
     std::string svg = plot_begin(sheet);
@@ -175,16 +176,16 @@ Json as_json(const StabilityChart& chart) {
 std::string as_text(const StabilityChart& chart) {
     std::string page;
     if (!chart.title.empty()) put(page, "{}\n\n", chart.title);
-    put(page, "Stability over {} and {}, by {} in floating point at {} x {} values:\n", chart.x.name, chart.y.name,
-        roots_in_words(chart.of), chart.x.count, chart.y.count);
+    say_on(page, "Stability over {} and {}, by {} in floating point at {} x {} values:\n", chart.x.name,
+           chart.y.name, roots_in_words(chart.of), chart.x.count, chart.y.count);
     for (const SpectrumKind kind : all_kinds)
         if (const std::size_t count = count_of(chart, kind); count > 0)
             put(page, "  {:<26}{:>6.2f} %\n", meaning(kind, chart.of),
                 100.0 * static_cast<double>(count) / static_cast<double>(chart.kinds.size()));
     std::size_t points = 0;
     for (const std::vector<ChartPoint>& line : chart.boundaries) points += line.size();
-    put(page, "{} boundary line{}, {} points to a hundredth of a pixel; {} evaluations\n", chart.boundaries.size(),
-        chart.boundaries.size() == 1 ? "" : "s", points, chart.evaluations);
+    say_on(page, "{} boundary line{}, {} points to a hundredth of a pixel; {} evaluations\n",
+           chart.boundaries.size(), chart.boundaries.size() == 1 ? "" : "s", points, chart.evaluations);
     return page;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -83,13 +84,13 @@ std::string as_csv(const Sweep& s) {
 std::string as_text(const Sweep& s) {
     const SweepTotals sum = totals_of(s);
     std::string page;
-    put(page,
-        "{} with {}: {} motions{} on {} thread{}, {} steps, {} rejected, {} evaluations of {} operations, {} "
-        "{:.2e} at the most\n",
-        s.formulation, s.method, s.grid.size(), s.packed ? ", eight side by side" : "", s.threads,
-        s.threads == 1 ? "" : "s", sum.steps, sum.rejected, sum.evaluations, s.operations,
-        s.conserved ? "energy drift" : "work balance", sum.drift);
-    put(page, "integrated in {:.3f} s of processor time\n", s.timings.integrate);
+    say_on(page,
+           "{} with {}: {} motions{} on {} thread{}, {} steps, {} rejected, {} evaluations of {} operations, {} "
+           "{:.2e} at the most\n",
+           translated_parts(s.formulation), s.method, s.grid.size(), s.packed ? say(", eight side by side") : "",
+           s.threads, s.threads == 1 ? "" : "s", sum.steps, sum.rejected, sum.evaluations, s.operations,
+           s.conserved ? say("energy drift") : say("work balance"), sum.drift);
+    say_on(page, "integrated in {:.3f} s of processor time\n", s.timings.integrate);
     return page;
 }
 

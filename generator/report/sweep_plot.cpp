@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "report/plot_panels.hpp"
 
 namespace alembert {
@@ -41,7 +42,7 @@ std::string unit_of(const std::string& name, const Mechanism& m) {
 }
 
 std::string with_unit(const std::string& name, const std::string& unit) {
-    return unit.empty() ? name : name + " in " + unit;
+    return unit.empty() ? name : say("{} in {}", name, unit);
 }
 
 /// The varied quantity in words: "initial theta1 in rad", "l1 in m".
@@ -49,7 +50,7 @@ std::string varied(const Axis& axis, const Mechanism& m) {
     const bool is_parameter =
         std::any_of(m.parameters.begin(), m.parameters.end(),
                     [&](const Mechanism::Parameter& p) { return p.symbol.get_name() == axis.name; });
-    return with_unit((is_parameter ? "" : "initial ") + axis.name, unit_of(axis.name, m));
+    return with_unit(is_parameter ? axis.name : say("initial {}", axis.name), unit_of(axis.name, m));
 }
 
 /// The values of one column at the ends of all motions.
@@ -149,7 +150,7 @@ std::string map_of(const Sweep& s, const PlotMap& map, const std::string& name, 
     const auto [least, most] = plot_range(map.values);
     const PlotScale scale = linear_scale(least, most, 0, 1);
     std::string svg =
-        plot_text(left, top - 8, with_unit("final " + name, unit_of(name, s.mechanism)), {.bold = true});
+        plot_text(left, top - 8, with_unit(say("final {}", name), unit_of(name, s.mechanism)), {.bold = true});
     svg += fmt::format("<rect x='{:g}' y='{:g}' width='{:g}' height='{:g}' fill='#bbb'/>\n", left, top, map_width,
                        map_height);
     svg += plot_axes(area, {.x = varied(map.x, s.mechanism), .y = varied(map.y, s.mechanism)});
@@ -163,12 +164,11 @@ std::string maps(const Sweep& s, const std::vector<std::size_t>& axes, const std
     for (const std::string& name : names) {
         all.push_back({x, y, ends(s, name)});
         const auto [least, most] = plot_range(all.back().values);
-        sheet.about +=
-            fmt::format(" {}: between {:.4g} and {:.4g} {}.", name, least, most, unit_of(name, s.mechanism));
+        sheet.about += say(" {}: between {:.4g} and {:.4g} {}.", name, least, most, unit_of(name, s.mechanism));
     }
     if (all.front().stride(x) > 1 || all.front().stride(y) > 1)
-        sheet.captions.push_back(fmt::format("of {} × {} values every {} × {} is drawn", x.count, y.count,
-                                             all.front().stride(x), all.front().stride(y)));
+        sheet.captions.push_back(say("of {} × {} values every {} × {} is drawn", x.count, y.count,
+                                     all.front().stride(x), all.front().stride(y)));
     double top = plot_top(sheet) + top_gap;
     sheet.width = left + map_width + 18 + bar_width + 90;
     sheet.height = top + static_cast<double>(all.size()) * (map_height + between);
@@ -182,7 +182,7 @@ std::string lines(const Sweep& s, std::size_t axis, const std::vector<std::strin
                   const PlotSheet& sheet) {
     std::vector<PlottedLine> all;
     for (const std::string& name : names) {
-        PlottedLine line{.name = "final " + name, .unit = unit_of(name, s.mechanism), .points = {}};
+        PlottedLine line{.name = say("final {}", name), .unit = unit_of(name, s.mechanism), .points = {}};
         const std::vector<double> values = ends(s, name);
         for (std::size_t k = 0; k < values.size(); ++k)
             line.points.emplace_back(s.members[k].varied[axis], values[k]);
@@ -196,9 +196,8 @@ std::string lines(const Sweep& s, std::size_t axis, const std::vector<std::strin
 
 void need_pictured(const Grid& grid) {
     if (varying(grid).size() > 2)
-        throw ModelError(
-            fmt::format("--svg: a picture shows one or two varied quantities, and this sweep varies {}",
-                        fmt::join(grid.names(), ", ")));
+        throw ModelError(say("--svg: a picture shows one or two varied quantities, and this sweep varies {}",
+                             fmt::join(grid.names(), ", ")));
 }
 
 std::string sweep_plot(const Sweep& s, const std::vector<std::string>& shown) {
@@ -206,10 +205,10 @@ std::string sweep_plot(const Sweep& s, const std::vector<std::string>& shown) {
     const std::vector<std::size_t> axes = varying(s.grid);
     const std::string& title = s.mechanism.title.empty() ? s.mechanism.name : s.mechanism.title;
     const std::vector<std::string>& names = shown.empty() ? s.coordinates : shown;
-    PlotSheet sheet{.title = title, .about = "What motions are at their ends.", .captions = {}};
+    PlotSheet sheet{.title = title, .about = say("What motions are at their ends."), .captions = {}};
     if (const long failed = totals_of(s).failed; failed > 0)
-        sheet.captions.push_back(fmt::format("{} of {} motions failed and are left out{}", failed,
-                                             s.members.size(), axes.size() > 1 ? " (grey)" : ""));
+        sheet.captions.push_back(say("{} of {} motions failed and are left out{}", failed, s.members.size(),
+                                     axes.size() > 1 ? " (grey)" : ""));
     return axes.size() == 1 ? lines(s, axes[0], names, sheet) : maps(s, axes, names, sheet);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "language/say.hpp"
 #include "report/plot.hpp"
 
 namespace alembert {
@@ -66,19 +67,19 @@ std::string work_precision(std::vector<Curve> curves, const std::string& title) 
     clean(curves);
     PlotSheet sheet{.width = width, .height = height, .title = title, .captions = {}};
     if (curves.empty()) {
-        sheet.captions.emplace_back("no run reached the end");
+        sheet.captions.emplace_back(say("no run reached the end"));
         return plot_begin(sheet) + plot_end();
     }
     double right = least_right;
     for (const Curve& one : curves) right = std::max(right, 52 + plot_width(one.name));
     const PlotArea area = area_of(curves, plot_top(sheet) + 16, right);
     const std::vector<bool> wins = fastest(curves, area.x);
-    sheet.about = "Processor time over the error, both logarithmic. Fastest at some error:";
+    sheet.about = say("Processor time over the error, both logarithmic. Fastest at some error:");
     for (std::size_t k = 0; k < curves.size(); ++k)
         if (wins[k]) sheet.about += " " + curves[k].name;
     std::string svg = plot_begin(sheet);
-    svg += plot_axes(area, {.x = "error at the end, max |y − ref| / max(1, |ref|)",
-                            .y = "processor time of the integration, s"});
+    svg += plot_axes(area, {.x = say("error at the end, max |y − ref| / max(1, |ref|)"),
+                            .y = say("processor time of the integration, s")});
     std::vector<PlotLabel> labels;
     std::size_t style = 0;
     std::string pale, strong;

@@ -7,6 +7,7 @@
 
 #include "alembert/inertia.hpp"
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/formulas.hpp"
 #include "model/geometry.hpp"
@@ -30,12 +31,11 @@ std::string name_of(const Scene& scene, const Origin& origin) {
     return origin.kind == Origin::Kind::body ? scene.bodies[k].name.text : scene.particles[k].name.text;
 }
 
-void refuse_unknown(const char* kind, const std::string& name, const std::vector<std::string>& known) {
+void refuse_unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
     const std::string meant = nearest(name, known);
-    throw ModelError(fmt::format("there is no {} {}{}; expected one of: {}", kind, in_quotes(name),
-                                 meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
-                                 fmt::join(known, ", ")));
+    throw ModelError(say("there is no {} {}{}; expected one of: {}", kind, in_quotes(name),
+                         meant.empty() ? "" : say(" (did you mean '{}'?)", meant), fmt::join(known, ", ")));
 }
 
 std::vector<const MassElement*> chosen(const SceneInertia& s, const std::vector<std::string>& names) {
@@ -49,8 +49,8 @@ std::vector<const MassElement*> chosen(const SceneInertia& s, const std::vector<
     }
     if (known.empty())
         throw ModelError(
-            "the scene has no bodies and no particles, whose inertia could be told; expected [[body]]");
-    for (const std::string& name : names) refuse_unknown("body or particle", name, known);
+            say("the scene has no bodies and no particles, whose inertia could be told; expected [[body]]"));
+    for (const std::string& name : names) refuse_unknown(say("body or particle"), name, known);
     return result;
 }
 
@@ -59,7 +59,7 @@ void check_point(const Scene& scene, const std::string& point) {
     for (const Point& p : scene.points) known.push_back(p.name.text);
     for (const Particle& p : scene.particles) known.push_back(p.name.text);
     for (const Body& b : scene.bodies) known.push_back(b.name.text);
-    refuse_unknown("point", point, known);
+    refuse_unknown(say("point"), point, known);
 }
 
 /// plain + over/m, with m the whole mass. The part that is divided by a sum is kept separate, so that it can be

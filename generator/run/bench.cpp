@@ -11,6 +11,7 @@
 #include "alembert/compile.hpp"
 #include "emit/emit.hpp"
 #include "emit/taylor.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
 #include "program/recurrence.hpp"
@@ -46,8 +47,8 @@ std::optional<Judgement> by_doubles(Workbench& bench, const Options& options) {
         if (!second) continue;
         const double apart = std::max(error_against(*first, *second), 1e-16);
         return Judgement{*first, std::max(0, static_cast<int>(std::floor(-std::log10(apart)))),
-                         fmt::format("{} and {} at tolerance {:g}, doubles: no better reference in the time given",
-                                     name(one), name(other), tolerance)};
+                         say("{} and {} at tolerance {:g}, doubles: no better reference in the time given",
+                             name(one), name(other), tolerance)};
     }
     return std::nullopt;
 }
@@ -143,8 +144,8 @@ public:
         assemble(start_, m, lower_constraints(m), {});
         const State<double> first = state_of(start_, m, result_.equations);
         if (program.singular || massless_combination(program, first))
-            throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
-                                               failure_at(result_, first).value_or("the mass matrix is singular")),
+            throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", start_.t,
+                                       failure_at(result_, first).value_or(say("the mass matrix is singular"))),
                                    start_.t, start_.q);
         const double duration = wishes_.duration >= 0 ? wishes_.duration : start_.duration;
         if (has_jumps(m) || switched(program)) return measure_jumps(program, first);
@@ -187,7 +188,8 @@ private:
 
     void measure_jumps(const Program& program, const State<double>& first) {
         Bounces bounces = measured_bounces(wishes_, result_, start_, first);
-        if (options_.peers) result_.warnings.emplace_back("no peers: none of them follows contacts or impulses\n");
+        if (options_.peers)
+            result_.warnings.emplace_back(say("no peers: none of them follows contacts or impulses\n"));
         result_.reference = {std::move(bounces.final), bounces.digits, std::move(bounces.by)};
         result_.formulation = program.formulation;
         result_.operations = program.count(program.right_hand_side()).total();
@@ -201,7 +203,7 @@ private:
             wishes_.duration >= 0 ? std::optional(options.duration) : std::nullopt;
         result_.exact = reference(program, quad_start(result_.mechanism, result_.equations, start_, duration),
                                   {.seconds = options_.reference_seconds,
-                                   .progress = [&](double part) { tell("computing the reference", part); }});
+                                   .progress = [&](double part) { tell(say("computing the reference"), part); }});
         if (result_.exact) {
             result_.reference = {{}, result_.exact->digits, result_.exact->by};
             for (const auto* list : {&result_.exact->coordinates, &result_.exact->rates})
@@ -216,12 +218,12 @@ private:
         easy.tolerance = 1e-9;
         const Measured trial = workbench.measure(easy);
         const std::optional<std::string> at_start = failure_at(result_, first);
-        throw IntegrationError(fmt::format("no method reaches the end at a strict tolerance: there is nothing to "
-                                           "measure against; {} at tolerance 1e-9: {}{}; a "
-                                           "shorter duration ends before what stops it, a larger budget and more "
-                                           "seconds for the reference let it take longer",
-                                           trial.method, trial.failure.empty() ? "it does" : trial.failure,
-                                           at_start ? ", there: " + *at_start : ""),
+        throw IntegrationError(say("no method reaches the end at a strict tolerance: there is nothing to "
+                                   "measure against; {} at tolerance 1e-9: {}{}; a "
+                                   "shorter duration ends before what stops it, a larger budget and more "
+                                   "seconds for the reference let it take longer",
+                                   trial.method, trial.failure.empty() ? say("it does") : trial.failure,
+                                   at_start ? say(", there: {}", *at_start) : ""),
                                start_.t, start_.q);
     }
 
@@ -243,7 +245,7 @@ private:
             Options these = options;
             these.method = methods[k];
             const auto at = [&](double part) {
-                tell("measuring", (static_cast<double>(k) + part) / static_cast<double>(methods.size()));
+                tell(say("measuring"), (static_cast<double>(k) + part) / static_cast<double>(methods.size()));
             };
             for (Measured& run : ladder(workbench, these, each, guess, at)) result_.runs.push_back(std::move(run));
         }
@@ -267,7 +269,7 @@ private:
                     result_.reference.final,
                     coordinates_and_rates(workbench.rhs(), result_.end, state.data(), start_.q.size()));
             });
-        if (!peers.missing.empty()) result_.warnings.push_back("no peers: " + peers.missing + "\n");
+        if (!peers.missing.empty()) result_.warnings.push_back(say("no peers: {}\n", peers.missing));
         result_.runs.insert(result_.runs.end(), peers.runs.begin(), peers.runs.end());
     }
 
@@ -283,9 +285,9 @@ Bench bench(Scene scene, const BenchOptions& options) {
     const std::string& method = options.wishes.method;
     if (!method.empty() && !method_named(method))
         throw ModelError(
-            fmt::format("method '{}' is none that bench measures; expected {} (those of SUNDIALS and others are "
-                        "measured as peers)",
-                        method, method_names()));
+            say("method '{}' is none that bench measures; expected {} (those of SUNDIALS and others are "
+                "measured as peers)",
+                method, method_names()));
     Bench result{derived(std::move(scene), {.by = options.wishes.by, .use = Use::run})};
     Benchmark(result, options).run();
     return result;

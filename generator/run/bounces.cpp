@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "alembert/tolerances.hpp"
+#include "language/say.hpp"
 #include "run/loaded_modes.hpp"
 
 namespace alembert {
@@ -98,8 +99,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
         coordinates_and_rates(modes({}).contact.rhs, result.end, reference.final_state().data(), start.q.size());
     const double agreement = other.failure ? HUGE_VAL : apart(other, reference);
     result.digits = agreement < 1 ? static_cast<int>(std::floor(-std::log10(std::max(agreement, 1e-16)))) : 0;
-    result.by =
-        "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts and impulses";
+    result.by = say(
+        "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts and impulses");
     constexpr std::array methods = {Method::dopri5, Method::dop853, Method::verner76, Method::verner98,
                                     Method::abm,    Method::bdf,    Method::radau};
     for (std::size_t k = 0; k < methods.size(); ++k) {
@@ -107,8 +108,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
         if (!request.method.empty() && name(method) != request.method) continue;
         for (int decade = 3; decade <= 13; ++decade) {
             if (request.progress)
-                request.progress("measuring", (static_cast<double>(k) + (decade - 3) / 11.0) /
-                                                  static_cast<double>(methods.size()));
+                request.progress(say("measuring"), (static_cast<double>(k) + (decade - 3) / 11.0) /
+                                                       static_cast<double>(methods.size()));
             Measured one{.method = std::string(name(method)), .tolerance = std::pow(10.0, -decade)};
             std::vector<double> all;
             PhasedMotion motion;
@@ -126,7 +127,7 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
             else if (const double error = apart(motion, reference); std::isfinite(error))
                 one.error = error;
             else
-                one.failure = "other contacts or impulses than the reference's";
+                one.failure = say("other contacts or impulses than the reference's");
             result.runs.push_back(std::move(one));
             if (result.runs.back().seconds > 1) break;
         }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -11,18 +12,18 @@ using GiNaC::ex;
 
 std::optional<std::string> not_canonical(const Derived& d) {
     if (!d.equations.speeds_are_rates())
-        return "the equations are in generalized speeds (the formalism 'routh' has them in rates)";
+        return say("the equations are in generalized speeds (the formalism 'routh' has them in rates)");
     for (const Mechanism::Constraint& c : d.mechanism.constraints)
-        if (!c.position) return fmt::format("the constraint '{}' is one of rates", c.name);
+        if (!c.position) return say("the constraint '{}' is one of rates", c.name);
     return std::nullopt;
 }
 
 void need_canonical(const Derived& d, std::string_view method) {
     if (const auto why = not_canonical(d))
         throw ModelError(
-            fmt::format("method '{}' needs coordinates with their rates and holonomic constraints, but {}; take "
-                        "gauss or dop853",
-                        method, *why));
+            say("method '{}' needs coordinates with their rates and holonomic constraints, but {}; take "
+                "gauss or dop853",
+                method, *why));
 }
 
 Program canonical_form(const Derived& d) {

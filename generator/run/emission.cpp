@@ -2,6 +2,7 @@
 #include "run/emission.hpp"
 
 #include "emit/standalone.hpp"
+#include "language/say.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -13,8 +14,8 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
     const Mechanism& m = e.mechanism;
     if (!m.unilateral.empty() || m.has_kicks() || !program.nodes_of(Group::slip).empty())
         throw ModelError(
-            "a main program beside the equations follows no contacts, dry friction nor events that change the "
-            "motion, and this scene has some; use 'alembert simulate', or the library");
+            say("a main program beside the equations follows no contacts, dry friction nor events that change the "
+                "motion, and this scene has some; use 'alembert simulate', or the library"));
     Start start = start_of(m);
     assemble(start, m, lower_constraints(m), {});
     const State<double> state = state_of(start, m, e.equations);
@@ -31,8 +32,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     if (options.jacobian) {
         e.derivatives = differentiated(e.choice.program, {.parameters = true, .power = true});
         if (!e.derivatives)
-            throw ModelError(
-                "the derivatives of the right-hand side are too long to be written out; leave the Jacobian out");
+            throw ModelError(say(
+                "the derivatives of the right-hand side are too long to be written out; leave the Jacobian out"));
     }
     const Program& program = e.derivatives ? e.derivatives->program : e.choice.program;
     e.source = emit(program, {.batch = options.batch, .language = options.language});

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -216,11 +218,11 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     ErrorEstimate estimate;
     const std::optional<PhasedMotion> second = reruns.other(options);
     if (!second) {
-        estimate.by = "no second run came to the same end";
+        estimate.by = say("no second run came to the same end");
         return estimate;
     }
-    estimate.by = fixed ? fmt::format("a second run with step {:g}", options.step)
-                        : fmt::format("a second run at tolerance {:g}", options.tolerance);
+    estimate.by = fixed ? say("a second run with step {:g}", options.step)
+                        : say("a second run at tolerance {:g}", options.tolerance);
     double largest = difference(motion, *second, components);
     if (!fixed && second->statistics.steps <= motion.statistics.steps)
         if (const auto third = reruns.with_short_steps(options))

@@ -9,6 +9,7 @@
 #include "alembert/error.hpp"
 #include "alembert/tolerances.hpp"
 #include "contact/contacts.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "program/without_rounding.hpp"
 #include "run/held_state.hpp"
@@ -37,8 +38,8 @@ std::vector<double> accelerations_at(const Derived& d, const Program& program, c
     std::vector<double> result = values_of(program, interpret(program, state), Group::acceleration);
     if (massless_combination(program, state) ||
         !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
-        throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", state.t,
-                                           failure_at(d, state).value_or("the numbers overflow")),
+        throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", state.t,
+                                   failure_at(d, state).value_or(say("the numbers overflow"))),
                                state.t, state.q);
     return result;
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -25,10 +27,10 @@ std::vector<std::optional<double>> given_accelerations(const Overrides& at, cons
         const auto found = std::find(known.begin(), known.end(), name);
         if (found == known.end()) {
             const std::string meant = nearest(name, known);
-            throw ModelError(fmt::format("no coordinate has the acceleration {}{}", name,
-                                         meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+            throw ModelError(say("no coordinate has the acceleration {}{}", name,
+                                 meant.empty() ? "" : say("; did you mean '{}'?", meant)));
         }
-        if (!std::isfinite(value)) throw ModelError(fmt::format("{} = {}: expected a finite number", name, value));
+        if (!std::isfinite(value)) throw ModelError(say("{} = {}: expected a finite number", name, value));
         given[static_cast<std::size_t>(found - known.begin())] = value;
     }
     return given;

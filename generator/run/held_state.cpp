@@ -8,6 +8,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/switching.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -80,8 +81,7 @@ HeldState held_state(const Switched& s, State<double> state) {
     for (const Root& root : held.program.roots)
         if (root.group == Group::determinant && !(value[static_cast<std::size_t>(root.node)] > 0))
             throw IntegrationError(
-                fmt::format(
-                    "at t = {:.15g} no mode of friction '{}' is consistent, or more than one is (Painlevé): the "
+                say("at t = {:.15g} no mode of friction '{}' is consistent, or more than one is (Painlevé): the "
                     "determinant of the equation for its normal force is {:.6g}, and not positive",
                     held.state.t, root.name, value[static_cast<std::size_t>(root.node)]),
                 held.state.t, held.state.q);

@@ -10,6 +10,7 @@
 #include "alembert/dense.hpp"
 #include "alembert/error.hpp"
 #include "alembert/tolerances.hpp"
+#include "language/say.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
 #include "run/given_accelerations.hpp"
@@ -74,10 +75,10 @@ Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& gi
     S.topRightCorner(n, m) = -s.A.transpose();
     const Eigen::FullPivLU<Eigen::MatrixXd> lu(S);
     if (!lu.isInvertible())
-        throw IntegrationError(
-            "loads along the coordinates whose accelerations are given do not determine the motion at this pose; "
-            "give the accelerations of others, or of all",
-            t, q);
+        throw IntegrationError(say("loads along the coordinates whose accelerations are given do not determine "
+                                   "the motion at this pose; "
+                                   "give the accelerations of others, or of all"),
+                               t, q);
     const Eigen::VectorXd x = lu.solve(right);
     Loads result{x.head(n), Eigen::VectorXd::Zero(n), x.tail(m)};
     for (Eigen::Index j = 0; j < n; ++j)
@@ -93,10 +94,10 @@ Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
                      off = s.A.row(k).dot(a) - s.gamma[k];
         if (std::abs(off) > tolerance::balanced_load * std::max(1.0, size))
             throw ModelError(
-                fmt::format("the accelerations given break constraint '{}', by {:.3g}; give those of as many "
-                            "coordinates as there are degrees of freedom, {}, and the others follow",
-                            m.constraints[static_cast<std::size_t>(k)].name, off,
-                            m.size() - static_cast<int>(m.constraints.size())));
+                say("the accelerations given break constraint '{}', by {:.3g}; give those of as many "
+                    "coordinates as there are degrees of freedom, {}, and the others follow",
+                    m.constraints[static_cast<std::size_t>(k)].name, off,
+                    m.size() - static_cast<int>(m.constraints.size())));
     }
     const Eigen::VectorXd whole = s.M * a + s.minus_f;
     const Eigen::VectorXd lambda =
@@ -113,9 +114,9 @@ Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given
         return partly_given(s, given, start.t, start.q);
     if (!m.constraints.empty() && count > 0 && count < n)
         throw ModelError(
-            fmt::format("the accelerations of {} coordinates are given; expected those of {} or fewer, the "
-                        "degrees of freedom, or of all {}",
-                        count, freedom, n));
+            say("the accelerations of {} coordinates are given; expected those of {} or fewer, the "
+                "degrees of freedom, or of all {}",
+                count, freedom, n));
     Eigen::VectorXd a = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
     if (count == 0 && !m.constraints.empty())
         a = least_norm(s.A, s.gamma).x;  // the accelerations of least norm that the constraints allow
@@ -135,7 +136,7 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
     assemble(start, m, lower_constraints(m), at);
     const Loads loads = loads_for(affine(lower_inverse(m), start.state()), given, m, start);
     if (!loads.load.allFinite() || !loads.acceleration.allFinite())
-        throw IntegrationError(fmt::format("there are no finite loads at t = {:.6g}", start.t), start.t, start.q);
+        throw IntegrationError(say("there are no finite loads at t = {:.6g}", start.t), start.t, start.q);
     result.time = start.t;
     for (const GiNaC::symbol& q : m.q) result.coordinates.push_back(q.get_name());
     result.q = start.q;

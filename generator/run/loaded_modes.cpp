@@ -8,6 +8,7 @@
 #include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
 #include "emit/taylor.hpp"
+#include "language/say.hpp"
 #include "program/differentiate.hpp"
 #include "run/canonical.hpp"
 #include "run/sides.hpp"
@@ -38,11 +39,11 @@ std::string refusal_of(const Mechanism::Friction& f, const Program& p, double t,
     list(p.coordinates, [&](std::size_t k) { return y[k]; });
     list(p.parameters, [&](std::size_t k) { return p.parameters[k].value; });
     if (!f.multiplier)
-        return fmt::format(
+        return say(
             "the normal force of friction '{}' becomes negative at t = {:.15g}; give one that is never negative, "
             "such as max(0, …), or abs(…) where it acts on both sides (there {})",
             f.name, t, numbers);
-    return fmt::format(
+    return say(
         "at t = {:.15g} no mode of friction '{}' is consistent, or more than one is: the determinant of the "
         "equation for {} is not positive there, so that friction makes the reaction grow faster than the "
         "reaction resists (Painlevé); a smaller coefficient has a motion there ({})",
@@ -226,8 +227,8 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
     seconds_.derive += lap();
     Program program = free_ && !has_contacts ? *std::move(free_) : lowered(derived).program;
     if (program.singular || (loaded_.size() == 1 && massless_combination(program, first_)))
-        throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
-                                           failure_at(derived, first_).value_or("the mass matrix is singular")),
+        throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", start_.t,
+                                   failure_at(derived, first_).value_or(say("the mass matrix is singular"))),
                                start_.t, start_.q);
     std::optional<Switched> jumps;
     if (method_.sundials.empty() && !needs_canonical(method_.method)) jumps = switched(program);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "program/recurrence.hpp"
 #include "run/canonical.hpp"
 #include "run/separable.hpp"
@@ -32,25 +33,25 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         const double steps = duration / step;
         if (steps >= many_steps && !inseparable(d))
             return {.method = Method::kahanli8,
-                    .why = fmt::format("a fixed step was asked for, forces depend on positions alone, and in "
-                                       "{:.0f} steps the energy must not drift",
-                                       steps)};
-        return {.method = Method::rk4, .why = "a fixed step was asked for"};
+                    .why = say("a fixed step was asked for, forces depend on positions alone, and in "
+                               "{:.0f} steps the energy must not drift",
+                               steps)};
+        return {.method = Method::rk4, .why = say("a fixed step was asked for")};
     }
     if (tolerance < 1e-12)
         if (const auto products = products_of_series(program, d); products && *products <= most_products)
             return {.method = Method::taylor,
                     .when_stiff = Method::radau,
-                    .why = fmt::format("the tolerance is {:g} and the motion has a power series ({:g} products at "
-                                       "each order); if the system turns out "
-                                       "stiff, radau goes on",
-                                       tolerance, *products)};
+                    .why = say("the tolerance is {:g} and the motion has a power series ({:g} products at "
+                               "each order); if the system turns out "
+                               "stiff, radau goes on",
+                               tolerance, *products)};
     const Method method = tolerance > 1e-5     ? Method::dopri5
                           : tolerance >= 1e-12 ? Method::dop853
                                                : Method::verner98;
     return {.method = method,
             .when_stiff = Method::radau,
-            .why = fmt::format("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
+            .why = say("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
 }
 
 std::string name_given(const RunOptions& request, const Derived& d) {
@@ -64,10 +65,10 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& d) 
     if (given == automatic_method) return std::nullopt;
     const auto known = method_named(given);
     if (is_sundials(given))
-        throw ModelError(fmt::format("method '{}' is one of 'simulate' alone; take bdf or radau", given));
+        throw ModelError(say("method '{}' is one of 'simulate' alone; take bdf or radau", given));
     if (!known)
-        throw ModelError(fmt::format("unknown method '{}'; expected {}, {}; or {}", given, automatic_method,
-                                     method_names(), fmt::join(sundials_methods(), ", ")));
+        throw ModelError(say("unknown method '{}'; expected {}, {}; or {}", given, automatic_method,
+                             method_names(), fmt::join(sundials_methods(), ", ")));
     if (needs_separable(*known)) need_separable(d, given);
     if (needs_canonical(*known)) need_canonical(d, given);
     return known;
@@ -82,9 +83,9 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
     if (const auto given = given_method(request, d)) {
         if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))
             throw ModelError(
-                fmt::format("a step of {:g} s was asked for, but {} chooses its own steps; give a tolerance, or a "
-                            "method with fixed steps (rk4, gauss, kahanli8 …)",
-                            request.step, name));
+                say("a step of {:g} s was asked for, but {} chooses its own steps; give a tolerance, or a "
+                    "method with fixed steps (rk4, gauss, kahanli8 …)",
+                    request.step, name));
         return {.method = *given};
     }
     return automatic(request, d, program, start);
@@ -98,10 +99,10 @@ Options options_of(const RunOptions& wishes, const MethodChoice& choice, const S
     const bool fixed = has_fixed_step(choice.method) && choice.sundials.empty();
     if (fixed && wishes.max_step >= 0)
         throw ModelError(
-            fmt::format("a longest step of {:g} s was asked for, but {} has a fixed step; methods that choose "
-                        "their steps (dop853, radau …) "
-                        "take a longest one",
-                        wishes.max_step, name(choice.method)));
+            say("a longest step of {:g} s was asked for, but {} has a fixed step; methods that choose "
+                "their steps (dop853, radau …) "
+                "take a longest one",
+                wishes.max_step, name(choice.method)));
     const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
     return {.method = choice.method,
             .start = start.t,

@@ -13,6 +13,7 @@
 #include "alembert/error.hpp"
 #include "alembert/leftover.hpp"
 #include "alembert/process.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -37,8 +38,8 @@ std::filesystem::path new_file() {
     std::string pattern = (std::filesystem::temp_directory_path() / "alembert-peers-XXXXXX").string();
     const int made = mkstemp(pattern.data());
     if (made < 0)
-        throw CompileError(fmt::format("cannot make a temporary file {}: {}; name a writable folder with $TMPDIR",
-                                       pattern, std::strerror(errno)));
+        throw CompileError(say("cannot make a temporary file {}: {}; name a writable folder with $TMPDIR", pattern,
+                               std::strerror(errno)));
     close(made);
     return pattern;
 }
@@ -49,9 +50,9 @@ Peers measure_peers(const PeerRequest& request, const std::function<double(const
     const std::filesystem::path program = peers_program();
     if (program.empty())
         return {.runs = {},
-                .missing =
+                .missing = say(
                     "alembert-peers is not beside this program; it is built where CMake finds libsundials-dev, "
-                    "libgsl-dev or libboost-dev (Debian)"};
+                    "libgsl-dev or libboost-dev (Debian)")};
     const Leftover task(new_file());
     {
         std::ofstream out(task.path());
@@ -88,8 +89,7 @@ Peers measure_peers(const PeerRequest& request, const std::function<double(const
         peers.runs.push_back(std::move(one));
     }
     if (finished.status != 0)
-        peers.missing =
-            "alembert-peers ended with " + std::to_string(finished.status) + ": " + finished.output.substr(0, 400);
+        peers.missing = say("alembert-peers ended with {}: {}", finished.status, finished.output.substr(0, 400));
     return peers;
 }
 

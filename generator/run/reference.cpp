@@ -9,6 +9,7 @@
 #include <ctime>
 
 #include "alembert/dense.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "program/tape.hpp"
 
@@ -204,9 +205,8 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
             .rates = {},
             .speeds = {},
             .digits = std::clamp(static_cast<int>(std::floor(-std::log10(std::max(apart, 1e-33)))), 0, 33),
-            .by = fmt::format(
-                "extrapolated midpoint rules (tolerance {:g}) and Gauss collocation of order 28, binary128",
-                tolerance),
+            .by = say("extrapolated midpoint rules (tolerance {:g}) and Gauss collocation of order 28, binary128",
+                      tolerance),
             .evaluations = first.evaluations + second.evaluations};
         rhs(end, first.state.data(), rate.data());
         result.rates.assign(rate.begin(), rate.begin() + static_cast<std::ptrdiff_t>(n));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -87,9 +88,8 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
     for (const std::string& name : wanted) {
         if (std::find(columns.begin(), columns.end(), name) != columns.end()) continue;
         const std::string meant = nearest(name, columns);
-        throw ModelError(fmt::format("there is no {} to show{}; expected one of {}", in_quotes(name),
-                                     meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
-                                     fmt::join(columns, ", ")));
+        throw ModelError(say("there is no {} to show{}; expected one of {}", in_quotes(name),
+                             meant.empty() ? "" : say(" (did you mean '{}'?)", meant), fmt::join(columns, ", ")));
     }
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 HeldParameters::HeldParameters(const Module& module, std::vector<double> values, int count)
@@ -91,8 +93,8 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
     std::vector<std::string> names;
     for (std::size_t k = 0; k < s.functions.size(); ++k) {
         if (!s.frictions[k].empty()) {
-            names.push_back(fmt::format("friction '{}'",
-                                        frictions[static_cast<std::size_t>(s.frictions[k][0].friction)]->name));
+            names.push_back(
+                say("friction '{}'", frictions[static_cast<std::size_t>(s.frictions[k][0].friction)]->name));
             continue;
         }
         const int id = s.functions[k];

@@ -8,6 +8,8 @@
 #include "alembert/drift.hpp"
 #include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
+#include "language/libraries.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
 #include "run/method.hpp"
@@ -126,7 +128,7 @@ private:
             watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
         // A report costs more than a step of a small system.
         if (wishes_.progress && ++watch.steps % 1000 == 0)
-            wishes_.progress("integrating", (t - options_.start) / options_.duration);
+            wishes_.progress(say("integrating"), (t - options_.start) / options_.duration);
     }
 
     void look_at_jump(Watch& watch, const LoadedMode& free, double t, const double* before, const double* after,
@@ -232,9 +234,9 @@ private:
     std::string reason_of(const Failure& failure, LoadedModes& modes) const {
         if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks ||
             failure.kind == FailureKind::no_side)
-            return failure.message;
+            return translated_from_library(failure.message);
         const auto there = failure_at(modes(run_.motion.phases.back().closed).derived, state_at(first_, failure));
-        return failure.message + (there ? "\n  there: " + *there : "");
+        return translated_from_library(failure.message) + (there ? say("\n  there: {}", *there) : "");
     }
 
     Run& run_;
@@ -258,9 +260,9 @@ Run simulate(Scene scene, const RunOptions& wishes) {
     Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
         result.warn(
-            fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
-                        "gives those after\n",
-                        result.scene.file));
+            say("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
+                "gives those after\n",
+                result.scene.file));
     Simulating(result, wishes).run();
     return result;
 }

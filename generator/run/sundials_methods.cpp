@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "peers/backend.hpp"
 
 namespace alembert {
@@ -21,17 +22,17 @@ const Backend& backend(std::string_view method) {
         std::filesystem::read_symlink("/proc/self/exe", failed).parent_path() / "alembert-sundials.so";
     if (failed || !std::filesystem::exists(beside))
         throw CompileError(
-            fmt::format("method '{}' needs SUNDIALS, with which this program was not built; install "
-                        "libsundials-dev (Debian) and build "
-                        "again, or take bdf or radau",
-                        method));
+            say("method '{}' needs SUNDIALS, with which this program was not built; install "
+                "libsundials-dev (Debian) and build "
+                "again, or take bdf or radau",
+                method));
     static const ObjectFile file(beside);
     using Function = const Backend* (*)();
     const auto function = reinterpret_cast<Function>(file.find(backend_function));
     const Backend* const found = function != nullptr ? function() : nullptr;
     if (found == nullptr || found->version != backend_version)
         throw CompileError(
-            fmt::format("{} belongs to another version of this program; build both again", beside.string()));
+            say("{} belongs to another version of this program; build both again", beside.string()));
     return *found;
 }
 
@@ -43,13 +44,13 @@ bool is_sundials(std::string_view method) {
 
 void need_sundials(const Derived& d, std::string_view method) {
     const auto refuse = [&](const std::string& why) {
-        throw ModelError(fmt::format("method '{}' does not follow {}; take radau (stiff) or dop853", method, why));
+        throw ModelError(say("method '{}' does not follow {}; take radau (stiff) or dop853", method, why));
     };
-    if (!d.mechanism.unilateral.empty()) refuse("contacts ([[unilateral]])");
-    if (!d.mechanism.frictions.empty()) refuse("dry friction ([[friction]])");
-    if (!d.mechanism.events.empty()) refuse("events ([[event]])");
+    if (!d.mechanism.unilateral.empty()) refuse(say("contacts ([[unilateral]])"));
+    if (!d.mechanism.frictions.empty()) refuse(say("dry friction ([[friction]])"));
+    if (!d.mechanism.events.empty()) refuse(say("events ([[event]])"));
     if (method == ida && !d.equations.speeds_are_rates() && !d.mechanism.constraints.empty())
-        refuse("constraints in generalized speeds (the formalism 'routh' has them in rates)");
+        refuse(say("constraints in generalized speeds (the formalism 'routh' has them in rates)"));
 }
 
 Integrator sundials_integrator(std::string_view method, const Module& module,

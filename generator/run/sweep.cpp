@@ -13,6 +13,7 @@
 #include "alembert/ensemble.hpp"
 #include "alembert/process_time.hpp"
 #include "emit/emit.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
 #include "run/method.hpp"
@@ -82,7 +83,7 @@ void check_bodies_along(Sweep& s) {
         if (!start.exists()) continue;  // its row gives the reason
         for (Diagnostic& one : check.findings(start.value().state())) {
             for (std::size_t i = 0; i < values.size(); ++i)
-                one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
+                one.message += fmt::format("{}{} = {:.6g}", i == 0 ? say(", at ") : ", ", names[i], values[i]);
             if (one.severity == Severity::error) fail(s.scene, {one});
             if (told.insert(one.place).second) s.warn(describe(s.scene, {one}));
         }
@@ -107,9 +108,9 @@ void find_quick_times(const Program& program, Ensemble& e, std::vector<std::stri
         const auto [at, is_new] = known.try_emplace(std::move(key));
         if (is_new && known.size() == most_searches + 1)
             warnings.push_back(
-                fmt::format("only {} variants of the inputs were searched for narrow pulses; a longest step "
-                            "(max_step) bounds the steps of all\n",
-                            most_searches));
+                say("only {} variants of the inputs were searched for narrow pulses; a longest step "
+                    "(max_step) bounds the steps of all\n",
+                    most_searches));
         if (is_new && known.size() <= most_searches)
             at->second = quick_times(program, parameters, e.starts[k], e.starts[k] + e.durations[k]);
         any = any || !at->second.empty();
@@ -168,11 +169,13 @@ SweptMotion member_of(std::size_t k, const Sweep& s, const Program& program, con
 
 void need_smooth_motion(const Mechanism& m) {
     if (!m.unilateral.empty())
-        throw ModelError("sweep does not follow unilateral constraints; simulate does, for one state at a time");
+        throw ModelError(
+            say("sweep does not follow unilateral constraints; simulate does, for one state at a time"));
     if (!m.frictions.empty())
-        throw ModelError("sweep does not follow dry friction; simulate does, for one state at a time");
+        throw ModelError(say("sweep does not follow dry friction; simulate does, for one state at a time"));
     if (m.has_kicks())
-        throw ModelError("sweep does not follow events with impulses; simulate does, for one state at a time");
+        throw ModelError(
+            say("sweep does not follow events with impulses; simulate does, for one state at a time"));
 }
 
 Options options_for(const Sweep& s, const RunOptions& wishes) {
@@ -182,8 +185,8 @@ Options options_for(const Sweep& s, const RunOptions& wishes) {
         wishes, {.method = given_method(wishes, s).value_or(steps_given ? Method::rk4 : Method::dop853)}, start);
     if (needs_series(options.method) || needs_canonical(options.method))
         throw ModelError(
-            fmt::format("sweep does not run '{}', which needs more than the right-hand side; take dop853 or gauss",
-                        name(options.method)));
+            say("sweep does not run '{}', which needs more than the right-hand side; take dop853 or gauss",
+                name(options.method)));
     return options;
 }
 
@@ -196,16 +199,17 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     need_smooth_motion(m);
     if (!m.impulses.empty())
         s.warn(
-            fmt::format("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
-                        "gives those after\n",
-                        s.scene.file));
+            say("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
+                "gives those after\n",
+                s.scene.file));
     check_bodies_along(s);
     const Energy energy = energy_of(m);
     s.conserved = energy.conserved;
     const Program program = lowered(s).program;
     if (program.singular) {
         const State<double> first = state_of(start_of(m), m, s.equations);
-        throw IntegrationError(failure_at(s, first).value_or("the mass matrix is singular"), first.t, first.q);
+        throw IntegrationError(failure_at(s, first).value_or(say("the mass matrix is singular")), first.t,
+                               first.q);
     }
     for (const Quantity& q : program.coordinates) s.coordinates.push_back(q.name);
     if (!m.speeds.empty())
@@ -231,7 +235,7 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     if (!has_fixed_step(options.method)) find_quick_times(program, begin.ensemble, s.warnings);
     const double integrate_begin = process_seconds();
     s.timings.start = integrate_begin - compile_begin - s.timings.compile;
-    if (wishes.progress) begin.ensemble.progress = [&](double part) { wishes.progress("sweeping", part); };
+    if (wishes.progress) begin.ensemble.progress = [&](double part) { wishes.progress(say("sweeping"), part); };
     const Outcomes ends = integrate(begin.ensemble, options);
     s.timings.integrate = process_seconds() - integrate_begin;
     s.method = ends.method;

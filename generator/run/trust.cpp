@@ -8,6 +8,7 @@
 #include <map>
 
 #include "alembert/dense.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -40,43 +41,43 @@ std::optional<double> conditioning(const std::vector<double>& M, std::size_t n) 
 
 std::vector<std::string> doubts(const Evidence& e) {
     std::vector<std::string> reasons;
-    if (!e.error.value) reasons.push_back(fmt::format("{}, so the error is unknown", e.error.by));
+    if (!e.error.value) reasons.push_back(say("{}, so the error is unknown", e.error.by));
     const double value = e.error.value.value_or(0), scaled = e.error.scaled.value_or(0);
     if (!(value <= two_digits))
-        reasons.push_back(fmt::format("the estimated error is {:.1e}", value));
+        reasons.push_back(say("the estimated error is {:.1e}", value));
     else if (!(scaled <= two_digits))
-        reasons.push_back(fmt::format("the estimated error is {:.1e} of the motion's size", scaled));
+        reasons.push_back(say("the estimated error is {:.1e} of the motion's size", scaled));
     if (e.fixed_step == 0 && e.error.moved > 0 && e.error.moved < e.precision)
         reasons.push_back(
-            fmt::format("the coordinates move by {:.1e} at the most, less than the tolerance {:g}, so the "
-                        "tolerance limited no step",
-                        e.error.moved, e.precision));
+            say("the coordinates move by {:.1e} at the most, less than the tolerance {:g}, so the "
+                "tolerance limited no step",
+                e.error.moved, e.precision));
     if (e.error.lyapunov && !reasons.empty())
         reasons.push_back(
-            fmt::format("the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left",
-                        *e.error.lyapunov, *e.error.horizon));
-    const auto hold = [&](const char* what, const std::optional<double>& drift) {
+            say("the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left",
+                *e.error.lyapunov, *e.error.horizon));
+    const auto hold = [&](const std::string& what, const std::optional<double>& drift) {
         if (drift && !(*drift <= two_digits_of_energy))
-            reasons.push_back(fmt::format("{} is off by {:.1e} of the largest kinetic energy", what, *drift));
+            reasons.push_back(say("{} is off by {:.1e} of the largest kinetic energy", what, *drift));
     };
-    hold("the energy, which should stay,", e.energy);
-    hold("the energy less the work done, which should stay,", e.balance);
-    hold("T2 - T0 + V, which should stay,", e.jacobi);
+    hold(say("the energy, which should stay,"), e.energy);
+    hold(say("the energy less the work done, which should stay,"), e.balance);
+    hold(say("T2 - T0 + V, which should stay,"), e.jacobi);
     if (!(e.constraints <= two_digits))
-        reasons.push_back(fmt::format("the constraints are off by {:.1e} of the motion's size", e.constraints));
+        reasons.push_back(say("the constraints are off by {:.1e} of the motion's size", e.constraints));
     if (const double distance = std::sqrt(std::max(0.0, e.singular));
         distance < near && e.precision > two_digits * distance)
         reasons.push_back(
-            fmt::format("the motion passes a singular pose of its coordinates (as in gimbal lock) at a relative "
-                        "distance of {:.1e}, where rates magnify an error of {:.1e} to {:.1e}; other "
-                        "coordinates, or a quaternion, have no such pose there",
-                        distance, e.precision, distance > 0 ? e.precision / distance : HUGE_VAL));
+            say("the motion passes a singular pose of its coordinates (as in gimbal lock) at a relative "
+                "distance of {:.1e}, where rates magnify an error of {:.1e} to {:.1e}; other "
+                "coordinates, or a quaternion, have no such pose there",
+                distance, e.precision, distance > 0 ? e.precision / distance : HUGE_VAL));
     if (const QuickTime* const q = quickest(e.inputs); q != nullptr && e.fixed_step > q->step)
         reasons.push_back(
-            fmt::format("an input changes within {:.2g} s near t = {:.6g}, which steps of {:g} s may pass over; "
-                        "take shorter ones, or a method "
-                        "that chooses them",
-                        q->step, (q->from + q->to) / 2, e.fixed_step));
+            say("an input changes within {:.2g} s near t = {:.6g}, which steps of {:g} s may pass over; "
+                "take shorter ones, or a method "
+                "that chooses them",
+                q->step, (q->from + q->to) / 2, e.fixed_step));
     return reasons;
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/keys.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
@@ -17,16 +18,15 @@ Position read_position(const Table& table, std::string_view key, bool has_at) {
     if (has_at && table.has("at")) {
         for (const std::string_view other : {key, std::string_view("from"), std::string_view("axes")})
             if (table.has(other))
-                table.complain(other, fmt::format("{} has both 'at' and '{}'; 'at' alone says where it is",
-                                                  table.title(), other));
+                table.complain(
+                    other, say("{} has both 'at' and '{}'; 'at' alone says where it is", table.title(), other));
         position.from = table.needed_name("at");
         for (Expression& component : position.offset.component) component = zero(position.from.place);
         return position;
     }
     if (has_at && !table.has(key)) {
         if (!table.reading().has_joints)
-            table.reading().complain(table.place(),
-                                     fmt::format("{} needs 'at' or '{}': where it is", table.title(), key));
+            table.reading().complain(table.place(), say("{} needs 'at' or '{}': where it is", table.title(), key));
     } else {
         position.offset = table.needed_vector(key);
     }
@@ -38,14 +38,13 @@ Position read_position(const Table& table, std::string_view key, bool has_at) {
 std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& node, std::string_view key) {
     const toml::array* const pair = node.as_array();
     if (!pair || pair->size() != 2) {
-        reading.complain(
-            place_of(node),
-            pair ? "a rotation has two parts: [axis, angle]"
-                 : fmt::format("'{}' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]", key));
+        reading.complain(place_of(node),
+                         pair ? say("a rotation has two parts: [axis, angle]")
+                              : say("'{}' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]", key));
         return {};
     }
     Rotation rotation = read_axis(reading, *pair->get(0));
-    rotation.angle = read_expression(reading, *pair->get(1), "the angle");
+    rotation.angle = read_expression(reading, *pair->get(1), say("the angle"));
     return rotation;
 }
 
@@ -53,12 +52,12 @@ std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& 
 std::vector<Name> read_quaternion(const Table& table) {
     const toml::node& node = *table.find("quaternion")->node;
     const toml::array* const list = node.as_array();
-    const std::string expected = "expected four coordinates, scalar first: [\"e0\", \"e1\", \"e2\", \"e3\"]";
+    const std::string expected = say("expected four coordinates, scalar first: [\"e0\", \"e1\", \"e2\", \"e3\"]");
     if (!list || list->size() != 4) {
         table.complain(
             "quaternion",
             fmt::format("{} {}; {}", table.what("quaternion"),
-                        list ? fmt::format("has {} elements", list->size()) : "is " + kind_of(node), expected));
+                        list ? say("has {} elements", list->size()) : say("is ") + kind_of(node), expected));
         return {};
     }
     std::vector<Name> names = table.names("quaternion");
@@ -68,7 +67,7 @@ std::vector<Name> read_quaternion(const Table& table) {
 
 Inertia read_tensor(const Reading& reading, const toml::table& node, Place place) {
     Inertia inertia;
-    const Table table(reading, node, "the inertia", place);
+    const Table table(reading, node, say("the inertia"), place);
     table.allow("body.inertia");
     const auto keys = keys_of("body.inertia");
     for (std::size_t i = 0; i < 6; ++i)
@@ -87,12 +86,12 @@ std::optional<Inertia> read_inertia(const Table& table) {
         inertia.is_diagonal = true;
         if (diagonal->size() != 3)
             reading.complain(place_of(*entry->node),
-                             fmt::format("the inertia has {} elements; expected one expression about z, "
-                                         "[Ixx, Iyy, Izz] or {{ xx, yy, zz, xy, yz, zx }}",
-                                         diagonal->size()));
+                             say("the inertia has {} elements; expected one expression about z, "
+                                 "[Ixx, Iyy, Izz] or {{ xx, yy, zz, xy, yz, zx }}",
+                                 diagonal->size()));
         for (std::size_t i = 0; i < 6; ++i)
             inertia.tensor[i] = i < 3 && i < diagonal->size()
-                                    ? read_expression(reading, *diagonal->get(i), "an element of the inertia")
+                                    ? read_expression(reading, *diagonal->get(i), say("an element of the inertia"))
                                     : zero(entry->place);
     } else {
         inertia.planar = read_expression(reading, *entry->node, table.what("inertia"));
@@ -110,16 +109,15 @@ Rotation read_axis(const Reading& reading, const toml::node& axis) {
         if (name == "x" || name == "y" || name == "z")
             rotation.letter = name[0];
         else
-            reading.complain(place_of(axis),
-                             fmt::format("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three",
-                                         in_quotes(name)));
+            reading.complain(
+                place_of(axis),
+                say("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three", in_quotes(name)));
     } else if (const auto* components = axis.as_array(); components && components->size() == 3) {
-        rotation.axis = read_vector(reading, axis, "the axis");
+        rotation.axis = read_vector(reading, axis, say("the axis"));
     } else {
-        reading.complain(
-            place_of(axis),
-            fmt::format("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
-                        components ? fmt::format("an array of {}", components->size()) : kind_of(axis)));
+        reading.complain(place_of(axis),
+                         say("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
+                             components ? say("an array of {}", components->size()) : kind_of(axis)));
     }
     return rotation;
 }
@@ -130,8 +128,8 @@ std::vector<Rotation> read_rotations(const Table& table, std::string_view key) {
     if (!entry) return rotations;
     const toml::array* const list = entry->node->as_array();
     if (!list) {
-        table.complain(key, fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]",
-                                        table.what(key), kind_of(*entry->node)));
+        table.complain(key, say("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]", table.what(key),
+                                kind_of(*entry->node)));
         return rotations;
     }
     for (const toml::node& node : *list)
@@ -150,13 +148,12 @@ void read_frame(Table table, Scene& scene) {
     if (auto parent = table.name("parent")) frame.parent = std::move(*parent);
     if (table.has("quaternion")) {
         if (table.has("rotate"))
-            table.complain("rotate",
-                           fmt::format("{} has both 'quaternion' and 'rotate'; give one", table.title()));
+            table.complain("rotate", say("{} has both 'quaternion' and 'rotate'; give one", table.title()));
         frame.quaternion = read_quaternion(table);
     } else if (table.has("rotate")) {
         frame.rotations = read_rotations(table, "rotate");
     } else {
-        table.complain("rotate", fmt::format("{} needs 'rotate' or 'quaternion'", table.title()));
+        table.complain("rotate", say("{} needs 'rotate' or 'quaternion'", table.title()));
     }
     scene.frames.push_back(std::move(frame));
 }
@@ -192,8 +189,8 @@ void read_body(Table table, Scene& scene) {
     body.inertia = read_inertia(table);
     body.about = table.name("about");
     if (body.about && !table.has("inertia"))
-        table.complain("about", fmt::format("{} says about which point the inertia is, but there is no 'inertia'",
-                                            table.what("about")));
+        table.complain("about", say("{} says about which point the inertia is, but there is no 'inertia'",
+                                    table.what("about")));
     scene.bodies.push_back(std::move(body));
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "language/say.hpp"
 #include "scene/names.hpp"
 #include "scene/quantity.hpp"
 #include "scene/quaternions.hpp"
@@ -62,9 +63,9 @@ private:
     }
 
     void check_values() {
-        const Legal parameter{.subject = "a parameter", .definitions = false};
-        const Legal input{.subject = "an input", .input_order = 2, .time = true, .definitions = false};
-        const Legal initial{.subject = "an initial value", .definitions = false};
+        const Legal parameter{.subject = say("a parameter"), .definitions = false};
+        const Legal input{.subject = say("an input"), .input_order = 2, .time = true, .definitions = false};
+        const Legal initial{.subject = say("an initial value"), .definitions = false};
         for (const Parameter& p : scene_.parameters) quantities_.check(p.value, parameter);
         for (const Input& i : scene_.inputs) quantities_.check(i.value, input);
         for (const Coordinate& c : scene_.coordinates) {
@@ -74,7 +75,7 @@ private:
     }
 
     void check_speeds() {
-        const Legal initial{.subject = "an initial value", .definitions = false};
+        const Legal initial{.subject = say("an initial value"), .definitions = false};
         const Speed* first = nullptr;
         for (const Speed& speed : scene_.speeds) {
             quantities_.check(speed.initial, initial);
@@ -83,16 +84,15 @@ private:
         if (!first) return;
         for (const Coordinate& c : scene_.coordinates)
             if (c.rate_given)
-                complain(
-                    *c.rate_given,
-                    fmt::format("the rates follow from the speeds here: {} has 'initial' (line {}); leave out "
-                                "the rate of {}, or the initial values of the speeds",
-                                in_quotes(first->name.text), first->name.place.line, in_quotes(c.name.text)));
+                complain(*c.rate_given,
+                         say("the rates follow from the speeds here: {} has 'initial' (line {}); leave out "
+                             "the rate of {}, or the initial values of the speeds",
+                             in_quotes(first->name.text), first->name.place.line, in_quotes(c.name.text)));
     }
 
     void check_geometry() {
-        const Legal angle{.subject = "an angle", .order = 0, .input_order = 0, .time = true};
-        const Legal axis{.subject = "an axis"};
+        const Legal angle{.subject = say("an angle"), .order = 0, .input_order = 0, .time = true};
+        const Legal axis{.subject = say("an axis")};
         std::unordered_map<std::string, std::string> taken;  // coordinate → frame
         for (const FrameQuaternion& quaternion : quaternions_of(scene_))
             for (const Name& name : quaternion.e) check_quaternion(name, quaternion.of.text, taken);
@@ -107,23 +107,23 @@ private:
     }
 
     void check_joints() {
-        const Legal constant{.subject = "the place of a joint in its body"}, pitch{.subject = "a pitch"};
+        const Legal constant{.subject = say("the place of a joint in its body")}, pitch{.subject = say("a pitch")};
         std::unordered_map<std::string, Place> known;
         for (const Joint& joint : scene_.joints) {
             for (const Joint::Side* side : {&joint.parent, &joint.child}) {
                 check(side->point, constant);
                 for (const Rotation& rotation : side->rotate) {
                     quantities_.check(rotation.angle, constant);
-                    check(rotation.axis, {.subject = "an axis"});
+                    check(rotation.axis, {.subject = say("an axis")});
                 }
             }
-            check(joint.axis.axis, {.subject = "an axis"});
+            check(joint.axis.axis, {.subject = say("an axis")});
             quantities_.check(joint.pitch, pitch);
             if (joint.name.place.line == 0 || !check_name(joint.name)) continue;
             const auto [first, is_new] = known.emplace(joint.name.text, joint.name.place);
             if (!is_new)
-                complain(joint.name.place, fmt::format("the name {} is taken: a joint has it on line {}",
-                                                       in_quotes(joint.name.text), first->second.line));
+                complain(joint.name.place, say("the name {} is taken: a joint has it on line {}",
+                                               in_quotes(joint.name.text), first->second.line));
         }
     }
 
@@ -132,27 +132,26 @@ private:
         check_coordinate(name);
         const auto [first, is_new] = taken.emplace(name.text, frame);
         if (!is_new)
-            complain(
-                name.place,
-                fmt::format("the coordinate {} is in the quaternion of frame {} already; each has four of its own",
-                            in_quotes(name.text), in_quotes(first->second)));
+            complain(name.place,
+                     say("the coordinate {} is in the quaternion of frame {} already; each has four of its own",
+                         in_quotes(name.text), in_quotes(first->second)));
     }
 
     void check(const Position& position) {
         quantities_.check_point(position.from);
         quantities_.check_frame(position.axes);
-        check(position.offset, {.subject = "a position", .order = 0, .input_order = 0, .time = true});
+        check(position.offset, {.subject = say("a position"), .order = 0, .input_order = 0, .time = true});
     }
 
     void check_masses() {
         const Legal mass{
-            .subject = "a mass",
+            .subject = say("a mass"),
             .if_changing =
-                "; a body whose mass changes is no closed system, and its equation depends on the "
-                "velocity of what leaves or joins it: with kinetic = \"(m0 - k*t)*x'^2/2\" in [energy] "
-                "that has no velocity, (m x')' = F; otherwise give the thrust as a [[force]]"},
-            moment{.subject = "a moment of inertia"};
-        if (scene_.gravity) check(*scene_.gravity, {.subject = "gravity", .input_order = 2, .time = true});
+                say("; a body whose mass changes is no closed system, and its equation depends on the "
+                    "velocity of what leaves or joins it: with kinetic = \"(m0 - k*t)*x'^2/2\" in [energy] "
+                    "that has no velocity, (m x')' = F; otherwise give the thrust as a [[force]]")},
+            moment{.subject = say("a moment of inertia")};
+        if (scene_.gravity) check(*scene_.gravity, {.subject = say("gravity"), .input_order = 2, .time = true});
         for (const Particle& particle : scene_.particles) {
             quantities_.check(particle.mass, mass);
             check(particle.position);
@@ -169,8 +168,8 @@ private:
     }
 
     void check_loads() {
-        const Legal force{.subject = "a force", .order = 1, .input_order = 2, .time = true};
-        const Legal torque{.subject = "a torque", .order = 1, .input_order = 2, .time = true};
+        const Legal force{.subject = say("a force"), .order = 1, .input_order = 2, .time = true};
+        const Legal torque{.subject = say("a torque"), .order = 1, .input_order = 2, .time = true};
         for (const Force& f : scene_.forces) {
             quantities_.check_point(f.at);
             quantities_.check_frame(f.axes);
@@ -184,9 +183,9 @@ private:
             check(t.vector, torque);
         }
         for (const Link& spring : scene_.springs)
-            check(spring, {.subject = "a stiffness", .order = 0, .input_order = 2, .time = true});
+            check(spring, {.subject = say("a stiffness"), .order = 0, .input_order = 2, .time = true});
         for (const Link& damper : scene_.dampers)
-            check(damper, {.subject = "a damping", .order = 1, .input_order = 2, .time = true});
+            check(damper, {.subject = say("a damping"), .order = 1, .input_order = 2, .time = true});
         for (const GeneralizedForce& f : scene_.generalized_forces) {
             check_coordinate(f.coordinate);
             quantities_.check(f.value, force);
@@ -194,7 +193,7 @@ private:
     }
 
     void check_impulses() {
-        const Legal impulse{.subject = "an impulse", .order = 0, .input_order = 2, .time = true};
+        const Legal impulse{.subject = say("an impulse"), .order = 0, .input_order = 2, .time = true};
         for (const Impulse& i : scene_.impulses) {
             quantities_.check_point(i.at);
             quantities_.check_frame(i.axes);
@@ -211,7 +210,7 @@ private:
             quantities_.check_point(link.between->first);
             quantities_.check_point(link.between->second);
         }
-        const Legal length{.subject = "a length", .order = 0, .input_order = 0, .time = true};
+        const Legal length{.subject = say("a length"), .order = 0, .input_order = 0, .time = true};
         quantities_.check(link.along, length);
         quantities_.check(link.length, length);
         quantities_.check(link.constant, constant);
@@ -222,45 +221,44 @@ private:
         if (declared && declared->kind == Declared::Kind::coordinate) return;
         std::vector<std::string> coordinates;
         for (const Coordinate& c : scene_.coordinates) coordinates.push_back(c.name.text);
-        complain(name.place, declared ? fmt::format("{} is {}; expected a coordinate", in_quotes(name.text),
-                                                    described(declared->kind))
-                                      : fmt::format("unknown coordinate {}{}", in_quotes(name.text),
-                                                    quantities_.suggestion(name.text, coordinates)));
+        complain(name.place,
+                 declared ? say("{} is {}; expected a coordinate", in_quotes(name.text), described(declared->kind))
+                          : say("unknown coordinate {}{}", in_quotes(name.text),
+                                quantities_.suggestion(name.text, coordinates)));
     }
 
     void check_energy() {
-        const std::string advice = "; a potential that depends on rates belongs in 'lagrangian'";
+        const std::string advice = say("; a potential that depends on rates belongs in 'lagrangian'");
         quantities_.check(scene_.kinetic,
-                          {.subject = "the kinetic energy", .order = 1, .input_order = 1, .time = true});
+                          {.subject = say("the kinetic energy"), .order = 1, .input_order = 1, .time = true});
         quantities_.check(
             scene_.potential,
-            {.subject = "the potential", .order = 0, .input_order = 2, .time = true, .advice = advice});
+            {.subject = say("the potential"), .order = 0, .input_order = 2, .time = true, .advice = advice});
         quantities_.check(scene_.lagrangian,
-                          {.subject = "the Lagrangian", .order = 1, .input_order = 1, .time = true});
+                          {.subject = say("the Lagrangian"), .order = 1, .input_order = 1, .time = true});
         quantities_.check(scene_.rayleigh,
-                          {.subject = "the dissipation", .order = 1, .input_order = 2, .time = true});
+                          {.subject = say("the dissipation"), .order = 1, .input_order = 2, .time = true});
         if (!scene_.lagrangian) return;
-        const auto refuse = [&](const char* what, Place place) {
-            complain(
-                place,
-                fmt::format("{} beside a 'lagrangian' (line {}), which stands for the whole energy; leave one out",
-                            what, scene_.lagrangian.place().line));
+        const auto refuse = [&](const std::string& what, Place place) {
+            complain(place,
+                     say("{} beside a 'lagrangian' (line {}), which stands for the whole energy; leave one out",
+                         what, scene_.lagrangian.place().line));
         };
         if (scene_.gravity) refuse("'gravity'", scene_.gravity->place);
-        if (!scene_.particles.empty()) refuse("a [[particle]]", scene_.particles.front().name.place);
-        if (!scene_.bodies.empty()) refuse("a [[body]]", scene_.bodies.front().name.place);
-        if (!scene_.springs.empty()) refuse("a [[spring]]", scene_.springs.front().place);
+        if (!scene_.particles.empty()) refuse(say("a [[particle]]"), scene_.particles.front().name.place);
+        if (!scene_.bodies.empty()) refuse(say("a [[body]]"), scene_.bodies.front().name.place);
+        if (!scene_.springs.empty()) refuse(say("a [[spring]]"), scene_.springs.front().place);
     }
 
     void check_constraints() {
         std::unordered_map<std::string, Place> known;
         for (const ConstraintRule& rule : scene_.constraints) {
-            const Legal position{.subject = "a holonomic constraint",
+            const Legal position{.subject = say("a holonomic constraint"),
                                  .order = 0,
                                  .input_order = 0,
                                  .time = true,
-                                 .advice = "; a relation between rates is 'nonholonomic'"};
-            const Legal rates{.subject = "a constraint", .order = 1, .input_order = 1, .time = true};
+                                 .advice = say("; a relation between rates is 'nonholonomic'")};
+            const Legal rates{.subject = say("a constraint"), .order = 1, .input_order = 1, .time = true};
             quantities_.check(rule.equation.lhs, rule.holonomic ? position : rates);
             quantities_.check(rule.equation.rhs, rule.holonomic ? position : rates);
             check_constraint_name(rule.name, known);
@@ -272,34 +270,34 @@ private:
             check_body(rule.on, true);
             if (rule.body.text == rule.on.text && rule.body.place.line > 0)
                 complain(rule.on.place,
-                         fmt::format("{} cannot roll on itself; 'on' is another body, or left out for the ground",
-                                     in_quotes(rule.on.text)));
+                         say("{} cannot roll on itself; 'on' is another body, or left out for the ground",
+                             in_quotes(rule.on.text)));
             quantities_.check_frame(rule.axes);
-            check(rule.contact, {.subject = "a contact", .order = 0, .input_order = 0, .time = true});
+            check(rule.contact, {.subject = say("a contact"), .order = 0, .input_order = 0, .time = true});
             for (const char* axis : {"_x", "_y", "_z"})
                 check_constraint_name({rule.name.text + axis, rule.name.place}, known);
         }
         for (const UnilateralRule& rule : scene_.unilateral) {
-            quantities_.check(rule.gap, {.subject = "a gap", .order = 0, .input_order = 0, .time = true});
-            quantities_.check(rule.restitution, {.subject = "a restitution"});
+            quantities_.check(rule.gap, {.subject = say("a gap"), .order = 0, .input_order = 0, .time = true});
+            quantities_.check(rule.restitution, {.subject = say("a restitution")});
             check_constraint_name(rule.name, known);
         }
     }
 
     void check_frictions() {
         std::unordered_map<std::string, Place> known;
-        const Legal rates{.subject = "a sliding velocity", .order = 1, .input_order = 1, .time = true};
+        const Legal rates{.subject = say("a sliding velocity"), .order = 1, .input_order = 1, .time = true};
         for (const FrictionRule& rule : scene_.frictions) {
-            for (const auto& [value, subject] : {std::pair{&rule.coefficient, "a coefficient of friction"},
-                                                 std::pair{&rule.resting, "a static coefficient of friction"},
-                                                 std::pair{&rule.normal, "a normal force"}})
+            for (const auto& [value, subject] : {std::pair{&rule.coefficient, say("a coefficient of friction")},
+                                                 std::pair{&rule.resting, say("a static coefficient of friction")},
+                                                 std::pair{&rule.normal, say("a normal force")}})
                 quantities_.check(*value, {.subject = subject, .order = 1, .input_order = 2, .time = true});
             quantities_.check(rule.slip, rates);
             if (rule.name.place.line == 0 || !check_name(rule.name)) continue;
             const auto [first, is_new] = known.emplace(rule.name.text, rule.name.place);
             if (!is_new)
-                complain(rule.name.place, fmt::format("the name {} is taken: a friction has it on line {}",
-                                                      in_quotes(rule.name.text), first->second.line));
+                complain(rule.name.place, say("the name {} is taken: a friction has it on line {}",
+                                              in_quotes(rule.name.text), first->second.line));
         }
     }
 
@@ -309,43 +307,47 @@ private:
         if (declared && declared->kind == Declared::Kind::body) return;
         std::vector<std::string> bodies;
         for (const Body& b : scene_.bodies) bodies.push_back(b.name.text);
-        complain(name.place, declared ? fmt::format("{} is {}; expected a body", in_quotes(name.text),
-                                                    described(declared->kind))
-                                      : fmt::format("unknown body {}{}", in_quotes(name.text),
-                                                    quantities_.suggestion(name.text, bodies)));
+        complain(name.place,
+                 declared
+                     ? say("{} is {}; expected a body", in_quotes(name.text), described(declared->kind))
+                     : say("unknown body {}{}", in_quotes(name.text), quantities_.suggestion(name.text, bodies)));
     }
 
     void check_constraint_name(const Name& name, std::unordered_map<std::string, Place>& known) {
         if (name.place.line == 0 || !check_name(name)) return;
         const auto [first, is_new] = known.emplace(name.text, name.place);
         if (!is_new)
-            complain(name.place, fmt::format("the name {} is taken: a constraint has it on line {}",
-                                             in_quotes(name.text), first->second.line));
+            complain(name.place, say("the name {} is taken: a constraint has it on line {}", in_quotes(name.text),
+                                     first->second.line));
     }
 
     void check_runs() {
-        Legal anything{.subject = "an output", .order = 2, .input_order = 2, .time = true, .multipliers = true};
+        Legal anything{
+            .subject = say("an output"), .order = 2, .input_order = 2, .time = true, .multipliers = true};
         for (const Output& output : scene_.outputs) {
             check_name(output.name);
             quantities_.check(output.value, anything);
         }
         std::unordered_map<std::string, Place> events;
         for (const EventRule& event : scene_.events) {
-            quantities_.check(event.when, {.subject = "an event", .order = 1, .input_order = 2, .time = true});
+            quantities_.check(event.when,
+                              {.subject = say("an event"), .order = 1, .input_order = 2, .time = true});
             for (const GeneralizedForce& i : event.impulses) {
                 check_coordinate(i.coordinate);
-                quantities_.check(i.value, {.subject = "an impulse", .order = 1, .input_order = 2, .time = true});
+                quantities_.check(i.value,
+                                  {.subject = say("an impulse"), .order = 1, .input_order = 2, .time = true});
             }
             if (event.name.place.line == 0 || !check_name(event.name)) continue;
             const auto [first, is_new] = events.emplace(event.name.text, event.name.place);
             if (!is_new)
-                complain(event.name.place, fmt::format("the name {} is taken: an event has it on line {}",
-                                                       in_quotes(event.name.text), first->second.line));
+                complain(event.name.place, say("the name {} is taken: an event has it on line {}",
+                                               in_quotes(event.name.text), first->second.line));
         }
-        const Legal constant{.subject = "a setting of the simulation", .definitions = false};
+        const Legal constant{.subject = say("a setting of the simulation"), .definitions = false};
         if (scene_.polynomial)
             for (const Expression& coefficient : scene_.polynomial->coefficients)
-                quantities_.check(coefficient, {.subject = "a coefficient of a polynomial", .definitions = false});
+                quantities_.check(coefficient,
+                                  {.subject = say("a coefficient of a polynomial"), .definitions = false});
         const Simulation& s = scene_.simulation;
         for (const Expression* value :
              {&s.start, &s.duration, &s.tolerance, &s.step, &s.max_step, &s.sample, &s.period})
@@ -354,8 +356,8 @@ private:
 
     bool check_name(const Name& name) {
         if (is_name(name.text)) return true;
-        complain(name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _",
-                                         in_quotes(name.text)));
+        complain(name.place,
+                 say("{} is not a name: a name is a letter or _, then letters, digits, _", in_quotes(name.text)));
         return false;
     }
 
@@ -365,8 +367,8 @@ private:
             for (const Name& name : *list) {
                 if (!check_name(name)) continue;
                 if (const Declared* const declared = NameSpaces::find(names_.values, name.text))
-                    complain(name.place, fmt::format("{} cannot be left open: it is {} of the scene",
-                                                     in_quotes(name.text), described(declared->kind)));
+                    complain(name.place, say("{} cannot be left open: it is {} of the scene", in_quotes(name.text),
+                                             described(declared->kind)));
                 more.insert(name.text);
             }
         for (const auto& [name, value] : claim.near) {
@@ -374,33 +376,32 @@ private:
             const std::string of = is_rate ? name.text.substr(0, name.text.size() - 1) : name.text;
             const Declared* const declared = NameSpaces::find(names_.values, of);
             if (declared == nullptr)
-                complain(name.place, fmt::format("unknown name {}; expected a coordinate", in_quotes(of)));
+                complain(name.place, say("unknown name {}; expected a coordinate", in_quotes(of)));
             else if (declared->kind != Declared::Kind::coordinate)
-                complain(name.place, fmt::format("'near' gives the values of coordinates, and of rates as \"x'\"; "
-                                                 "{} is {}",
-                                                 in_quotes(of), described(declared->kind)));
-            quantities_.check(value, {.subject = "a state that a claim is held near"});
+                complain(name.place, say("'near' gives the values of coordinates, and of rates as \"x'\"; "
+                                         "{} is {}",
+                                         in_quotes(of), described(declared->kind)));
+            quantities_.check(value, {.subject = say("a state that a claim is held near")});
         }
         if (claim.at == "solution" && claim.equation.lhs.tree) {
             const Tree& left = *claim.equation.lhs.tree;
             const Declared* const declared =
                 left.kind == Tree::Kind::name ? NameSpaces::find(names_.values, left.text) : nullptr;
             if (left.kind == Tree::Kind::name && declared == nullptr)
-                complain(
-                    claim.equation.lhs.place(),
-                    fmt::format("unknown name {}; expected a coordinate or a multiplier", in_quotes(left.text)));
+                complain(claim.equation.lhs.place(),
+                         say("unknown name {}; expected a coordinate or a multiplier", in_quotes(left.text)));
             else if (declared == nullptr || left.primes > 0 ||
                      (declared->kind != Declared::Kind::coordinate &&
                       declared->kind != Declared::Kind::multiplier))
-                complain(
-                    claim.equation.lhs.place(),
-                    "a claim at \"solution\" has the name of a coordinate or a multiplier on its left, and on its "
-                    "right what this is in the course of time: x = x0*cos(w*t)");
+                complain(claim.equation.lhs.place(),
+                         say("a claim at \"solution\" has the name of a coordinate or a multiplier on its left, "
+                             "and on its "
+                             "right what this is in the course of time: x = x0*cos(w*t)"));
             quantities_.check(claim.equation.rhs,
-                              {.subject = "a solution", .input_order = 2, .time = true, .more = &more});
+                              {.subject = say("a solution"), .input_order = 2, .time = true, .more = &more});
             return;
         }
-        const Legal anything{.subject = "a claim",
+        const Legal anything{.subject = say("a claim"),
                              .order = claim.at == "motion" ? 3 : 2,
                              .input_order = 2,
                              .time = true,

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/check.hpp"
 #include "scene/source.hpp"
 #include "scene/text_file.hpp"
@@ -88,7 +89,7 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
                 list.push_back({words[k].text, source.place(begin + words[k].offset)});
             if (words.size() == 1)
                 mistakes.push_back(
-                    {source.place(begin), fmt::format("'{}' names nothing; expected names after it", first)});
+                    {source.place(begin), say("'{}' names nothing; expected names after it", first)});
             continue;
         }
         if (!is_equation && words.size() == 1 &&
@@ -116,7 +117,7 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
     if (!mistakes.empty()) fail(result, std::move(mistakes));
     mistakes = check_claims(result);
     if (!mistakes.empty()) fail(result, std::move(mistakes));
-    if (result.claims.empty()) fail(result, {{{}, "has no claims; expected one equation a line"}});
+    if (result.claims.empty()) fail(result, {{{}, say("has no claims; expected one equation a line")}});
     return result;
 }
 

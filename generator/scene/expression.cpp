@@ -19,6 +19,7 @@
 #include <optional>
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/functions.hpp"
 #include "scene/hints.hpp"
 #include "scene/text.hpp"
@@ -46,7 +47,7 @@ public:
         : words_{text, tokenize(text)}, rates_before_(rates_before) {}
 
     TreePtr parse() {
-        if (words_.at_end()) stop(0, "the expression is empty");
+        if (words_.at_end()) stop(0, say("the expression is empty"));
         const Operand whole = sum();
         if (!words_.at_end()) refuse_word(words_);
         return whole.tree;
@@ -60,8 +61,7 @@ private:
     struct Level {
         Parser& parser;
         Level(Parser& p, int offset) : parser(p) {
-            if (++parser.depth_ > most_levels)
-                stop(offset, fmt::format("nested more than {} levels deep", most_levels));
+            if (++parser.depth_ > most_levels) stop(offset, say("nested more than {} levels deep", most_levels));
         }
         ~Level() { --parser.depth_; }
         Level(const Level&) = delete;
@@ -110,7 +110,7 @@ private:
             const Operand factor = signed_power();
             refuse_neighbour(words_, factor_begin);
             factors.push_back(over ? make(Kind::reciprocal, sign, "", {factor.tree}) : factor.tree);
-            if (over && factor.value == 0.0) stop(sign, "a division by zero");
+            if (over && factor.value == 0.0) stop(sign, say("a division by zero"));
             if (value)
                 value = factor.value ? std::optional(over ? *value / *factor.value : *value * *factor.value)
                                      : std::nullopt;
@@ -145,11 +145,11 @@ private:
         const double whole = whole_exponent(base, exponent, exponent_begin);
         std::optional<double> value;
         if (base.value && exponent.value) {
-            if (*base.value == 0 && *exponent.value < 0) stop(begin, "a division by zero");
+            if (*base.value == 0 && *exponent.value < 0) stop(begin, say("a division by zero"));
             value = std::pow(*base.value, *exponent.value);
             if (std::isnan(*value)) value.reset();
             if (value && *value == 0 && *base.value != 0)
-                stop(begin, "a number beyond the range of double precision");
+                stop(begin, say("a number beyond the range of double precision"));
         }
         return {make(Kind::power, begin, "", {base.tree, exponent.tree}), checked(value, begin), whole};
     }
@@ -167,16 +167,15 @@ private:
         if (!exponent.value || *exponent.value != std::floor(*exponent.value)) return base.exponent;
         const double whole = *exponent.value;
         if (std::abs(whole) > most_exponent)
-            stop(offset, fmt::format("the exponent {:.17g} is beyond the limit of {}", whole, most_exponent));
+            stop(offset, say("the exponent {:.17g} is beyond the limit of {}", whole, most_exponent));
         const double all = base.exponent * whole;
         if (std::abs(all) > most_exponent)
-            stop(offset,
-                 fmt::format("the exponents multiply to {:.17g}, beyond the limit of {}", all, most_exponent));
+            stop(offset, say("the exponents multiply to {:.17g}, beyond the limit of {}", all, most_exponent));
         return all;
     }
 
     static std::optional<double> checked(std::optional<double> value, int offset) {
-        if (value && std::isinf(*value)) stop(offset, "a number beyond the range of double precision");
+        if (value && std::isinf(*value)) stop(offset, say("a number beyond the range of double precision"));
         return value;
     }
 
@@ -201,7 +200,7 @@ private:
     Operand number() {
         const std::string literal = words_.word(now());
         const int begin = next();
-        if (now().kind == Token::Kind::primes) stop(now().offset, "a number has no derivative");
+        if (now().kind == Token::Kind::primes) stop(now().offset, say("a number has no derivative"));
         double value = 0;
         std::from_chars(literal.data(), literal.data() + literal.size(), value);
         return {make(Kind::number, begin, literal), value};
@@ -211,7 +210,7 @@ private:
         if (now().kind != Token::Kind::primes) return 0;
         if (now().length > 3)
             stop(now().offset,
-                 "at most three primes: third derivatives are the highest, and stand in claims alone");
+                 say("at most three primes: third derivatives are the highest, and stand in claims alone"));
         return words_.tokens[words_.at++].length;
     }
 
@@ -223,8 +222,8 @@ private:
         if (count == 0 || !at('(') || !Words::is(words_.ahead(1), '-') || !Words::is(words_.ahead(2), ')'))
             return {plain, {}};
         if (!rates_before_)
-            stop(begin, fmt::format("{}(-), a rate before the impact, stands only in a claim with at = \"impact\"",
-                                    words_.text.substr(begin, words_.end() - begin)));
+            stop(begin, say("{}(-), a rate before the impact, stands only in a claim with at = \"impact\"",
+                            words_.text.substr(begin, words_.end() - begin)));
         words_.at += 3;
         return {make(Kind::call, begin, "(-)", {plain}), {}};
     }
@@ -232,7 +231,7 @@ private:
     Operand parenthesis() {
         const Level level(*this, now().offset);
         const int begin = next();
-        if (at(')')) stop(begin, "there is nothing in these parentheses");
+        if (at(')')) stop(begin, say("there is nothing in these parentheses"));
         Operand inside = sum();
         close(begin);
         const int count = primes();
@@ -241,7 +240,7 @@ private:
     }
 
     void close(int opening) {
-        if (words_.at_end()) stop(opening, "this parenthesis is never closed");
+        if (words_.at_end()) stop(opening, say("this parenthesis is never closed"));
         if (!at(')')) refuse_word(words_);
         next();
     }
@@ -252,11 +251,10 @@ private:
         next();
         if (now().kind == Token::Kind::primes)
             stop(now().offset,
-                 fmt::format("a function has no prime; differentiate what it gives: ({})'", function->usage));
+                 say("a function has no prime; differentiate what it gives: ({})'", function->usage));
         if (at('^')) refuse_power_of_function(words_, name);
         if (!at('('))
-            stop(name.offset,
-                 fmt::format("'{}' needs its argument in parentheses: {}", function->name, function->usage));
+            stop(name.offset, say("'{}' needs its argument in parentheses: {}", function->name, function->usage));
         const Level level(*this, now().offset);
         const int opening = next();
         std::vector<TreePtr> args;
@@ -266,9 +264,8 @@ private:
         }
         close(opening);
         if (now().kind == Token::Kind::primes)
-            stop(now().offset,
-                 fmt::format("a function's value is differentiated in parentheses of its own: ({})'",
-                             escaped(words_.text.substr(name.offset, words_.end() - name.offset), 30)));
+            stop(now().offset, say("a function's value is differentiated in parentheses of its own: ({})'",
+                                   escaped(words_.text.substr(name.offset, words_.end() - name.offset), 30)));
         if (function) check_arguments(*function, args, name.offset);
         return {make(Kind::call, name.offset, words_.word(name), std::move(args)), {}};
     }
@@ -276,9 +273,8 @@ private:
 
 TreePtr parse(const Expression& expression, bool rates_before, std::vector<Diagnostic>& diagnostics) {
     if (expression.text.size() > longest_expression) {
-        diagnostics.push_back(
-            {expression.place(), fmt::format("an expression of {} bytes; the limit is {} (64 KiB)",
-                                             expression.text.size(), longest_expression)});
+        diagnostics.push_back({expression.place(), say("an expression of {} bytes; the limit is {} (64 KiB)",
+                                                       expression.text.size(), longest_expression)});
         return nullptr;
     }
     try {
@@ -309,18 +305,19 @@ Equality parse_equality(const std::string& text, const std::vector<Place>& place
                         std::vector<Diagnostic>& diagnostics, bool rates_before) {
     const Expression whole{text, places, nullptr};
     const std::size_t sign = text.find('=');
-    const auto refuse = [&](std::size_t offset, const char* message) {
+    const auto refuse = [&](std::size_t offset, const std::string& message) {
         diagnostics.push_back({whole.place(static_cast<int>(offset)), message});
         return Equality{};
     };
-    if (sign == std::string::npos) return refuse(0, "an equation needs an = sign");
+    if (sign == std::string::npos) return refuse(0, say("an equation needs an = sign"));
     if (text.compare(sign, 2, "==") == 0)
-        return refuse(sign, "'==' is not part of the language; an equation has one =");
+        return refuse(sign, say("'==' is not part of the language; an equation has one ="));
     const std::size_t second = text.find('=', sign + 1);
-    if (second != std::string::npos) return refuse(second, "an equation has one = sign, and this is the second");
-    if (text.find_first_not_of(" \t\r\n") == sign) return refuse(sign, "nothing stands to the left of =");
+    if (second != std::string::npos)
+        return refuse(second, say("an equation has one = sign, and this is the second"));
+    if (text.find_first_not_of(" \t\r\n") == sign) return refuse(sign, say("nothing stands to the left of ="));
     if (text.find_first_not_of(" \t\r\n", sign + 1) == std::string::npos)
-        return refuse(sign, "nothing stands to the right of =");
+        return refuse(sign, say("nothing stands to the right of ="));
     Equality result{slice(text, places, 0, sign), slice(text, places, sign + 1, text.size())};
     result.lhs.tree = parse(result.lhs, rates_before, diagnostics);
     result.rhs.tree = parse(result.rhs, rates_before, diagnostics);

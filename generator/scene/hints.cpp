@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
 
@@ -12,8 +13,8 @@ namespace alembert {
 namespace {
 
 constexpr const char* about_commas =
-    "a comma stands only between the arguments of a function; the decimal sign is a point";
-constexpr const char* about_primes = "a prime stands right after a name or a parenthesis: x' or (…)'";
+    to_say("a comma stands only between the arguments of a function; the decimal sign is a point");
+constexpr const char* about_primes = to_say("a prime stands right after a name or a parenthesis: x' or (…)'");
 
 /// The text of the parenthesis that begins here; `(…)` if it is long or never closed.
 std::string argument_text(const Words& words) {
@@ -53,8 +54,8 @@ void refuse_power_of_function(Words words, const Token& name) {
     const std::string exponent =
         words.at_end() ? "2" : fmt::format("{}{}", minus ? "-" : "", words.word(words.now()));
     if (!words.at_end()) ++words.at;
-    stop(name.offset, fmt::format("a power of a function is written after its argument: {}{}^{}", words.word(name),
-                                  words.at_symbol('(') ? argument_text(words) : "(…)", escaped(exponent, 20)));
+    stop(name.offset, say("a power of a function is written after its argument: {}{}^{}", words.word(name),
+                          words.at_symbol('(') ? argument_text(words) : "(…)", escaped(exponent, 20)));
 }
 
 void refuse_neighbour(const Words& words, int begin) {
@@ -67,49 +68,49 @@ void refuse_neighbour(const Words& words, int begin) {
     const std::string right = is_open ? argument_text(words) : words.word(next);
     const bool is_primed = is_open && words.last().kind == Token::Kind::primes;
     stop(next.offset,
-         fmt::format("an operator is missing here; if a product was meant write {}*{}{}", escaped(left),
-                     escaped(right),
-                     is_primed ? "; the derivative of a function of [functions] is diff(f(x), x)" : ""));
+         say("an operator is missing here; if a product was meant write {}*{}{}", escaped(left), escaped(right),
+             is_primed ? say("; the derivative of a function of [functions] is diff(f(x), x)") : ""));
 }
 
 void refuse_missing_operand(const Words& words) {
     const Token& now = words.now();
     if (words.at_end() && words.at > 0)
-        stop(words.last().offset, fmt::format("nothing follows {}", in_quotes(words.word(words.last()))));
+        stop(words.last().offset, say("nothing follows {}", in_quotes(words.word(words.last()))));
     if (words.at_symbol(')') || words.at_symbol('=') || words.at_symbol(',')) {
         if (words.at == 0 || Words::is(words.last(), ')')) refuse_word(words);
-        stop(now.offset, fmt::format("an operand is missing between {} and {}",
-                                     in_quotes(words.word(words.last())), in_quotes(words.word(now))));
+        stop(now.offset, say("an operand is missing between {} and {}", in_quotes(words.word(words.last())),
+                             in_quotes(words.word(now))));
     }
     if (now.kind == Token::Kind::primes) stop(now.offset, about_primes);
-    stop(now.offset, fmt::format("an operand is missing before {}", in_quotes(words.word(now))));
+    stop(now.offset, say("an operand is missing before {}", in_quotes(words.word(now))));
 }
 
 void refuse_word(const Words& words) {
     const Token& now = words.now();
-    if (words.at_symbol(')')) stop(now.offset, "this parenthesis closes nothing: none is open here");
-    if (words.at_symbol('=')) stop(now.offset, "'=' is not part of an expression; only a claim is an equation");
+    if (words.at_symbol(')')) stop(now.offset, say("this parenthesis closes nothing: none is open here"));
+    if (words.at_symbol('='))
+        stop(now.offset, say("'=' is not part of an expression; only a claim is an equation"));
     if (words.at_symbol(',')) stop(now.offset, about_commas);
-    stop(now.offset, fmt::format("{} is not expected here", in_quotes(words.word(now))));
+    stop(now.offset, say("{} is not expected here", in_quotes(words.word(now))));
 }
 
 void check_arguments(const Function& function, const std::vector<TreePtr>& args, int begin) {
     const int count = static_cast<int>(args.size());
     if (count < function.least || count > function.most) {
         const bool is_open = function.most > 2, is_one = function.least == 1 && function.most == 1;
-        const std::string expected = is_open || function.least == function.most
-                                         ? fmt::format("{}{}", is_open ? "at least " : "", function.least)
-                                         : fmt::format("{} or {}", function.least, function.most);
-        stop(begin, fmt::format("'{}' takes {} argument{}, not {}: {}", function.name, expected, is_one ? "" : "s",
-                                count, function.usage));
+        const std::string expected =
+            is_open || function.least == function.most
+                ? fmt::format("{}{}", is_open ? say("at least ") : std::string(), function.least)
+                : say("{} or {}", function.least, function.most);
+        stop(begin, say("'{}' takes {} argument{}, not {}: {}", function.name, expected, is_one ? "" : "s", count,
+                        function.usage));
     }
     if (function.takes == Function::Takes::derivative) check_derivative(args);
     if (function.takes != Function::Takes::points && function.takes != Function::Takes::frames) return;
-    const char* const expected = function.takes == Function::Takes::points ? "point" : "frame or body";
+    const std::string expected = function.takes == Function::Takes::points ? say("point") : say("frame or body");
     for (const TreePtr& arg : args)
         if (arg->kind != Tree::Kind::name || arg->primes > 0)
-            stop(arg->offset,
-                 fmt::format("'{}' takes the name of a {}: {}", function.name, expected, function.usage));
+            stop(arg->offset, say("'{}' takes the name of a {}: {}", function.name, expected, function.usage));
 }
 
 }  // namespace alembert

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -32,11 +34,12 @@ std::string words_of(const Move& move, bool by_angles) {
     const bool own = move.along == 'a';
     switch (move.kind) {
         case MoveKind::turn:
-            return own ? "the turn" : std::string("the turn about ") + move.along;
+            return own ? say("the turn") : say("the turn about {}", move.along);
         case MoveKind::shift:
-            return own ? "the shift" : std::string(1, move.along);
+            return own ? say("the shift") : std::string(1, move.along);
         case MoveKind::turn_in_space:
-            return by_angles ? "the three angles" : "a quaternion, scalar first (or three angles, with 'angles')";
+            return by_angles ? say("the three angles")
+                             : say("a quaternion, scalar first (or three angles, with 'angles')");
         case MoveKind::screw:
             break;
     }
@@ -97,7 +100,7 @@ std::string meaning_of_coordinates(const Joint& joint) {
         if (move.kind != MoveKind::screw) words.push_back(words_of(move, !joint.angles.empty()));
     std::string text = ": ";
     for (std::size_t k = 0; k < words.size(); ++k)
-        text += (k == 0 ? "" : k + 1 == words.size() ? ", then " : ", ") + words[k];
+        text += (k == 0 ? "" : k + 1 == words.size() ? say(", then ") : ", ") + words[k];
     return text;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
@@ -19,10 +20,9 @@ void read_type(const Table& table, Joint& joint) {
         return;
     }
     const std::string meant = nearest(type.text, joint_types());
-    table.reading().complain(
-        type.place, fmt::format("unknown type {} of joint; {}", in_quotes(type.text),
-                                meant.empty() ? fmt::format("it may be {}", fmt::join(joint_types(), ", "))
-                                              : fmt::format("did you mean '{}'?", meant)));
+    table.reading().complain(type.place, say("unknown type {} of joint; {}", in_quotes(type.text),
+                                             meant.empty() ? say("it may be {}", fmt::join(joint_types(), ", "))
+                                                           : say("did you mean '{}'?", meant)));
 }
 
 Joint::Side read_side(const Table& table, const std::string& which) {
@@ -42,8 +42,7 @@ void read_axis(const Table& table, Joint& joint) {
     const Entry* const entry = table.find("axis");
     if (!entry) return;
     if (!moves_of(joint.type).has_axis())
-        return table.complain("axis",
-                              fmt::format("a {} joint has no 'axis' of its own; turn its axes in the bodies with "
+        return table.complain("axis", say("a {} joint has no 'axis' of its own; turn its axes in the bodies with "
                                           "'parent_rotate' and 'child_rotate'",
                                           moves_of(joint.type).name));
     joint.axis = alembert::read_axis(table.reading(), *entry->node);
@@ -53,8 +52,8 @@ void read_pitch(const Table& table, Joint& joint) {
     if (moves_of(joint.type).has(Move::Kind::screw))
         joint.pitch = table.needed_expression("pitch");
     else if (table.has("pitch"))
-        table.complain("pitch", fmt::format("'pitch' belongs to a screw; {} is {}", table.title(),
-                                            moves_of(joint.type).name));
+        table.complain("pitch",
+                       say("'pitch' belongs to a screw; {} is {}", table.title(), moves_of(joint.type).name));
 }
 
 void read_angles(const Table& table, Joint& joint) {
@@ -62,13 +61,13 @@ void read_angles(const Table& table, Joint& joint) {
     if (!entry) return;
     if (!moves_of(joint.type).has(Move::Kind::turn_in_space))
         return table.complain(
-            "angles", "'angles' belongs to a spherical or a free joint; the others have angles of their own");
+            "angles", say("'angles' belongs to a spherical or a free joint; the others have angles of their own"));
     joint.angles = table.text("angles");
     if (joint.angles.empty()) return;
     const std::string& a = joint.angles;
     if (a.size() != 3 || a.find_first_not_of("xyz") != std::string::npos || a[0] == a[1] || a[1] == a[2])
-        return table.complain(
-            "angles", fmt::format("{} is no sequence of axes; expected three of x, y, z, no two neighbours "
+        return table.complain("angles",
+                              say("{} is no sequence of axes; expected three of x, y, z, no two neighbours "
                                   "the same, as in \"zxz\" or \"xyz\"",
                                   in_quotes(a)));
 }
@@ -81,9 +80,9 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
         if (!entry) return {};
         if (const toml::table* const node = entry->node->as_table())
             return Table(table.reading(), *node, table.what(key), entry->place);
-        table.complain(
-            key, fmt::format("{} is {}; expected a table: {{ q1 = {} }}", table.what(key), kind_of(*entry->node),
-                             key == "motion" ? "\"expression in t\"" : "{ initial = 0.1 }"));
+        table.complain(key,
+                       say("{} is {}; expected a table: {{ q1 = {} }}", table.what(key), kind_of(*entry->node),
+                           key == "motion" ? say("\"expression in t\"") : "{ initial = 0.1 }"));
         return {};
     };
     const std::optional<Table> coordinates = inner("coordinates"), motion = inner("motion");
@@ -92,7 +91,7 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
             joint.coordinates.push_back({entry.key, entry.place});
             scene.definitions.push_back(
                 {{entry.key, entry.place},
-                 read_expression(table.reading(), *entry.node, labelled("the motion of", entry.key)),
+                 read_expression(table.reading(), *entry.node, labelled(say("the motion of"), entry.key)),
                  true});
         }
     if (coordinates)

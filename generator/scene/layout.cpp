@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -97,9 +98,8 @@ private:
         const auto [first, is_new] = keys_.emplace(name, source_.place(begin));
         if (is_new) return;
         layout_.mistakes.push_back(
-            {source_.place(begin),
-             fmt::format("{} is given twice in {}; first on line {}", in_quotes(name),
-                         table_.empty() ? "the scene" : escaped(table_), first->second.line)});
+            {source_.place(begin), say("{} is given twice in {}; first on line {}", in_quotes(name),
+                                       table_.empty() ? say("the scene") : escaped(table_), first->second.line)});
         drop_statement(layout_, begin);
     }
 
@@ -140,8 +140,7 @@ private:
 
     void too_deep(std::size_t offset) {
         layout_.is_too_deep = true;
-        layout_.mistakes.push_back(
-            {source_.place(offset), fmt::format("a key of more than {} parts", most_parts)});
+        layout_.mistakes.push_back({source_.place(offset), say("a key of more than {} parts", most_parts)});
     }
 };
 

@@ -5,6 +5,8 @@
 
 #include "scene/tables.hpp"
 
+#include "language/say.hpp"
+
 namespace alembert {
 namespace {
 
@@ -13,16 +15,15 @@ Link read_link(const Table& table, std::string_view constant) {
     Link link{.place = table.place(), .between = {}, .along = {}, .constant = {}, .length = {}};
     const Entry* const between = table.find("between");
     if (between && table.has("along"))
-        table.complain("along", fmt::format("{} has both 'between' and 'along'; give one", table.title()));
+        table.complain("along", say("{} has both 'between' and 'along'; give one", table.title()));
     else if (!between && !table.has("along"))
-        table.reading().complain(
-            table.place(),
-            fmt::format("{} needs 'between' (two points) or 'along' (an expression)", table.title()));
+        table.reading().complain(table.place(),
+                                 say("{} needs 'between' (two points) or 'along' (an expression)", table.title()));
     if (between) {
         std::vector<Name> ends = table.names("between");
         if (const auto* array = between->node->as_array(); array && array->size() != 2)
             table.complain("between",
-                           fmt::format("{} names {} points; expected two", table.what("between"), array->size()));
+                           say("{} names {} points; expected two", table.what("between"), array->size()));
         else if (ends.size() == 2)
             link.between.emplace(std::move(ends[0]), std::move(ends[1]));
     } else {
@@ -91,8 +92,8 @@ void read_constraint(Table table, Scene& scene) {
     table.entitle(rule.name);
     rule.multiplier = table.name("multiplier");
     if (table.has("holonomic") == table.has("nonholonomic"))
-        return table.reading().complain(
-            table.place(), fmt::format("{} needs one of 'holonomic' and 'nonholonomic'", table.title()));
+        return table.reading().complain(table.place(),
+                                        say("{} needs one of 'holonomic' and 'nonholonomic'", table.title()));
     rule.holonomic = table.has("holonomic");
     const std::string_view key = rule.holonomic ? "holonomic" : "nonholonomic";
     const toml::node& node = *table.find(key)->node;
@@ -138,9 +139,9 @@ void read_friction(Table table, Scene& scene) {
     rule.slip = table.needed_expression("slip");
     if (table.has("on") == table.has("normal"))
         return table.reading().complain(
-            table.place(), fmt::format("{} needs one of 'on' (the constraint or contact whose reaction is the "
-                                       "normal force) and 'normal' (the normal force)",
-                                       table.title()));
+            table.place(), say("{} needs one of 'on' (the constraint or contact whose reaction is the "
+                               "normal force) and 'normal' (the normal force)",
+                               table.title()));
     rule.on = table.name("on");
     rule.normal = table.expression("normal");
     scene.frictions.push_back(std::move(rule));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "language/say.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
 
@@ -118,15 +119,14 @@ std::string describe(const Scene& scene, const std::vector<Diagnostic>& diagnost
         const auto& [place, message, severity] = diagnostics[k];
         text += file;
         if (place.line > 0) text += fmt::format(":{}:{}", place.line, place.column);
-        text += fmt::format(": {}{}\n", severity == Severity::warning ? "warning: " : "", message);
+        text += fmt::format(": {}{}\n", severity == Severity::warning ? say("warning: ") : "", message);
         const auto line = static_cast<std::size_t>(place.line);
         if (line == 0 || line > starts.size()) continue;
         const std::size_t end = line < starts.size() ? starts[line] : scene.text.size();
         text +=
             excerpt(std::string_view(scene.text).substr(starts[line - 1], end - starts[line - 1]), place.column);
     }
-    if (diagnostics.size() > most_told)
-        text += fmt::format("{}: and {} more\n", file, diagnostics.size() - most_told);
+    if (diagnostics.size() > most_told) text += say("{}: and {} more\n", file, diagnostics.size() - most_told);
     return text;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "scene/functions.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/quaternions.hpp"
@@ -45,22 +46,22 @@ bool is_reserved(const std::string& name, DeclaredAs kind) {
 }
 
 std::string reason(const std::string& name) {
-    if (name == "N") return "the fixed frame";
-    if (name == "O") return "the origin";
-    if (name == "t") return "the time";
-    if (name == "pi") return "the number π";
-    return "a function";
+    if (name == "N") return say("the fixed frame");
+    if (name == "O") return say("the origin");
+    if (name == "t") return say("the time");
+    if (name == "pi") return say("the number π");
+    return say("a function");
 }
 
 /// Reports an illegal or reserved name; true if the name may be used.
 bool check(const Name& name, DeclaredAs kind, std::vector<Diagnostic>& diagnostics) {
     if (!is_name(name.text))
         diagnostics.push_back(
-            {name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _",
-                                     in_quotes(name.text))});
+            {name.place,
+             say("{} is not a name: a name is a letter or _, then letters, digits, _", in_quotes(name.text))});
     else if (is_reserved(name.text, kind))
         diagnostics.push_back(
-            {name.place, fmt::format("the name '{0}' is reserved: {0} is {1}", name.text, reason(name.text))});
+            {name.place, say("the name '{0}' is reserved: {0} is {1}", name.text, reason(name.text))});
     else
         return true;
     return false;
@@ -75,8 +76,8 @@ NameSpaces::Space enter(std::vector<Declaration> list, std::vector<Diagnostic>& 
         const auto [first, is_new] = space.emplace(name->text, Declared{kind, index, name->place});
         if (!is_new)
             diagnostics.push_back(
-                {name->place, fmt::format("the name {} is taken: {} has it on line {}", in_quotes(name->text),
-                                          described(first->second.kind), first->second.place.line)});
+                {name->place, say("the name {} is taken: {} has it on line {}", in_quotes(name->text),
+                                  described(first->second.kind), first->second.place.line)});
     }
     return space;
 }
@@ -98,27 +99,27 @@ std::string UnspecifiedFunction::usage() const {
 std::string described(DeclaredAs kind) {
     switch (kind) {
         case DeclaredAs::coordinate:
-            return "a coordinate";
+            return say("a coordinate");
         case DeclaredAs::speed:
-            return "a generalized speed";
+            return say("a generalized speed");
         case DeclaredAs::parameter:
-            return "a parameter";
+            return say("a parameter");
         case DeclaredAs::input:
-            return "an input";
+            return say("an input");
         case DeclaredAs::definition:
-            return "a definition";
+            return say("a definition");
         case DeclaredAs::function:
-            return "a function";
+            return say("a function");
         case DeclaredAs::frame:
-            return "a frame";
+            return say("a frame");
         case DeclaredAs::point:
-            return "a point";
+            return say("a point");
         case DeclaredAs::particle:
-            return "a particle";
+            return say("a particle");
         case DeclaredAs::body:
-            return "a body";
+            return say("a body");
         default:
-            return "a multiplier";
+            return say("a multiplier");
     }
 }
 

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "language/say.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/quaternions.hpp"
 #include "scene/text.hpp"
@@ -50,17 +51,15 @@ private:
                 const Name& name = side->body;
                 if (name.place.line == 0 || name.text == "N" || bodies_.contains(name.text)) continue;
                 const std::string meant = nearest(name.text, known);
-                complain(name.place,
-                         fmt::format("unknown body {}{}", in_quotes(name.text),
-                                     meant.empty() ? "; a joint holds bodies, or a body and the ground, N"
-                                                   : fmt::format("; did you mean '{}'?", meant)));
+                complain(name.place, say("unknown body {}{}", in_quotes(name.text),
+                                         meant.empty() ? say("; a joint holds bodies, or a body and the ground, N")
+                                                       : say("; did you mean '{}'?", meant)));
                 is_usable = false;
             }
             if (is_usable && joint.parent.body.text == joint.child.body.text) {
-                complain(
-                    joint.child.body.place,
-                    fmt::format("joint {} goes from {} to itself; its parent and its child must be two bodies",
-                                in_quotes(joint.name.text), in_quotes(joint.child.body.text)));
+                complain(joint.child.body.place,
+                         say("joint {} goes from {} to itself; its parent and its child must be two bodies",
+                             in_quotes(joint.name.text), in_quotes(joint.child.body.text)));
                 is_usable = false;
             }
             if (is_usable) usable_.push_back(&joint);
@@ -100,29 +99,26 @@ private:
             if (given > 0)
                 complain(
                     joint.coordinates.front().place,
-                    fmt::format(
-                        "body {} is placed already, by {}: joint {} closes a loop and has no coordinates",
+                    say("body {} is placed already, by {}: joint {} closes a loop and has no coordinates",
                         in_quotes(joint.child.body.text == "N" ? joint.parent.body.text : joint.child.body.text),
                         placed_by(joint), name));
             else if (locked_directions(joint.type) == 0)
-                complain(joint.name.place,
-                         fmt::format("joint {} is between bodies that are placed already, and a free "
-                                     "joint locks nothing; leave it out",
-                                     name));
+                complain(joint.name.place, say("joint {} is between bodies that are placed already, and a free "
+                                               "joint locks nothing; leave it out",
+                                               name));
             return;
         }
         const Place place = given > 0 ? joint.coordinates.front().place : joint.name.place;
         const bool by_quaternion = moves.has(Move::Kind::turn_in_space) && joint.angles.empty();
         if (by_quaternion && given == moves.before_turn_in_space() + 3)
-            complain(place,
-                     fmt::format("joint {} has three angles; say about which axes, in this order, with angles = "
-                                 "\"zxz\" (or another sequence)",
-                                 name));
+            complain(place, say("joint {} has three angles; say about which axes, in this order, with angles = "
+                                "\"zxz\" (or another sequence)",
+                                name));
         else if (given != needed)
-            complain(place, fmt::format("joint {} is {} and places body {}: it has {} coordinate{}; expected {}{}",
-                                        name, moves.name,
-                                        in_quotes((*joint.places_child ? joint.child : joint.parent).body.text),
-                                        given, given == 1 ? "" : "s", needed, meaning_of_coordinates(joint)));
+            complain(place,
+                     say("joint {} is {} and places body {}: it has {} coordinate{}; expected {}{}", name,
+                         moves.name, in_quotes((*joint.places_child ? joint.child : joint.parent).body.text),
+                         given, given == 1 ? "" : "s", needed, meaning_of_coordinates(joint)));
         else if (by_quaternion)
             check_quaternion(joint);
     }
@@ -137,8 +133,7 @@ private:
         if (given == e.end() || std::none_of(e.begin(), e.end(), is_free)) return;
         complain(
             given->place,
-            fmt::format(
-                "the motion of joint {} prescribes {} alone of its quaternion; prescribe all four or none, or "
+            say("the motion of joint {} prescribes {} alone of its quaternion; prescribe all four or none, or "
                 "give three angles, angles = \"zxz\"",
                 in_quotes(joint.name.text), in_quotes(given->text)));
     }
@@ -146,8 +141,8 @@ private:
     std::string placed_by(const Joint& joint) const {
         const Body& body =
             *bodies_.at(joint.child.body.text == "N" ? joint.parent.body.text : joint.child.body.text);
-        return body.joint ? "joint " + in_quotes(scene_.joints[*body.joint].name.text)
-                          : std::string("its own position");
+        return body.joint ? say("joint {}", in_quotes(scene_.joints[*body.joint].name.text))
+                          : say("its own position");
     }
 
     /// Checks that a body that a joint places has no frame of its own and no incomplete position.
@@ -157,10 +152,9 @@ private:
             const auto refuse = [&](const Name& name, const char* key) {
                 if (name.place.line > 0)
                     complain(name.place,
-                             fmt::format("body {} is placed by joint {}, and its frame bears its name; leave out "
-                                         "'{}', or give the body a position of its own",
-                                         in_quotes(body.name.text),
-                                         in_quotes(scene_.joints[*body.joint].name.text), key));
+                             say("body {} is placed by joint {}, and its frame bears its name; leave out "
+                                 "'{}', or give the body a position of its own",
+                                 in_quotes(body.name.text), in_quotes(scene_.joints[*body.joint].name.text), key));
             };
             refuse(body.frame, "frame");
             refuse(body.position.from, "from");
@@ -193,15 +187,13 @@ private:
                 path.erase(path.begin(), std::find(path.begin(), path.end(), at));
                 complain(
                     bodies_.at(at)->name.place,
-                    fmt::format(
-                        "joints in a circle: {} → {}; none of these bodies hangs on the ground, N, or on a body "
+                    say("joints in a circle: {} → {}; none of these bodies hangs on the ground, N, or on a body "
                         "with a position",
                         fmt::join(path, " → "), at));
             } else {
                 complain(
                     bodies_.at(at)->name.place,
-                    fmt::format(
-                        "body {} is nowhere: it has neither 'at' nor 'position', and no joint reaches it from the "
+                    say("body {} is nowhere: it has neither 'at' nor 'position', and no joint reaches it from the "
                         "ground, N",
                         in_quotes(at)));
             }

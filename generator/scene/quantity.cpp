@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "language/say.hpp"
 #include "scene/functions.hpp"
 #include "scene/text.hpp"
 
@@ -16,10 +17,10 @@ using Kind = Tree::Kind;
 constexpr int most_suggestions = 200;  // a limit, because finding them takes time and nobody reads more
 
 constexpr const char* no_derivative =
-    "a vector has no plain derivative; the rate of pos(P) is vel(P), that of vel(P) is acc(P)";
+    to_say("a vector has no plain derivative; the rate of pos(P) is vel(P), that of vel(P) is acc(P)");
 
-const char* order_name(int order) {
-    return order == 1 ? "rates" : "accelerations";
+std::string order_name(int order) {
+    return order == 1 ? say("rates") : say("accelerations");
 }
 
 bool begins_with(const std::string& text, const char* beginning) {
@@ -42,13 +43,13 @@ void Quantities::complain(const Context& context, const Tree& tree, std::string 
 std::string Quantities::suggestion(const std::string& word, const std::vector<std::string>& known) {
     if (++suggestions_ > most_suggestions) return {};
     const std::string meant = word == "π" ? "pi" : nearest(word, known);
-    return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+    return meant.empty() ? "" : say("; did you mean '{}'?", meant);
 }
 
 void Quantities::describe(const Definition& definition) {
     if (!definition.value.tree) return;
-    const Legal anything{.subject = "a definition", .order = 2, .input_order = 2, .time = true};
-    const Legal motion{.subject = "a prescribed motion", .input_order = 0, .time = true};
+    const Legal anything{.subject = say("a definition"), .order = 2, .input_order = 2, .time = true};
+    const Legal motion{.subject = say("a prescribed motion"), .input_order = 0, .time = true};
     Context context{definition.value, definition.is_motion ? motion : anything};
     if (definition.is_motion) {
         need_scalar(context, *definition.value.tree, 0);
@@ -66,7 +67,7 @@ void Quantities::describe(const Definition& definition) {
 
 void Quantities::describe(const Speed& speed) {
     if (!speed.form.tree) return;
-    const Legal form{.subject = "a generalized speed", .order = 1, .input_order = 1, .time = true};
+    const Legal form{.subject = say("a generalized speed"), .order = 1, .input_order = 1, .time = true};
     unknown_.clear();
     Context context{speed.form, form};
     need_scalar(context, *speed.form.tree, 0);
@@ -83,11 +84,11 @@ void Quantities::check(const Expression& expression, const Legal& legal) {
 void Quantities::need_scalar(Context& context, const Tree& tree, int raised) {
     if (rank(context, tree, raised) == Rank::vector)
         complain(context, tree,
-                 "a vector stands where a number is expected; take a component, dot(…, ex(N)), or norm(…)");
+                 say("a vector stands where a number is expected; take a component, dot(…, ex(N)), or norm(…)"));
 }
 
 Quantities::Rank Quantities::rank(Context& context, const Tree& tree, int raised) {
-    const auto refuse_vector = [&](const Tree& arg, int further, const char* message) {
+    const auto refuse_vector = [&](const Tree& arg, int further, const std::string& message) {
         if (rank(context, arg, raised + further) == Rank::vector) complain(context, arg, message);
         return Rank::number;
     };
@@ -108,10 +109,10 @@ Quantities::Rank Quantities::rank(Context& context, const Tree& tree, int raised
         case Kind::negate:
             return rank(context, *tree.args[0], raised);
         case Kind::reciprocal:
-            return refuse_vector(*tree.args[0], 0, "a division by a vector");
+            return refuse_vector(*tree.args[0], 0, say("a division by a vector"));
         case Kind::power:
             for (const TreePtr& arg : tree.args)
-                refuse_vector(*arg, 0, "a vector in a power; its square is dot(u, u)");
+                refuse_vector(*arg, 0, say("a vector in a power; its square is dot(u, u)"));
             return Rank::number;
         case Kind::derivative:
             return refuse_vector(*tree.args[0], tree.primes, no_derivative);
@@ -126,8 +127,9 @@ Quantities::Rank Quantities::rank_of_sum(Context& context, const Tree& tree, int
         const Rank next = rank(context, *arg, raised);
         if (first == Rank::wrong) first = next;
         if (next == first || next == Rank::wrong || !is_consistent) continue;
-        complain(context, *arg,
-                 next == Rank::vector ? "a vector is added to a number" : "a number is added to a vector");
+        complain(
+            context, *arg,
+            next == Rank::vector ? say("a vector is added to a number") : say("a number is added to a vector"));
         is_consistent = false;
     }
     return is_consistent ? first : Rank::wrong;
@@ -138,7 +140,7 @@ Quantities::Rank Quantities::rank_of_product(Context& context, const Tree& tree,
     for (const TreePtr& arg : tree.args) {
         const Rank factor = rank(context, *arg, raised);
         if (factor == Rank::vector && product == Rank::vector) {
-            complain(context, *arg, "a product of two vectors; write dot(u, v) or cross(u, v)");
+            complain(context, *arg, say("a product of two vectors; write dot(u, v) or cross(u, v)"));
             product = Rank::wrong;
         }
         if (factor != Rank::number && product != Rank::wrong) product = factor;
@@ -157,14 +159,12 @@ Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, in
             case Function::Takes::derivative:
             case Function::Takes::scalars:
                 if (rank(context, *arg, raised) == Rank::vector)
-                    complain(context, *arg,
-                             fmt::format("'{}' takes numbers, and this is a vector", function->name));
+                    complain(context, *arg, say("'{}' takes numbers, and this is a vector", function->name));
                 break;
             case Function::Takes::vectors:
                 if (rank(context, *arg, raised) == Rank::number)
                     complain(context, *arg,
-                             fmt::format(
-                                 "'{}' takes vectors (pos(P), vel(P), omega(B), ex(B) and what is made of them), "
+                             say("'{}' takes vectors (pos(P), vel(P), omega(B), ex(B) and what is made of them), "
                                  "and this is a number",
                                  function->name));
                 break;
@@ -212,28 +212,28 @@ void Quantities::meet_function(Context& context, const Tree& tree) {
 void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
     const auto constant = [&](const std::string& what) {
         if (tree.primes > 0)
-            complain(context, tree, fmt::format("{} {}: it has no derivative", in_quotes(tree.text), what));
+            complain(context, tree, say("{} {}: it has no derivative", in_quotes(tree.text), what));
     };
     if (context.legal.more && context.legal.more->count(tree.text) > 0) return;
-    if (tree.text == "pi") return constant("is a number");
+    if (tree.text == "pi") return constant(say("is a number"));
     if (tree.text == "t") {
-        constant("is the time, whose derivative is 1");
+        constant(say("is the time, whose derivative is 1"));
         return meet(context, tree, {.time = true}, raised);
     }
     const Declared* const declared = NameSpaces::find(names_.values, tree.text);
     if (!declared) return meet_unknown(context, tree);
     switch (declared->kind) {
         case Declared::Kind::parameter:
-            return constant("is a parameter and does not change with time");
+            return constant(say("is a parameter and does not change with time"));
         case Declared::Kind::coordinate:
             return meet(context, tree, {.order = 0}, raised + tree.primes);
         case Declared::Kind::input:
             return meet(context, tree, {.input_order = 0, .time = true}, raised + tree.primes);
         case Declared::Kind::definition:
             if (!context.legal.definitions)
-                return complain(context, tree,
-                                fmt::format("{} may not refer to a definition: {}", context.legal.subject,
-                                            in_quotes(tree.text)));
+                return complain(
+                    context, tree,
+                    say("{} may not refer to a definition: {}", context.legal.subject, in_quotes(tree.text)));
             return meet(context, tree, definitions_[tree.text], raised + tree.primes);
         case Declared::Kind::speed: {
             Contents contents = definitions_[tree.text];
@@ -248,10 +248,10 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
         case Declared::Kind::multiplier:
             if (!context.legal.multipliers)
                 complain(context, tree,
-                         fmt::format("{} may not depend on a multiplier: {}; friction that grows with a normal "
-                                     "force is a table of its own, [[friction]]",
-                                     context.legal.subject, in_quotes(tree.text)));
-            return constant("is a multiplier, whose derivative mechanics does not give");
+                         say("{} may not depend on a multiplier: {}; friction that grows with a normal "
+                             "force is a table of its own, [[friction]]",
+                             context.legal.subject, in_quotes(tree.text)));
+            return constant(say("is a multiplier, whose derivative mechanics does not give"));
         default:
             return;
     }
@@ -272,31 +272,31 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
     const bool indirect = is_speed || (declared && declared->kind == Declared::Kind::definition);
     if (found.order > std::max(2, legal.order) || found.input_order > 2)
         return complain(context, tree,
-                        fmt::format("a third derivative, by {}; only claims about the motion may hold one", word));
+                        say("a third derivative, by {}; only claims about the motion may hold one", word));
     if (found.order >= 0 && legal.order < 0)
         return complain(context, tree,
-                        fmt::format("{} may depend on {} only; {} {}", legal.subject,
-                                    legal.time ? "the time and parameters" : "parameters", word,
-                                    is_speed   ? "is a generalized speed"
-                                    : indirect ? "contains a coordinate"
-                                    : declared ? "is a coordinate"
-                                               : "depends on the coordinates") +
+                        say("{} may depend on {} only; {} {}", legal.subject,
+                            legal.time ? say("the time and parameters") : say("parameters"), word,
+                            is_speed   ? say("is a generalized speed")
+                            : indirect ? say("contains a coordinate")
+                            : declared ? say("is a coordinate")
+                                       : say("depends on the coordinates")) +
                             legal.if_changing);
     if (found.time && !legal.time)
         return complain(context, tree,
-                        fmt::format("{} may depend on parameters only; {} {}", legal.subject, word,
-                                    tree.text == "t" ? "is the time"
-                                    : indirect       ? "contains the time"
-                                                     : "is an input, a function of time") +
+                        say("{} may depend on parameters only; {} {}", legal.subject, word,
+                            tree.text == "t" ? say("is the time")
+                            : indirect       ? say("contains the time")
+                                             : say("is an input, a function of time")) +
                             legal.if_changing);
     if (found.order > legal.order)
         return complain(context, tree,
-                        fmt::format("{} may not depend on {}: {}{}{}", legal.subject, order_name(found.order),
-                                    word, indirect ? " contains one" : "", legal.advice));
+                        say("{} may not depend on {}: {}{}{}", legal.subject, order_name(found.order), word,
+                            indirect ? say(" contains one") : "", legal.advice));
     if (found.input_order > legal.input_order)
         complain(context, tree,
-                 fmt::format("{} may not depend on the {} derivative of an input: {}", legal.subject,
-                             found.input_order == 1 ? "first" : "second", word));
+                 say("{} may not depend on the {} derivative of an input: {}", legal.subject,
+                     found.input_order == 1 ? say("first") : say("second"), word));
 }
 
 void Quantities::meet_unknown(Context& context, const Tree& tree) {
@@ -304,14 +304,13 @@ void Quantities::meet_unknown(Context& context, const Tree& tree) {
         (begins_with(tree.text, "p_") || begins_with(tree.text, "lambda") || is_given_by_derive(tree.text)))
         return;
     if (!unknown_.insert(tree.text).second) return;
-    std::string message = fmt::format("unknown name {} in this expression", in_quotes(tree.text));
+    std::string message = say("unknown name {} in this expression", in_quotes(tree.text));
     if (const Declared* const other = NameSpaces::find(names_.points, tree.text)) {
-        message +=
-            fmt::format("; {} is {}, whose position is pos({})", tree.text, described(other->kind), tree.text);
+        message += say("; {} is {}, whose position is pos({})", tree.text, described(other->kind), tree.text);
     } else if (const Declared* const frame = NameSpaces::find(names_.frames, tree.text)) {
-        message += fmt::format("; {} is {}, not a number", tree.text, described(frame->kind));
+        message += say("; {} is {}, not a number", tree.text, described(frame->kind));
     } else if (const Function* const function = find_function(tree.text)) {
-        message += fmt::format("; the function needs its argument in parentheses: {}", function->usage);
+        message += say("; the function needs its argument in parentheses: {}", function->usage);
     } else {
         message += suggestion(tree.text, values_);
     }
@@ -324,9 +323,10 @@ void Quantities::check_place(const std::string& name, Place place, const std::st
     if (place.line == 0 || name == (is_point ? "O" : "N") ||
         NameSpaces::find(is_point ? names_.points : names_.frames, name))
         return;
-    std::string message = fmt::format("unknown {} {}", kind, in_quotes(name));
+    const std::string wanted = is_point ? say("point") : say("frame");
+    std::string message = say("unknown {} {}", wanted, in_quotes(name));
     if (const Declared* const declared = NameSpaces::find(other, name))
-        message = fmt::format("{} is {}; expected a {}", in_quotes(name), described(declared->kind), kind);
+        message = say("{} is {}; expected a {}", in_quotes(name), described(declared->kind), wanted);
     else
         message += suggestion(name, is_point ? points_ : frames_);
     diagnostics_.push_back({place, std::move(message)});

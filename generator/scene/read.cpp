@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/check.hpp"
 #include "scene/keys.hpp"
 #include "scene/layout.hpp"
@@ -82,25 +83,25 @@ void read_section(const Reading& reading, const Section& section, const Entry& e
         const bool is_list = entry.node->is_array_of_tables();
         return reading.complain(
             header_of(entry),
-            is_list ? fmt::format("there is one [{0}] in a scene, not a list; write [{0}]", section.name)
-                    : fmt::format("'{0}' is {1}; expected a table: [{0}]", section.name, kind_of(*entry.node)));
+            is_list ? say("there is one [{0}] in a scene, not a list; write [{0}]", section.name)
+                    : say("'{0}' is {1}; expected a table: [{0}]", section.name, kind_of(*entry.node)));
     }
     const toml::array* const list = entry.node->as_array();
     if (!list) {
         return reading.complain(
             header_of(entry),
             entry.node->is_table()
-                ? fmt::format("there may be many of these in a scene; write [[{}]] for each", section.name)
-                : fmt::format("'{0}' is {1}; expected a list of tables: write [[{0}]] for each", section.name,
-                              kind_of(*entry.node)));
+                ? say("there may be many of these in a scene; write [[{}]] for each", section.name)
+                : say("'{0}' is {1}; expected a list of tables: write [[{0}]] for each", section.name,
+                      kind_of(*entry.node)));
     }
     for (const toml::node& node : *list)
         if (const toml::table* const table = node.as_table())
             section.read(Table(reading, *table, fmt::format("[[{}]]", section.name), place_of(node)), scene);
         else
             reading.complain(place_of(node),
-                             fmt::format("an element of '{0}' is {1}; expected a table: write [[{0}]] for each",
-                                         section.name, kind_of(node)));
+                             say("an element of '{0}' is {1}; expected a table: write [[{0}]] for each",
+                                 section.name, kind_of(node)));
 }
 
 void refuse_unknown(const Reading& reading, const Entry& entry) {
@@ -110,12 +111,12 @@ void refuse_unknown(const Reading& reading, const Entry& entry) {
     const bool is_table = entry.node->is_table() || entry.node->is_array_of_tables();
     const std::string meant = nearest(entry.key, known);
     reading.complain(header_of(entry),
-                     fmt::format("unknown {} {}{}", is_table ? "table" : "key", in_quotes(entry.key),
-                                 meant.empty() ? "" : fmt::format("; did you mean '{}'?", meant)));
+                     say("unknown {} {}{}", is_table ? say("table") : say("key"), in_quotes(entry.key),
+                         meant.empty() ? "" : say("; did you mean '{}'?", meant)));
 }
 
 void read_tables(const Reading& reading, const toml::table& root, Scene& scene) {
-    const Table top(reading, root, "the scene", {1, 1});
+    const Table top(reading, root, say("the scene"), {1, 1});
     for (const Entry& entry : top.entries()) {
         const auto section = std::find_if(std::begin(sections), std::end(sections),
                                           [&](const Section& s) { return s.name == entry.key; });
@@ -130,15 +131,16 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
     const bool is_other = coordinates && !coordinates->node->is_table();  // this has been reported already
     const bool has_polynomial = top.has("polynomial");
     if (has_polynomial && coordinates)
-        reading.complain(header_of(*top.find("polynomial")),
-                         "a scene has either [coordinates] or a [polynomial], which stands for a system without a "
-                         "mechanism; leave one out");
+        reading.complain(
+            header_of(*top.find("polynomial")),
+            say("a scene has either [coordinates] or a [polynomial], which stands for a system without a "
+                "mechanism; leave one out"));
     if (scene.coordinates.empty() && !has_polynomial && !is_other)
         reading.complain(coordinates ? header_of(*coordinates) : Place{},
                          scene.joints.empty()
-                             ? "the scene has no [coordinates]; at least one is needed"
-                             : "the scene has no coordinates, neither in [coordinates] nor in a joint; at "
-                               "least one is needed");
+                             ? say("the scene has no [coordinates]; at least one is needed")
+                             : say("the scene has no coordinates, neither in [coordinates] nor in a joint; at "
+                                   "least one is needed"));
     std::stable_sort(scene.coordinates.begin(), scene.coordinates.end(),
                      [](const Coordinate& a, const Coordinate& b) { return a.name.place < b.name.place; });
     scene.title = top.text("title");

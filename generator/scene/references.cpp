@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "language/say.hpp"
 #include "scene/functions.hpp"
 #include "scene/text.hpp"
 
@@ -179,9 +180,8 @@ private:
         for (const std::size_t next : node.targets) deepest = std::max(deepest, nodes_[next].levels);
         node.levels = std::min(deepest + node.weight, most_defined_levels + 1);
         if (node.levels > most_defined_levels && deepest <= most_defined_levels)
-            diagnostics.push_back(
-                {node.name->place, fmt::format("{} depends on other names through more than {} levels",
-                                               in_quotes(node.name->text), most_defined_levels)});
+            diagnostics.push_back({node.name->place, say("{} depends on other names through more than {} levels",
+                                                         in_quotes(node.name->text), most_defined_levels)});
         if ((node.kind == DeclaredAs::definition || node.kind == DeclaredAs::speed) && !node.in_circle)
             references_.definitions.emplace_back(node.kind, node.index);
     }
@@ -218,16 +218,16 @@ private:
         std::set<DeclaredAs> kinds;
         for (const std::size_t k : circle) kinds.insert(nodes_[k].kind);
         const std::string first = in_quotes(nodes_[circle.front()].name->text);
-        if (kinds == std::set{DeclaredAs::definition}) return "definitions in a circle";
-        if (kinds == std::set{DeclaredAs::speed}) return "speeds in a circle";
-        if (kinds == std::set{DeclaredAs::parameter}) return "parameters in a circle";
-        if (kinds == std::set{DeclaredAs::input}) return "inputs in a circle";
-        if (kinds == std::set{DeclaredAs::frame}) return "the frame " + first + " is its own ancestor";
+        if (kinds == std::set{DeclaredAs::definition}) return say("definitions in a circle");
+        if (kinds == std::set{DeclaredAs::speed}) return say("speeds in a circle");
+        if (kinds == std::set{DeclaredAs::parameter}) return say("parameters in a circle");
+        if (kinds == std::set{DeclaredAs::input}) return say("inputs in a circle");
+        if (kinds == std::set{DeclaredAs::frame}) return say("the frame {} is its own ancestor", first);
         const bool is_place = std::all_of(kinds.begin(), kinds.end(), [](DeclaredAs kind) {
             return kind == DeclaredAs::point || kind == DeclaredAs::particle || kind == DeclaredAs::body;
         });
-        if (is_place) return first + " is where it is by itself";
-        return first + " is determined by itself";
+        if (is_place) return say("{} is where it is by itself", first);
+        return say("{} is determined by itself", first);
     }
 };
 

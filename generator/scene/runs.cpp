@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "alembert/methods.hpp"
+#include "language/say.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
@@ -32,24 +33,21 @@ std::optional<Name> read_method(const Table& table) {
     const std::vector<std::string> words = method_words();
     if (std::find(words.begin(), words.end(), given->text) == words.end()) {
         const std::string meant = nearest(given->text, words);
-        table.reading().complain(given->place,
-                                 fmt::format("unknown method {}; {}", in_quotes(given->text),
-                                             meant.empty() ? fmt::format("there are {}", fmt::join(words, ", "))
-                                                           : "did you mean '" + meant + "'?"));
+        table.reading().complain(given->place, say("unknown method {}; {}", in_quotes(given->text),
+                                                   meant.empty() ? say("there are {}", fmt::join(words, ", "))
+                                                                 : say("did you mean '{}'?", meant)));
         return {};
     }
     const std::optional<Method> own = method_named(given->text);
     const bool fixed = own && has_fixed_step(*own);
     if (table.has("step") && !fixed)
-        table.complain(
-            "step",
-            fmt::format("only methods with fixed steps ({}) take 'step'; {} chooses its own: give 'tolerance'",
-                        methods_with_fixed_steps(), given->text));
+        table.complain("step",
+                       say("only methods with fixed steps ({}) take 'step'; {} chooses its own: give 'tolerance'",
+                           methods_with_fixed_steps(), given->text));
     if (table.has("max_step") && fixed)
         table.complain(
             "max_step",
-            fmt::format(
-                "'max_step' bounds the steps of methods that choose their own; {} has a fixed step: give 'step'",
+            say("'max_step' bounds the steps of methods that choose their own; {} has a fixed step: give 'step'",
                 given->text));
     return given;
 }
@@ -62,17 +60,17 @@ void read_polynomial(const Table& table, Scene& scene) {
     const Entry* const entry = table.find("coefficients");
     const toml::array* const list = entry ? entry->node->as_array() : nullptr;
     if (!list || list->size() < 2) {
-        const std::string expected = "expected an array of at least two expressions, highest power first";
+        const std::string expected = say("expected an array of at least two expressions, highest power first");
         if (entry)
-            table.complain("coefficients", fmt::format("{} is {}; {}", table.what("coefficients"),
-                                                       list ? "too short" : kind_of(*entry->node), expected));
+            table.complain("coefficients", say("{} is {}; {}", table.what("coefficients"),
+                                               list ? say("too short") : kind_of(*entry->node), expected));
         else
-            table.reading().complain(table.place(), "[polynomial] has no 'coefficients'; " + expected);
+            table.reading().complain(table.place(), say("[polynomial] has no 'coefficients'; {}", expected));
         return;
     }
     for (const toml::node& node : *list)
         scene.polynomial->coefficients.push_back(
-            read_expression(table.reading(), node, "a coefficient of [polynomial]"));
+            read_expression(table.reading(), node, say("a coefficient of [polynomial]")));
 }
 
 void read_simulation(const Table& table, Scene& scene) {
@@ -85,8 +83,8 @@ void read_simulation(const Table& table, Scene& scene) {
     for (const auto& [key, value] : positive) {
         *value = table.expression(key);
         if (value->tree && is_not_positive(*value->tree))
-            table.reading().complain(value->place(), fmt::format("{} is {}; expected a number greater than 0",
-                                                                 table.what(key), escaped(value->text, 40)));
+            table.reading().complain(value->place(), say("{} is {}; expected a number greater than 0",
+                                                         table.what(key), escaped(value->text, 40)));
     }
     simulation.method = read_method(table);
 }
@@ -99,9 +97,9 @@ int read_direction(const Table& table) {
     if (!word || word->text == "both") return 0;
     if (word->text == "up") return 1;
     if (word->text == "down") return -1;
-    table.reading().complain(word->place, fmt::format("the direction of an event is \"up\" (the value of 'when' "
-                                                      "grows), \"down\" (it falls) or \"both\", not {}",
-                                                      in_quotes(word->text)));
+    table.reading().complain(word->place, say("the direction of an event is \"up\" (the value of 'when' "
+                                              "grows), \"down\" (it falls) or \"both\", not {}",
+                                              in_quotes(word->text)));
     return 0;
 }
 
@@ -112,8 +110,8 @@ std::vector<std::pair<Name, Expression>> values_by_name(const Table& table, std:
     if (!entry) return {};
     const toml::table* const node = entry->node->as_table();
     if (!node || node->empty()) {
-        table.complain(key, fmt::format("{} is {}; expected {}", table.what(key),
-                                        node ? "empty" : kind_of(*entry->node), expected));
+        table.complain(key, say("{} is {}; expected {}", table.what(key),
+                                node ? say("empty") : kind_of(*entry->node), expected));
         return {};
     }
     const Table inner(table.reading(), *node, table.what(key), entry->place);
@@ -126,8 +124,9 @@ std::vector<std::pair<Name, Expression>> values_by_name(const Table& table, std:
 
 std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
     std::vector<GeneralizedForce> impulses;
-    for (auto& [name, value] : values_by_name(
-             table, "impulses", "impulses by coordinate: { theta = \"expression\" }", "the impulse along"))
+    for (auto& [name, value] :
+         values_by_name(table, "impulses", say("impulses by coordinate: {{ theta = \"expression\" }}"),
+                        say("the impulse along")))
         impulses.push_back({name, value});
     return impulses;
 }
@@ -157,26 +156,23 @@ void read_claim(Table table, Scene& scene) {
         claim.at = at->text;
         if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact" && claim.at != "solution")
             table.reading().complain(
-                at->place,
-                fmt::format("a claim is held at \"motion\", \"rest\", \"impact\" or \"solution\", not at {}",
-                            in_quotes(claim.at)));
+                at->place, say("a claim is held at \"motion\", \"rest\", \"impact\" or \"solution\", not at {}",
+                               in_quotes(claim.at)));
     }
     if (table.has("near")) {
-        claim.near =
-            values_by_name(table, "near", "values of coordinates and rates: { theta = 0 }", "the value of");
+        claim.near = values_by_name(table, "near", say("values of coordinates and rates: {{ theta = 0 }}"),
+                                    say("the value of"));
         if (claim.at != "motion")
-            table.complain("near",
-                           fmt::format("a claim at {} cannot hold to first order 'near' a state; leave out one "
+            table.complain("near", say("a claim at {} cannot hold to first order 'near' a state; leave out one "
                                        "of the two",
                                        in_quotes(claim.at)));
         claim.at = "near";
     }
     if (const Entry* const equation = table.find("equation"); !equation)
-        table.reading().complain(table.place(), table.title() + " needs 'equation'");
+        table.reading().complain(table.place(), say("{} needs '{}'", table.title(), "equation"));
     else if (!equation->node->is_string())
-        table.reading().complain(place_of(*equation->node),
-                                 fmt::format("{} is {}; expected an equation in quotes", table.what("equation"),
-                                             kind_of(*equation->node)));
+        table.reading().complain(place_of(*equation->node), say("{} is {}; expected an equation in quotes",
+                                                                table.what("equation"), kind_of(*equation->node)));
     else
         claim.equation = read_equality(table.reading(), *equation->node, claim.at == "impact");
     scene.claims.push_back(std::move(claim));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -140,8 +141,7 @@ Literal read_string(const SourceText& source, std::size_t begin) {
 std::vector<Diagnostic> check_bytes(std::string_view text) {
     std::vector<Diagnostic> found;
     if (text.size() > largest_scene) {
-        found.push_back(
-            {{}, fmt::format("the scene has {} bytes; the limit is {} (1 MiB)", text.size(), largest_scene)});
+        found.push_back({{}, say("the scene has {} bytes; the limit is {} (1 MiB)", text.size(), largest_scene)});
         return found;
     }
     bool has_invalid = false, has_control = false, has_return = false;
@@ -154,11 +154,11 @@ std::vector<Diagnostic> check_bytes(std::string_view text) {
         const auto byte = static_cast<unsigned char>(text[i]);
         const char32_t c = decode(text, i);
         if (c == invalid_character)
-            tell(has_invalid, fmt::format("the byte 0x{:02X} is not UTF-8 here; save the file as UTF-8", byte));
+            tell(has_invalid, say("the byte 0x{:02X} is not UTF-8 here; save the file as UTF-8", byte));
         else if (c == U'\r' && (i >= text.size() || text[i] != '\n'))
-            tell(has_return, "a carriage return without a line feed; end lines with LF or CR LF");
+            tell(has_return, say("a carriage return without a line feed; end lines with LF or CR LF"));
         else if ((c < 0x20 && c != U'\n' && c != U'\t' && c != U'\r') || c == 0x7F)
-            tell(has_control, fmt::format("the control character 0x{:02X} is not allowed in a scene", byte));
+            tell(has_control, say("the control character 0x{:02X} is not allowed in a scene", byte));
         place = c == U'\n' ? Place{place.line + 1, 1} : Place{place.line, place.column + 1};
     }
     return found;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -34,10 +35,10 @@ constexpr std::string_view of_values[] = {"could not determine value type",
 
 /// Messages of toml++, and what is said instead.
 constexpr std::pair<std::string_view, std::string_view> rewordings[] = {
-    {"unescaped control characters", "this string is not closed on its line"},
-    {"encountered end-of-file", "the file ends here, but a string, an array or a table is still open"},
-    {"blank bare keys", "a table needs a name between its brackets"},
-    {"exceeded maximum nested value depth", "arrays or tables nested too deep"},
+    {"unescaped control characters", to_say("this string is not closed on its line")},
+    {"encountered end-of-file", to_say("the file ends here, but a string, an array or a table is still open")},
+    {"blank bare keys", to_say("a table needs a name between its brackets")},
+    {"exceeded maximum nested value depth", to_say("arrays or tables nested too deep")},
 };
 
 struct Value {
@@ -68,13 +69,13 @@ bool is_number_like(std::string_view text) {
 std::string about_value(std::string_view value, std::string_view message) {
     const std::string shown = escaped(value, 40);
     if (message.find("64 bits") != std::string_view::npos || message.find("interpreted") != std::string_view::npos)
-        return fmt::format("the number {} is beyond the range of {}", shown,
-                           value.find_first_of(".eE") == std::string_view::npos
-                               ? "64-bit integers; write it with a point"
-                               : "double precision");
+        return say("the number {} is beyond the range of {}", shown,
+                   value.find_first_of(".eE") == std::string_view::npos
+                       ? say("64-bit integers; write it with a point")
+                       : say("double precision"));
     if (is_number_like(value))
-        return fmt::format("{} is not a number in TOML, where .5 is 0.5, 5. is 5.0 and 05 is 5", shown);
-    return fmt::format("not a plain number; an expression or a name stands in quotes: \"{}\"", shown);
+        return say("{} is not a number in TOML, where .5 is 0.5, 5. is 5.0 and 05 is 5", shown);
+    return say("not a plain number; an expression or a name stands in quotes: \"{}\"", shown);
 }
 
 std::string without_framing(std::string message) {
@@ -93,16 +94,16 @@ Diagnostic syntax_mistake(const toml::parse_error& error, const Layout& layout, 
         const std::size_t first = message.find('\''), last = message.rfind('\'');
         const std::string name = first < last ? message.substr(first + 1, last - first - 1) : "";
         if (const auto header = layout.headers.find(name); header != layout.headers.end())
-            return {place, fmt::format("the table [{}] is given twice; first on line {}", escaped(name),
-                                       header->second.line)};
+            return {place,
+                    say("the table [{}] is given twice; first on line {}", escaped(name), header->second.line)};
     }
     const auto says = [&](std::string_view words) { return message.find(words) != std::string::npos; };
     if (std::any_of(std::begin(of_values), std::end(of_values), says))
         if (const auto value = value_around(source.text(), source.offset(place)))
             return {source.place(value->begin), about_value(value->text, message)};
     for (const auto& [theirs, ours] : rewordings)
-        if (says(theirs)) return {place, fmt::format("not valid TOML: {}", ours)};
-    return {place, fmt::format("not valid TOML: {}", escaped(message, 200))};
+        if (says(theirs)) return {place, say("not valid TOML: {}", translated(ours))};
+    return {place, say("not valid TOML: {}", escaped(message, 200))};
 }
 
 }  // namespace alembert

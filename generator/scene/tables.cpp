@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -24,7 +25,7 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what, 
     if (const Entry* const value = keys.find("value"))
         item.value = read_expression(table.reading(), *value->node, what);
     else
-        keys.complain("value", what + " needs 'value'");
+        keys.complain("value", say("{} needs '{}'", what, "value"));
     item.unit = keys.text("unit");
     item.about = keys.text("about");
     return item;
@@ -35,16 +36,16 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what, 
 void read_parameters(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.parameters.push_back(
-            read_item<Parameter>(table, entry, labelled("parameter", entry.key), "parameters.*"));
+            read_item<Parameter>(table, entry, labelled(say("parameter"), entry.key), "parameters.*"));
 }
 
 void read_inputs(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
-        scene.inputs.push_back(read_item<Input>(table, entry, labelled("input", entry.key), "inputs.*"));
+        scene.inputs.push_back(read_item<Input>(table, entry, labelled(say("input"), entry.key), "inputs.*"));
 }
 
 Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
-    const std::string what = labelled("coordinate", entry.key);
+    const std::string what = labelled(say("coordinate"), entry.key);
     Coordinate coordinate{
         .name = {entry.key, entry.place}, .initial = {}, .rate = zero(entry.place), .unit = {}, .about = {}};
     const toml::table* const inner = entry.node->as_table();
@@ -59,7 +60,7 @@ Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
     const auto start = [&](std::string_view key, std::string_view guess, Expression& value, bool& is_guess) {
         is_guess = keys.has(guess);
         if (is_guess && keys.has(key))
-            keys.complain(guess, fmt::format("{} has both '{}' and '{}'; give one", what, key, guess));
+            keys.complain(guess, say("{} has both '{}' and '{}'; give one", what, key, guess));
         value = is_guess || keys.has(key) ? keys.expression(is_guess ? guess : key) : zero(entry.place);
     };
     start("initial", "guess", coordinate.initial, coordinate.initial_is_guess);
@@ -76,7 +77,7 @@ void read_coordinates(const Table& table, Scene& scene) {
 
 void read_speeds(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries()) {
-        const std::string what = labelled("speed", entry.key);
+        const std::string what = labelled(say("speed"), entry.key);
         Speed speed{.name = {entry.key, entry.place}, .form = {}, .initial = {}, .unit = {}, .about = {}};
         if (const toml::table* const inner = entry.node->as_table()) {
             const Table keys(table.reading(), *inner, what, entry.place);
@@ -119,7 +120,7 @@ Expression along_N(const Vector& vector, const Reading& reading) {
 
 void read_definitions(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries()) {
-        const std::string what = labelled("definition", entry.key);
+        const std::string what = labelled(say("definition"), entry.key);
         const bool has_components = entry.node->is_array();
         scene.definitions.push_back(
             {.name = {entry.key, entry.place},
@@ -150,7 +151,7 @@ void read_energy(const Table& table, Scene& scene) {
     scene.lagrangian = table.expression("lagrangian");
     if (table.has("lagrangian") && (table.has("kinetic") || table.has("potential")))
         table.complain("lagrangian",
-                       "'lagrangian' stands for the whole energy; leave out 'kinetic' and 'potential'");
+                       say("'lagrangian' stands for the whole energy; leave out 'kinetic' and 'potential'"));
 }
 
 void read_dissipation(const Table& table, Scene& scene) {
@@ -162,20 +163,21 @@ void read_forces(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.generalized_forces.push_back(
             {{entry.key, entry.place},
-             read_expression(table.reading(), *entry.node, labelled("the force along", entry.key))});
+             read_expression(table.reading(), *entry.node, labelled(say("the force along"), entry.key))});
 }
 
 void read_impulses(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.generalized_impulses.push_back(
             {{entry.key, entry.place},
-             read_expression(table.reading(), *entry.node, labelled("the impulse along", entry.key))});
+             read_expression(table.reading(), *entry.node, labelled(say("the impulse along"), entry.key))});
 }
 
 void read_outputs(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
-        scene.outputs.push_back({{entry.key, entry.place},
-                                 read_expression(table.reading(), *entry.node, labelled("output", entry.key))});
+        scene.outputs.push_back(
+            {{entry.key, entry.place},
+             read_expression(table.reading(), *entry.node, labelled(say("output"), entry.key))});
 }
 
 }  // namespace alembert

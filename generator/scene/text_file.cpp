@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "language/say.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {
@@ -26,16 +27,17 @@ constexpr std::size_t largest_file = 1024 * 1024;
 
 std::string text_of_file(const std::string& file) {
     std::error_code error;
-    if (std::filesystem::is_directory(file, error)) refuse_file(file, "is a directory; expected a scene file");
-    if (!std::filesystem::exists(file, error)) refuse_file(file, "no such file");
+    if (std::filesystem::is_directory(file, error))
+        refuse_file(file, say("is a directory; expected a scene file"));
+    if (!std::filesystem::exists(file, error)) refuse_file(file, say("no such file"));
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) refuse_file(file, fmt::format("cannot be opened: {}", std::strerror(errno)));
+    if (!stream) refuse_file(file, say("cannot be opened: {}", std::strerror(errno)));
     std::string text(largest_file + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (stream.bad()) refuse_file(file, "cannot be read");
+    if (stream.bad()) refuse_file(file, say("cannot be read"));
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (text.size() > largest_file)
-        refuse_file(file, "has more than 1048576 bytes (1 MiB), the limit for a scene");
+        refuse_file(file, say("has more than 1048576 bytes (1 MiB), the limit for a scene"));
     return text;
 }
 

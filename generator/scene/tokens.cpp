@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -15,7 +16,7 @@ namespace {
 constexpr int most_digits = 400;
 
 /// What to write instead of a character that looks right but is not part of the language.
-std::string_view replacement(char32_t c) {
+std::string replacement(char32_t c) {
     switch (c) {
         case U'·':
         case U'×':
@@ -23,56 +24,56 @@ std::string_view replacement(char32_t c) {
         case U'∗':
         case U'∙':
         case U'•':
-            return "use *";
+            return say("use *");
         case U'−':
         case U'–':
         case U'—':
         case U'‐':
         case U'‑':
-            return "use -";
+            return say("use -");
         case U'÷':
         case U'∕':
         case U'⁄':
-            return "use /";
+            return say("use /");
         case U'′':
         case U'’':
         case U'‘':
         case U'´':
         case U'`':
-            return "use '";
+            return say("use '");
         case U'″':
         case U'”':
         case U'“':
         case U'"':
-            return "use '' for a second derivative";
+            return say("use '' for a second derivative");
         case U'²':
-            return "use ^2";
+            return say("use ^2");
         case U'³':
-            return "use ^3";
+            return say("use ^3");
         case U'√':
-            return "use sqrt(…)";
+            return say("use sqrt(…)");
         case U'½':
-            return "use 1/2";
+            return say("use 1/2");
         case U'∞':
-            return "numbers are finite";
+            return say("numbers are finite");
         case U'[':
         case U']':
         case U'{':
         case U'}':
-            return "use parentheses";
+            return say("use parentheses");
         case U'<':
         case U'>':
         case U'≤':
         case U'≥':
         case U'≠':
-            return "comparisons are not part of the language";
+            return say("comparisons are not part of the language");
         case U'%':
-            return "there are no percentages or remainders; use /100";
+            return say("there are no percentages or remainders; use /100");
         case U'!':
-            return "there are no factorials";
+            return say("there are no factorials");
         case U'\u0307':
         case U'\u0308':
-            return "use ' for a derivative with respect to time: x'";
+            return say("use ' for a derivative with respect to time: x'");
         case U'₀':
         case U'₁':
         case U'₂':
@@ -83,7 +84,7 @@ std::string_view replacement(char32_t c) {
         case U'₇':
         case U'₈':
         case U'₉':
-            return "use plain digits in names: x1";
+            return say("use plain digits in names: x1");
         default:
             return {};
     }
@@ -123,9 +124,9 @@ private:
             return add(Token::Kind::primes, begin);
         }
         if (text_.compare(at_, 2, "**") == 0)
-            fail(begin, "'**' is not an operator here; a power is written with ^");
+            fail(begin, say("'**' is not an operator here; a power is written with ^"));
         if (text_.compare(at_, 2, "==") == 0)
-            fail(begin, "'==' is not part of the language; an equation has one =");
+            fail(begin, say("'==' is not part of the language; an equation has one ="));
         if (std::string_view("+-*/^(),=").find(byte) != std::string_view::npos) {
             ++at_;
             return add(Token::Kind::symbol, begin, byte);
@@ -147,7 +148,7 @@ private:
         if (at_ < text_.size() && text_[at_] == '.')
             for (++at_; digit(at_);) ++at_;
         if (static_cast<int>(at_ - begin) > most_digits)
-            fail(begin, fmt::format("a number of more than {} digits", most_digits));
+            fail(begin, say("a number of more than {} digits", most_digits));
         if (at_ < text_.size() && (text_[at_] == 'e' || text_[at_] == 'E')) {
             const bool has_sign = at_ + 1 < text_.size() && (text_[at_ + 1] == '+' || text_[at_ + 1] == '-');
             const std::size_t digits = at_ + (has_sign ? 2 : 1);
@@ -157,8 +158,8 @@ private:
         check_range(begin);
         if (at_ < text_.size() && (text_[at_] == '.' || (text_[at_] == '_' && digit(at_ + 1))))
             fail(begin, text_[at_] == '_'
-                            ? "digits are written together, without _, in an expression"
-                            : in_quotes(text_.substr(begin, number_like(begin))) + " is not a number");
+                            ? say("digits are written together, without _, in an expression")
+                            : say("{} is not a number", in_quotes(text_.substr(begin, number_like(begin)))));
         add(Token::Kind::number, begin);
     }
 
@@ -182,15 +183,15 @@ private:
                 std::from_chars(first, end, exponent).ec == std::errc{} && std::abs(exponent) <= 2 * most_digits;
         }
         if (result.ec != std::errc{} || !small)
-            fail(begin, fmt::format("the number {} is beyond the range of double precision",
-                                    escaped(text_.substr(begin, at_ - begin), 40)));
+            fail(begin, say("the number {} is beyond the range of double precision",
+                            escaped(text_.substr(begin, at_ - begin), 40)));
     }
 
     [[noreturn]] void stray(std::size_t begin, char32_t c) const {
-        const std::string_view hint = replacement(c);
+        const std::string hint = replacement(c);
         std::string message = in_quotes(text_.substr(begin, at_ - begin));
         if (is_disturbing(c) || c >= 0x80) message += fmt::format(" (U+{:04X})", static_cast<unsigned>(c));
-        message += " is not part of the expression language";
+        message += say(" is not part of the expression language");
         if (!hint.empty()) message += fmt::format("; {}", hint);
         fail(begin, message);
     }

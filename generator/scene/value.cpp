@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "language/say.hpp"
 #include "scene/keys.hpp"
 #include "scene/text.hpp"
 
@@ -46,7 +47,7 @@ Literal read_literal(const Reading& reading, const toml::node& node) {
 }
 
 std::string mismatch(const std::string& what, const toml::node& node, std::string_view expected) {
-    return fmt::format("{} is {}; expected {}", what, kind_of(node), expected);
+    return say("{} is {}; expected {}", what, kind_of(node), expected);
 }
 
 }  // namespace
@@ -59,27 +60,27 @@ Place place_of(const toml::node& node) {
 std::string kind_of(const toml::node& node) {
     switch (node.type()) {
         case toml::node_type::string:
-            return labelled("the string", node.as_string()->get());
+            return labelled(say("the string"), node.as_string()->get());
         case toml::node_type::integer:
-            return fmt::format("the integer {}", node.as_integer()->get());
+            return say("the integer {}", node.as_integer()->get());
         case toml::node_type::floating_point: {
             const double value = node.as_floating_point()->get();
             if (std::isnan(value)) return "nan";
             if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-            return fmt::format("the number {}", value);
+            return say("the number {}", value);
         }
         case toml::node_type::boolean:
             return node.as_boolean()->get() ? "true" : "false";
         case toml::node_type::array:
-            return "an array";
+            return say("an array");
         case toml::node_type::table:
-            return "a table";
+            return say("a table");
         case toml::node_type::date:
-            return "a date";
+            return say("a date");
         case toml::node_type::time:
-            return "a time of day";
+            return say("a time of day");
         default:
-            return "a date and time";
+            return say("a date and time");
     }
 }
 
@@ -89,14 +90,14 @@ Expression read_expression(const Reading& reading, const toml::node& node, const
         return parse_expression(std::move(literal.text), std::move(literal.places), reading.diagnostics);
     }
     if (const auto* number = node.as_floating_point(); number && !std::isfinite(number->get())) {
-        reading.complain(place_of(node), mismatch(what, node, "a finite number"));
+        reading.complain(place_of(node), mismatch(what, node, say("a finite number")));
         return {};
     }
     if (node.is_number()) {
         Literal literal = read_number(reading, node);
         return parse_expression(std::move(literal.text), std::move(literal.places), reading.diagnostics);
     }
-    reading.complain(place_of(node), mismatch(what, node, "a number or an expression in quotes"));
+    reading.complain(place_of(node), mismatch(what, node, say("a number or an expression in quotes")));
     return {};
 }
 
@@ -112,7 +113,7 @@ Expression zero(Place place) {
 
 std::optional<Name> read_name(const Reading& reading, const toml::node& node, const std::string& what) {
     if (!node.is_string()) {
-        reading.complain(place_of(node), mismatch(what, node, "a name in quotes"));
+        reading.complain(place_of(node), mismatch(what, node, say("a name in quotes")));
         return {};
     }
     const Literal literal = read_literal(reading, node);
@@ -123,11 +124,12 @@ std::vector<Name> read_names(const Reading& reading, const toml::node& node, con
     std::vector<Name> names;
     const toml::array* array = node.as_array();
     if (!array) {
-        reading.complain(place_of(node), mismatch(what, node, "an array of names"));
+        reading.complain(place_of(node), mismatch(what, node, say("an array of names")));
         return names;
     }
     for (const toml::node& element : *array)
-        if (auto name = read_name(reading, element, "an element of " + what)) names.push_back(std::move(*name));
+        if (auto name = read_name(reading, element, say("an element of {}", what)))
+            names.push_back(std::move(*name));
     return names;
 }
 
@@ -136,16 +138,16 @@ Vector read_vector(const Reading& reading, const toml::node& node, const std::st
     vector.place = place_of(node);
     const toml::array* array = node.as_array();
     if (!array) {
-        reading.complain(vector.place, mismatch(what, node, "a vector: an array of two or three components"));
+        reading.complain(vector.place, mismatch(what, node, say("a vector: an array of two or three components")));
         return vector;
     }
     if (array->size() < 2 || array->size() > 3) {
-        reading.complain(vector.place, fmt::format("{} has {} component{}; a vector has two or three", what,
-                                                   array->size(), array->size() == 1 ? "" : "s"));
+        reading.complain(vector.place, say("{} has {} component{}; a vector has two or three", what, array->size(),
+                                           array->size() == 1 ? "" : "s"));
         return vector;
     }
     for (std::size_t i = 0; i < array->size(); ++i)
-        vector.component[i] = read_expression(reading, *array->get(i), "a component of " + what);
+        vector.component[i] = read_expression(reading, *array->get(i), say("a component of {}", what));
     if (array->size() == 2) vector.component[2] = zero(vector.place);
     return vector;
 }
@@ -165,10 +167,9 @@ void Table::allow(std::string_view name) const {
     for (const Entry& entry : entries_) {
         if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
         const std::string meant = nearest(entry.key, {known.begin(), known.end()});
-        const std::string hint = meant.empty() ? fmt::format("it may have {}", fmt::join(known, ", "))
-                                               : fmt::format("did you mean '{}'?", meant);
-        reading_->complain(entry.place,
-                           fmt::format("unknown key {} in {}; {}", in_quotes(entry.key), title_, hint));
+        const std::string hint =
+            meant.empty() ? say("it may have {}", fmt::join(known, ", ")) : say("did you mean '{}'?", meant);
+        reading_->complain(entry.place, say("unknown key {} in {}; {}", in_quotes(entry.key), title_, hint));
     }
 }
 
@@ -184,7 +185,7 @@ void Table::complain(std::string_view key, const std::string& message) const {
 }
 
 std::string Table::what(std::string_view key) const {
-    return fmt::format("'{}' of {}", escaped(key), title_);
+    return say("'{}' of {}", escaped(key), title_);
 }
 
 void Table::entitle(const Name& name) {
@@ -192,14 +193,14 @@ void Table::entitle(const Name& name) {
 }
 
 void Table::need(std::string_view key) const {
-    if (!has(key)) reading_->complain(place_, fmt::format("{} needs '{}'", title_, key));
+    if (!has(key)) reading_->complain(place_, say("{} needs '{}'", title_, key));
 }
 
 std::string Table::text(std::string_view key) const {
     const Entry* const entry = find(key);
     if (!entry) return {};
     if (const auto* string = entry->node->as_string()) return string->get();
-    reading_->complain(place_of(*entry->node), mismatch(what(key), *entry->node, "a string"));
+    reading_->complain(place_of(*entry->node), mismatch(what(key), *entry->node, say("a string")));
     return {};
 }
 
@@ -207,7 +208,7 @@ bool Table::flag(std::string_view key) const {
     const Entry* const entry = find(key);
     if (!entry) return false;
     if (const auto* boolean = entry->node->as_boolean()) return boolean->get();
-    reading_->complain(place_of(*entry->node), mismatch(what(key), *entry->node, "true or false"));
+    reading_->complain(place_of(*entry->node), mismatch(what(key), *entry->node, say("true or false")));
     return false;
 }
 

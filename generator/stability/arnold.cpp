@@ -10,6 +10,7 @@
 #include <map>
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
@@ -208,8 +209,7 @@ Decision by_arnold(const Local& local, const PowerSign& power, const std::vector
     const double D = a * W[1] * W[1] - b * W[0] * W[1] + c * W[0] * W[0];
     if (!(std::abs(D) > 1e-7 * size * high * high)) return {};
     return {StabilityVerdict::stable, StabilityTheorem::arnold,
-            fmt::format(
-                "the Hamiltonian has the frequencies {:.8g} and {:.8g}, without resonances up to order four, and "
+            say("the Hamiltonian has the frequencies {:.8g} and {:.8g}, without resonances up to order four, and "
                 "D = {:.6g} of its normal form is not zero",
                 W[0], W[1], D)};
 }

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -19,8 +20,7 @@ constexpr int deepest = 7;             // times that a piece is halved
 
 void check_axis(const Axis& axis) {
     if (!(std::isfinite(axis.from) && std::isfinite(axis.to)) || axis.from == axis.to || axis.count < 2)
-        throw ModelError(
-            fmt::format("{}: expected a range of two different numbers, and at least two values", axis.name));
+        throw ModelError(say("{}: expected a range of two different numbers, and at least two values", axis.name));
 }
 
 /// Work in pixels; kinds of the corners of cells.
@@ -32,7 +32,8 @@ public:
     void go() {
         for (std::size_t i = 0; i < chart_.x.count; ++i) {
             if (options_.progress)
-                options_.progress("the grid", 0.5 * static_cast<double>(i) / static_cast<double>(chart_.x.count));
+                options_.progress(say("the grid"),
+                                  0.5 * static_cast<double>(i) / static_cast<double>(chart_.x.count));
             for (std::size_t j = 0; j < chart_.y.count; ++j) {
                 const auto roots = roots_at(node(i, j));
                 chart_.kinds.push_back(roots ? kind_of(*roots, chart_.of) : SpectrumKind::none);
@@ -41,7 +42,7 @@ public:
         }
         for (std::size_t i = 0; i + 1 < chart_.x.count; ++i) {
             if (options_.progress)
-                options_.progress("the boundary",
+                options_.progress(say("the boundary"),
                                   0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(chart_.x.count));
             for (std::size_t j = 0; j + 1 < chart_.y.count; ++j) look_at_cell(i, j);
         }
@@ -240,7 +241,7 @@ private:
 StabilityChart stability_chart(Scene scene, const Axis& x, const Axis& y, const ChartOptions& options) {
     check_axis(x);
     check_axis(y);
-    if (x.name == y.name) throw ModelError(fmt::format("{} is varied twice; expected two parameters", x.name));
+    if (x.name == y.name) throw ModelError(say("{} is varied twice; expected two parameters", x.name));
     const Spectra spectra(std::move(scene), options.stability, {x.name, y.name},
                           {x.from + 0.47 * (x.to - x.from), y.from + 0.53 * (y.to - y.from)});
     StabilityChart chart{.title = spectra.title(), .of = spectra.of(), .x = x, .y = y};

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "alembert/dense.hpp"
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 #include "stability/exact_field.hpp"
 #include "stability/field.hpp"
@@ -126,12 +127,11 @@ Decision one_zero_root(const Local& local, const std::vector<RootOf>& roots) {
         if (!G.is_zero()) {
             if (!G.sign()) return {};
             const bool attracts = order % 2 == 1 && G.sign() == -1;
-            return {
-                attracts ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
-                StabilityTheorem::one_zero_root,
-                fmt::format("one eigenvalue is zero and the others have negative real parts; along the critical "
-                            "direction c' = {:.6g} c^{} + ...",
-                            G.number(), order)};
+            return {attracts ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
+                    StabilityTheorem::one_zero_root,
+                    say("one eigenvalue is zero and the others have negative real parts; along the critical "
+                        "direction c' = {:.6g} c^{} + ...",
+                        G.number(), order)};
         }
         for (int i = 0; i < n; ++i)
             if (!(*step)(i, 0).is_zero()) x[i] += Expansion((*step)(i, 0)) * power;
@@ -176,12 +176,11 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
                          form.bound({large, size_of_second})) /
         (2 * omega);
     if (!(std::abs(l1) > 1e-8 * size)) return {};
-    return {
-        l1 < 0 ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
-        StabilityTheorem::pair_on_axis,
-        fmt::format("one pair of eigenvalues +-{:.8g}i is on the imaginary axis and the others have negative real "
-                    "parts; the first Lyapunov coefficient is {}",
-                    omega, l1 < 0 ? "negative" : "positive")};
+    return {l1 < 0 ? StabilityVerdict::asymptotically_stable : StabilityVerdict::unstable,
+            StabilityTheorem::pair_on_axis,
+            say("one pair of eigenvalues +-{:.8g}i is on the imaginary axis and the others have negative real "
+                "parts; the first Lyapunov coefficient is {}",
+                omega, l1 < 0 ? say("negative") : say("positive"))};
 }
 
 namespace {
@@ -278,11 +277,10 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots,
     const bool proved = by == FamilyProof::exact;
     if (!(proved ? has_family(local, V.rightCols(zeros)) : finds_family(local, V, zeros))) return {};
     return {StabilityVerdict::stable, StabilityTheorem::malkin,
-            fmt::format(
-                "{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters{}, "
+            say("{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters{}, "
                 "and all others have negative real parts: disturbed motions tend to steady motions near this "
                 "one",
-                zeros, zeros == 1 ? "is" : "are", proved ? "" : " (found by Newton's method along each)")};
+                zeros, zeros == 1 ? "is" : "are", proved ? "" : say(" (found by Newton's method along each)"))};
 }
 
 }  // namespace alembert

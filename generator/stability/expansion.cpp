@@ -5,6 +5,8 @@
 
 #include <functional>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 Monomials::Monomials(int variables, int degree) : variables_(variables), degree_(degree) {
@@ -117,7 +119,7 @@ Expansion put_into(const Expansion& a, const std::vector<Expansion>& at) {
 }
 
 Expansion operator/(const Expansion& a, const Expansion& b) {
-    if (b.value().may_be_zero()) throw NotAnalytic("a division by zero");
+    if (b.value().may_be_zero()) throw NotAnalytic(say("a division by zero"));
     const Certain inverse = Certain(1) / b.value();
     std::vector<Certain> series{inverse};
     for (int k = 0; k < b.degree(); ++k) series.push_back(-series.back() * inverse);
@@ -126,7 +128,7 @@ Expansion operator/(const Expansion& a, const Expansion& b) {
 
 bool operator<(const Expansion& a, const Expansion& b) {
     const std::optional<int> sign = (a.value() - b.value()).sign();
-    if (!sign || *sign == 0) throw NotAnalytic("a comparison of equal values");
+    if (!sign || *sign == 0) throw NotAnalytic(say("a comparison of equal values"));
     return *sign < 0;
 }
 
@@ -174,7 +176,7 @@ Expansion exp(const Expansion& a) {
     return Expansion::composed(a, cyclic({exp(a.value())}, a.degree()));
 }
 Expansion log(const Expansion& a) {
-    if (a.value().sign() != 1) throw NotAnalytic("log of what is not positive");
+    if (a.value().sign() != 1) throw NotAnalytic(say("log of what is not positive"));
     const auto slope = in_one(a.value(), a.degree(), [](const Expansion& x) { return Expansion(1) / x; });
     return Expansion::composed(a, integrated(log(a.value()), slope));
 }
@@ -185,7 +187,7 @@ Expansion atan(const Expansion& a) {
 }
 Expansion asin(const Expansion& a) {
     const Certain left = Certain(1) - a.value() * a.value();
-    if (a.degree() > 0 && left.sign() != 1) throw NotAnalytic("asin or acos at the end of its range");
+    if (a.degree() > 0 && left.sign() != 1) throw NotAnalytic(say("asin or acos at the end of its range"));
     if (a.degree() == 0) return Expansion(asin(a.value()));
     const auto slope = in_one(a.value(), a.degree(),
                               [](const Expansion& x) { return Expansion(1) / sqrt(Expansion(1) - x * x); });
@@ -207,7 +209,7 @@ Expansion pow(const Expansion& a, const Expansion& b) {
     if (!a.monomials_) return Expansion(pow(a.value(), exponent));
     const bool whole = r && cln::denominator(*r) == 1;
     if (whole ? a.value().may_be_zero() : a.value().sign() != 1)
-        throw NotAnalytic("a power or root of a base that may be zero");
+        throw NotAnalytic(say("a power or root of a base that may be zero"));
     std::vector<Certain> series{pow(a.value(), exponent)};
     for (int k = 0; k < a.degree(); ++k)
         series.push_back(series.back() * (exponent - Certain(k)) / (a.value() * Certain(k + 1)));
@@ -217,14 +219,14 @@ Expansion pow(const Expansion& a, const Expansion& b) {
 Expansion abs(const Expansion& a) {
     const std::optional<int> sign = a.value().sign();
     if (!a.monomials_ && sign == 0) return a;
-    if (!sign || *sign == 0) throw NotAnalytic("abs at zero");
+    if (!sign || *sign == 0) throw NotAnalytic(say("abs at zero"));
     return Expansion(*sign) * a;
 }
 
 Expansion atan2(const Expansion& y, const Expansion& x) {
     const Certain y0 = y.value(), x0 = x.value();
     const Expansion along = Expansion(x0) * x + Expansion(y0) * y, across = Expansion(x0) * y - Expansion(y0) * x;
-    if (along.value().sign() != 1) throw NotAnalytic("atan2 at the origin");
+    if (along.value().sign() != 1) throw NotAnalytic(say("atan2 at the origin"));
     return Expansion(atan2(y0, x0)) + atan(across / along);
 }
 

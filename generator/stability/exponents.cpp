@@ -13,6 +13,7 @@
 #include "alembert/integrate.hpp"
 #include "alembert/module.hpp"
 #include "emit/emit.hpp"
+#include "language/say.hpp"
 #include "linear/tangent.hpp"
 #include "lower/lower.hpp"
 #include "program/differentiate.hpp"
@@ -29,7 +30,8 @@ constexpr int most_intervals = 20000, least_intervals = 400, most_rows = 20;
 
 Rhs emitted(const Derived& d, const Start& start) {
     auto program = differentiated(lowered(d).program);
-    if (!program) throw ModelError("the equations of this scene are too large to be differentiated, or singular");
+    if (!program)
+        throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
     const Source source = emit(program->program);
     const Compiled compiled = compile(source.text, program->program.name + "_jacobian", {});
     return make_rhs(load(compiled.object), start.parameters);
@@ -61,7 +63,7 @@ public:
         const Split split =
             split_of(residuals_, at, guessed_q_, std::vector<bool>(static_cast<std::size_t>(s), false));
         if (!settle(residuals_, split, at))
-            throw IntegrationError("the constraints cannot be kept along the motion", t, state.q);
+            throw IntegrationError(say("the constraints cannot be kept along the motion"), t, state.q);
         for (int k = 0; k < n; ++k) y[k] = static_cast<double>(at.q[static_cast<std::size_t>(k)]);
         for (int k = 0; k < s; ++k) y[n + k] = static_cast<double>(at.u[static_cast<std::size_t>(k)]);
         rows_ = split.q;
@@ -83,9 +85,9 @@ private:
 
 void check_smooth(const Mechanism& m) {
     if (!m.unilateral.empty() || !m.frictions.empty() || m.has_kicks())
-        throw ModelError(
+        throw ModelError(say(
             "Lyapunov exponents are computed for smooth motions; this scene has contacts, dry friction or events "
-            "with impulses, at which the variational equations jump");
+            "with impulses, at which the variational equations jump"));
 }
 
 /// x, the tangent vectors, and ∫ trace.
@@ -114,9 +116,9 @@ public:
         result_.size = static_cast<int>(along.cols());
         if (options.count > result_.size)
             throw ModelError(
-                fmt::format("--exponents {}: the tangent space has {} dimensions; expected at most "
-                            "that many",
-                            options.count, result_.size));
+                say("--exponents {}: the tangent space has {} dimensions; expected at most "
+                    "that many",
+                    options.count, result_.size));
         columns_ = options.count > 0 ? options.count : result_.size;
         std::mt19937_64 random(8);
         std::normal_distribution<double> normal;
@@ -142,7 +144,7 @@ public:
         std::vector<LyapunovExponents::Row> all;
         const int begin = static_cast<int>(forgotten * intervals_);
         for (int k = 0; k < intervals_; ++k) {
-            if (options_.progress) options_.progress("the motion", static_cast<double>(k) / intervals_);
+            if (options_.progress) options_.progress(say("the motion"), static_cast<double>(k) / intervals_);
             const double t = start_ + result_.interval * k;
             std::vector<double> whole = y_;
             whole.insert(whole.end(), Q_.data(), Q_.data() + Q_.size());

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -50,7 +52,7 @@ void follow_constraints(const Local& local, State<Expansion>& state, int degree)
         if (unknowns.empty()) return;
         const CertainMatrix J = matrix(nodes, offset, unknowns);
         const auto inverse = solution(J, CertainMatrix::identity(J.rows));
-        if (!inverse) throw NotAnalytic("the constraints are not surely regular");
+        if (!inverse) throw NotAnalytic(say("the constraints are not surely regular"));
         for (int round = 0; round < degree; ++round) {
             const std::vector<Expansion> value = interpret(r.program, state);
             for (int i = 0; i < J.rows; ++i)

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "stability/periodic.hpp"
@@ -31,7 +32,7 @@ void check_period(const Variation<Quad>& f, const std::vector<Quad>& start, Quad
         const std::vector<Quad> now = f.rate_at(t, x), later = f.rate_at(t + period, x);
         for (std::size_t i = 0; i < now.size(); ++i)
             if (abs(now[i] - later[i]) > static_cast<Quad>(1e-12) * (1 + abs(now[i])))
-                throw ModelError(fmt::format(
+                throw ModelError(say(
                     "the equations do not have the period {:.10g}: a rate is {:.10g} at t = {:.6g} and {:.10g} "
                     "one period later; give the period of the inputs, or a multiple of it",
                     static_cast<double>(period), static_cast<double>(now[i]), static_cast<double>(t),
@@ -72,24 +73,24 @@ Decision judged(const FloquetResult& found, const std::vector<RootOf>& roots, bo
         at[own] = Place::inside;
     }
     const auto has = [&](Place place) { return std::find(at.begin(), at.end(), place) != at.end(); };
-    const std::string of = fmt::format("the largest multiplier over the period {:.10g} has the size {:.12g}",
-                                       found.period, std::abs(found.multipliers.front()));
-    const char* const orbit =
-        autonomous ? "; the one along the motion is 1 and not counted: the orbit is stable" : "";
-    if (has(Place::outside)) return {StabilityVerdict::unstable, StabilityTheorem::floquet, of + ", beyond 1"};
+    const std::string of = say("the largest multiplier over the period {:.10g} has the size {:.12g}", found.period,
+                               std::abs(found.multipliers.front()));
+    const std::string orbit =
+        autonomous ? say("; the one along the motion is 1 and not counted: the orbit is stable") : "";
+    if (has(Place::outside))
+        return {StabilityVerdict::unstable, StabilityTheorem::floquet, say("{}, beyond 1", of)};
     if (!has(Place::circle) && !has(Place::unclear))
         return {StabilityVerdict::asymptotically_stable, StabilityTheorem::floquet,
-                autonomous ? std::string("all multipliers but one are smaller than 1") + orbit : of + ", below 1"};
+                autonomous ? say("all multipliers but one are smaller than 1") + orbit : say("{}, below 1", of)};
     if (linear && !has(Place::unclear))
         return {StabilityVerdict::stable, StabilityTheorem::floquet,
-                "all multipliers are simple and on the unit circle: the equations are linear and have a "
-                "Hamiltonian, so "
-                "that none can leave it"};
-    return {
-        StabilityVerdict::undecided, StabilityTheorem::none,
-        fmt::format("critical: no multiplier is surely beyond the unit circle, and some are on it{}; the first "
-                    "approximation over a period says nothing about {} equations",
-                    has(Place::unclear) ? " or too near to tell" : "", linear ? "these" : "nonlinear")};
+                say("all multipliers are simple and on the unit circle: the equations are linear and have a "
+                    "Hamiltonian, so "
+                    "that none can leave it")};
+    return {StabilityVerdict::undecided, StabilityTheorem::none,
+            say("critical: no multiplier is surely beyond the unit circle, and some are on it{}; the first "
+                "approximation over a period says nothing about {} equations",
+                has(Place::unclear) ? say(" or too near to tell") : "", linear ? say("these") : say("nonlinear"))};
 }
 
 /// Numbers as exactly as the scene and the options have them.
@@ -112,7 +113,7 @@ void take_exact(PeriodicMotion<Quad>& motion, const Derived& d, const Start& sta
 std::vector<RootOf> multipliers_of(const PeriodicSystem& periodic, const PeriodicMotion<Quad>& motion) {
     const PeriodEnd<Quad> good = periodic.monodromy(motion, fine), rough = periodic.monodromy(motion, coarse);
     if (!good.finished || !rough.finished)
-        throw IntegrationError("the variational equations cannot be integrated over one period",
+        throw IntegrationError(say("the variational equations cannot be integrated over one period"),
                                static_cast<double>(motion.t), {});
     const int size = static_cast<int>(periodic.independent(motion).size());
     const double rounding = periodic.constrained() ? basis_rounding : 0;
@@ -151,9 +152,9 @@ FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides
     if (!periodic.autonomous()) check_period(f, motion.x, motion.t, motion.period);
     if (!periodic.shoot(motion))
         throw ModelError(
-            fmt::format("no motion of period {:.10g} is found from this state: after Newton's method the state "
-                        "misses itself by {:.3g}; give a state and a period nearer to one",
-                        static_cast<double>(motion.period), motion.misfit));
+            say("no motion of period {:.10g} is found from this state: after Newton's method the state "
+                "misses itself by {:.3g}; give a state and a period nearer to one",
+                static_cast<double>(motion.period), motion.misfit));
     FloquetResult result;
     const std::vector<RootOf> roots = multipliers_of(periodic, motion);
     for (const RootOf& root : roots) {
@@ -169,8 +170,8 @@ FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides
     for (const Quad& rate : f.rate_at(motion.t, motion.x)) still = still && abs(rate) < static_cast<Quad>(1e-12);
     if (still)
         throw ModelError(
-            "the equations do not hold t and this state is an equilibrium; leave the period out, or give a "
-            "state on a periodic motion");
+            say("the equations do not hold t and this state is an equilibrium; leave the period out, or give a "
+                "state on a periodic motion"));
     result.decision = judged(result, roots, periodic.autonomous(), is_linear(m, d.equations), has_hamiltonian(m));
     return result;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "stability/exact_field.hpp"
@@ -39,10 +40,10 @@ CertainMatrix filled(int rows, int columns, const F& value) {
     return result;
 }
 
-CertainMatrix solved(const CertainMatrix& A, const CertainMatrix& B, const char* what) {
+CertainMatrix solved(const CertainMatrix& A, const CertainMatrix& B, const std::string& what) {
     if (A.rows == 0) return B;
     auto result = solution(A, B);
-    if (!result) throw NotAnalytic(std::string(what) + " is not surely regular");
+    if (!result) throw NotAnalytic(say("{} is not surely regular", what));
     return *std::move(result);
 }
 
@@ -248,7 +249,7 @@ CertainTangent Local::tangent_at(const CertainPoint& at) const {
     const CertainMatrix phi = jacobian(r.position), nu = jacobian(r.velocity);
     const std::vector<int> of_phi = up_to(r.holonomic), of_nu = up_to(r.kept);
     const CertainMatrix phi_dependent = phi.part(of_phi, split.q_dependent);
-    const CertainMatrix follow = solved(phi_dependent, Certain(-1) * (phi * along), "the constraints");
+    const CertainMatrix follow = solved(phi_dependent, Certain(-1) * (phi * along), say("the constraints"));
     for (std::size_t k = 0; k < split.q_dependent.size(); ++k)
         for (int j = 0; j < nr + p; ++j) along(split.q_dependent[k], j) += follow(static_cast<int>(k), j);
     std::vector<int> speeds_dependent;
@@ -256,7 +257,7 @@ CertainTangent Local::tangent_at(const CertainPoint& at) const {
     const CertainMatrix nu_dependent = nu.part(of_nu, speeds_dependent);
     const auto particular = [&](const CertainMatrix& right) {
         CertainMatrix spread(s, right.columns);
-        const CertainMatrix x = solved(nu_dependent, right, "the velocity constraints");
+        const CertainMatrix x = solved(nu_dependent, right, say("the velocity constraints"));
         for (std::size_t k = 0; k < split.u_dependent.size(); ++k)
             for (int j = 0; j < right.columns; ++j) spread(split.u_dependent[k], j) = x(static_cast<int>(k), j);
         return spread;
@@ -264,8 +265,10 @@ CertainTangent Local::tangent_at(const CertainPoint& at) const {
     const CertainMatrix more = particular(Certain(-1) * (nu * along));
     for (int i = 0; i < s; ++i)
         for (int j = 0; j < nr + p; ++j) along(n + i, j) += more(i, j);
-    result.to_position = solved(phi_dependent, Certain(-1) * column(result.position), "the constraints").entries;
-    result.to_velocity = solved(nu_dependent, Certain(-1) * column(result.velocity), "the constraints").entries;
+    result.to_position =
+        solved(phi_dependent, Certain(-1) * column(result.position), say("the constraints")).entries;
+    result.to_velocity =
+        solved(nu_dependent, Certain(-1) * column(result.velocity), say("the constraints")).entries;
 
     std::vector<int> speed_rows;
     for (int i = 0; i < s; ++i) speed_rows.push_back(n + i);
@@ -276,12 +279,12 @@ CertainTangent Local::tangent_at(const CertainPoint& at) const {
     const CertainMatrix f = column(values(r.forcing));
     CertainMatrix udot = particular(column(values(r.gamma)));
     result.mass = Ut * M * U;
-    const CertainMatrix wdot = solved(result.mass, Ut * (f + Certain(-1) * (M * udot)), "the mass matrix");
+    const CertainMatrix wdot = solved(result.mass, Ut * (f + Certain(-1) * (M * udot)), say("the mass matrix"));
     udot = udot + U * wdot;
     result.speed_rates = wdot.entries;
     CertainMatrix reaction = M * udot + Certain(-1) * f, on_dependent(r.kept, 1);
     for (int k = 0; k < r.kept; ++k) on_dependent(k, 0) = reaction(split.u_dependent[k], 0);
-    const CertainMatrix lambda = solved(transposed(nu_dependent), on_dependent, "the velocity constraints");
+    const CertainMatrix lambda = solved(transposed(nu_dependent), on_dependent, say("the velocity constraints"));
 
     CertainMatrix R = Certain(-1) * jacobian(r.forcing), Gamma = Certain(-1) * jacobian(r.gamma);
     for (int i = 0, next = 0; i < s; ++i)
@@ -366,7 +369,7 @@ void Local::settle() {
         if (longest > 1e-3) break;
         point = middle;
     }
-    throw NotAnalytic("the equilibrium is not found to the last digits");
+    throw NotAnalytic(say("the equilibrium is not found to the last digits"));
 }
 
 /// Cyclic coordinates whose momentum is constant: L does not contain them, and no load acts along them.
@@ -408,7 +411,7 @@ void Local::reduce() {
         for (const int r : essential) rest.push_back(r);
         for (const int j : others) rest.push_back(nr + j);
         const std::vector<int> rows = up_to(static_cast<int>(value.size()));
-        const CertainMatrix x = solved(dp.part(rows, own), Certain(-1) * dp.part(rows, rest), "the inertia");
+        const CertainMatrix x = solved(dp.part(rows, own), Certain(-1) * dp.part(rows, rest), say("the inertia"));
         for (std::size_t k = 0; k < cyclic_momenta.size(); ++k)
             for (int c = 0; c < size; ++c) T(cyclic_momenta[k], c) = x(static_cast<int>(k), c);
     }
@@ -418,8 +421,8 @@ void Local::reduce() {
         for (int c = 0; c < size; ++c) whole(nr + j, c) = T(j, c);
     std::vector<int> r_columns = up_to(nr), w_columns = up_to(nr + p, nr);
     const CertainMatrix in_w = whole.part(w_columns, up_to(size)), in_r = whole.part(r_columns, up_to(size));
-    const CertainMatrix wdot =
-        solved(tangent.mass, Certain(-1) * (tangent.damping * in_w + tangent.stiffness * in_r), "the mass matrix");
+    const CertainMatrix wdot = solved(
+        tangent.mass, Certain(-1) * (tangent.damping * in_w + tangent.stiffness * in_r), say("the mass matrix"));
     const CertainMatrix rdot = tangent.rates * whole;
     A = CertainMatrix(size, size);
     for (int k = 0; k < ne; ++k)

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -152,8 +153,7 @@ private:
 
 RootLocus root_locus(Scene scene, const Axis& axis, const ChartOptions& options) {
     if (!(std::isfinite(axis.from) && std::isfinite(axis.to)) || axis.from == axis.to || axis.count < 2)
-        throw ModelError(
-            fmt::format("{}: expected a range of two different numbers, and at least two values", axis.name));
+        throw ModelError(say("{}: expected a range of two different numbers, and at least two values", axis.name));
     const Spectra spectra(std::move(scene), options.stability, {axis.name},
                           {axis.from + 0.47 * (axis.to - axis.from)});
     RootLocus locus{
@@ -161,7 +161,7 @@ RootLocus root_locus(Scene scene, const Axis& axis, const ChartOptions& options)
     Following following(locus, spectra);
     for (std::size_t k = 0; k < axis.count; ++k) {
         const double part = static_cast<double>(k) / static_cast<double>(axis.count - 1);
-        if (options.progress) options.progress("the roots", part);
+        if (options.progress) options.progress(say("the roots"), part);
         const double value = axis.from + (axis.to - axis.from) * part;
         following.add(value, following.at(value));
     }

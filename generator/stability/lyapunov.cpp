@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "model/formulas.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
@@ -22,16 +23,16 @@ using GiNaC::ex;
 namespace {
 
 constexpr std::size_t widest = 200;  // the most letters of dV/dt that the answer shows
-const char* const unknown_sign = "not known";
+const char* const unknown_sign = to_say("not known");
 
 ex read_function(const std::string& text, const LinearizedScene& scene) {
     const Mechanism& m = scene.mechanism;
     const auto refuse = [&](const std::string& why) {
-        throw ModelError(fmt::format("the Lyapunov function {}: {}", text, why));
+        throw ModelError(say("the Lyapunov function {}: {}", text, why));
     };
     std::vector<Diagnostic> mistakes;
     const Expression expression = parse_expression(text, {}, mistakes);
-    if (!expression) refuse(mistakes.empty() ? "this is no expression" : mistakes[0].message);
+    if (!expression) refuse(mistakes.empty() ? say("this is no expression") : mistakes[0].message);
     ex V;
     try {
         Formulas formulas(scene.scene, m);
@@ -43,26 +44,30 @@ ex read_function(const std::string& text, const LinearizedScene& scene) {
     for (const Mechanism::Constraint& c : m.constraints) multipliers.push_back(c.multiplier);
     for (const Mechanism::Constraint* c : m.undetermined()) multipliers.push_back(c->multiplier);
     if (m.z->depends(V, m.qddot) || m.z->depends(V, multipliers))
-        refuse("it holds accelerations or multipliers; expected coordinates, rates, speeds and parameters alone");
+        refuse(say(
+            "it holds accelerations or multipliers; expected coordinates, rates, speeds and parameters alone"));
     std::vector<GiNaC::symbol> changing{m.t};
     for (const Mechanism::Input& input : m.inputs)
         changing.insert(changing.end(), input.derivative.begin(), input.derivative.end());
     if (m.z->depends(V, changing))
-        refuse("it changes with time; expected a function of coordinates, rates and parameters");
+        refuse(say("it changes with time; expected a function of coordinates, rates and parameters"));
     for (const std::string& name : scene.matrices.cyclic)
         for (const GiNaC::symbol& q : m.q)
             if (q.get_name() == name && m.z->depends(V, {q}))
                 refuse(
-                    fmt::format("it holds {}, which nothing in the equations depends on; stability is meant "
-                                "with respect to the other coordinates and the rates",
-                                name));
+                    say("it holds {}, which nothing in the equations depends on; stability is meant "
+                        "with respect to the other coordinates and the rates",
+                        name));
     return V;
 }
 
 const char* sign_text(const SignNear& s, const std::optional<Semidefinite>& half) {
-    if (s.definite) return s.positive ? "positive definite" : "negative definite";
-    if (half) return half->sign == 0 ? "zero" : half->sign > 0 ? "positive semidefinite" : "negative semidefinite";
-    if (s.positive && s.negative) return "of both signs";
+    if (s.definite) return s.positive ? to_say("positive definite") : to_say("negative definite");
+    if (half)
+        return half->sign == 0  ? to_say("zero")
+               : half->sign > 0 ? to_say("positive semidefinite")
+                                : to_say("negative semidefinite");
+    if (s.positive && s.negative) return to_say("of both signs");
     return unknown_sign;
 }
 
@@ -153,23 +158,22 @@ struct Signs {
 
 Decision stable_by(const Signs& s, const Neighbourhood& near, const std::string& set) {
     const int against = s.V.positive ? -1 : 1;
-    const char* const V = s.V.positive ? "V is positive definite" : "-V is positive definite";
+    const std::string V = s.V.positive ? say("V is positive definite") : say("-V is positive definite");
     const char* const down = s.V.positive ? "dV/dt" : "-dV/dt";
     if (s.rate.is(against))
         return {StabilityVerdict::asymptotically_stable, StabilityTheorem::lyapunov_asymptotic,
-                fmt::format("{} and {} negative definite", V, down)};
+                say("{} and {} negative definite", V, down)};
     if (!s.half || (s.half->sign != 0 && s.half->sign != against)) return {};
     if (s.half->sign == 0)
         return {StabilityVerdict::stable, StabilityTheorem::lyapunov_stable,
-                fmt::format("{} and constant along every motion", V)};
-    const std::string where = set.empty() ? "where dV/dt = 0" : fmt::format("where dV/dt = 0 ({})", set);
+                say("{} and constant along every motion", V)};
+    const std::string where = set.empty() ? say("where dV/dt = 0") : say("where dV/dt = 0 ({})", set);
     if (std::all_of(s.half->sets.begin(), s.half->sets.end(),
                     [&](const Semidefinite::ZeroSet& one) { return holds_no_other_motion(one, near); }))
-        return {
-            StabilityVerdict::asymptotically_stable, StabilityTheorem::lasalle,
-            fmt::format("{} and {} nowhere positive, and no motion but the equilibrium stays {}", V, down, where)};
+        return {StabilityVerdict::asymptotically_stable, StabilityTheorem::lasalle,
+                say("{} and {} nowhere positive, and no motion but the equilibrium stays {}", V, down, where)};
     return {StabilityVerdict::stable, StabilityTheorem::lyapunov_stable,
-            fmt::format("{} and {} nowhere positive; that no other motion stays {} is not shown", V, down, where)};
+            say("{} and {} nowhere positive; that no other motion stays {} is not shown", V, down, where)};
 }
 
 Decision unstable_by(const ex& V, const std::optional<ex>& rate, const Signs& s, const Expansion& V_series,
@@ -178,48 +182,48 @@ Decision unstable_by(const ex& V, const std::optional<ex>& rate, const Signs& s,
         if (!(sign > 0 ? s.V.positive : s.V.negative)) continue;
         const std::string minus = sign > 0 ? "" : "-";
         if (s.rate.is(sign))
-            return {StabilityVerdict::unstable, StabilityTheorem::lyapunov_instability,
-                    fmt::format("{}V takes positive values arbitrarily near, and {}dV/dt is positive definite",
-                                minus, minus)};
+            return {
+                StabilityVerdict::unstable, StabilityTheorem::lyapunov_instability,
+                say("{}V takes positive values arbitrarily near, and {}dV/dt is positive definite", minus, minus)};
         if (by_second_theorem(V_series, rate_series, sign, near))
             return {StabilityVerdict::unstable, StabilityTheorem::lyapunov_instability,
-                    fmt::format("{}V takes positive values arbitrarily near, and {}dV/dt is a positive multiple "
-                                "of it and a positive definite rest",
-                                minus, minus)};
+                    say("{}V takes positive values arbitrarily near, and {}dV/dt is a positive multiple "
+                        "of it and a positive definite rest",
+                        minus, minus)};
         const auto V_numbers = near.with_numbers(in_states(V, near.local));
         if (V_numbers && s.half && s.half->sign == sign &&
             std::all_of(s.half->sets.begin(), s.half->sets.end(),
                         [&](const Semidefinite::ZeroSet& set) { return vanishes_on_set(*V_numbers, set, near); }))
             return {StabilityVerdict::unstable, StabilityTheorem::chetaev_instability,
-                    fmt::format("{}V takes positive values arbitrarily near, and {}dV/dt is positive wherever it "
-                                "is: {}dV/dt is nowhere negative, and zero only where V is",
-                                minus, minus, minus)};
+                    say("{}V takes positive values arbitrarily near, and {}dV/dt is positive wherever it "
+                        "is: {}dV/dt is nowhere negative, and zero only where V is",
+                        minus, minus, minus)};
         if (rate && is_positive_multiple(V, *rate, near))
             return {StabilityVerdict::unstable, StabilityTheorem::chetaev_instability,
-                    fmt::format("{}V takes positive values arbitrarily near, and {}dV/dt is positive wherever it "
-                                "is: dV/dt is V times a positive function",
-                                minus, minus)};
+                    say("{}V takes positive values arbitrarily near, and {}dV/dt is positive wherever it "
+                        "is: dV/dt is V times a positive function",
+                        minus, minus)};
     }
     return {};
 }
 
 Decision says_nothing(const LyapunovAnswer& answer) {
-    return {
-        StabilityVerdict::undecided, StabilityTheorem::none,
-        fmt::format("this V proves nothing here: the sign of V is {}, that of dV/dt is {}{}",
-                    answer.sampled ? "not proved" : answer.sign, answer.sampled ? "not proved" : answer.rate_sign,
-                    answer.sampled ? ". " + answer.samples + ", which is no proof" : "")};
+    return {StabilityVerdict::undecided, StabilityTheorem::none,
+            say("this V proves nothing here: the sign of V is {}, that of dV/dt is {}{}",
+                translated(answer.sampled ? to_say("not proved") : answer.sign),
+                translated(answer.sampled ? to_say("not proved") : answer.rate_sign),
+                answer.sampled ? say(". {}, which is no proof", answer.samples) : "")};
 }
 
 void check_applies(const LinearizedScene& scene) {
     const Mechanism& m = scene.mechanism;
     if (!m.unilateral.empty())
-        throw ModelError(
+        throw ModelError(say(
             "a Lyapunov function is judged where the equations of motion stay the same; this scene has contacts, "
-            "which may close. Leave them out");
+            "which may close. Leave them out"));
     if (changes_with_time(m, scene.equations))
         throw ModelError(
-            "a Lyapunov function without t is judged where the equations do not change with time; these do");
+            say("a Lyapunov function without t is judged where the equations do not change with time; these do"));
 }
 
 }  // namespace

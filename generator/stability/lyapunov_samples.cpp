@@ -10,6 +10,7 @@
 
 #include "alembert/error.hpp"
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -91,11 +92,11 @@ private:
 };
 
 std::string counted(const char* what, int positive, int negative, int all) {
-    if (positive == all) return fmt::format("{} > 0 at all", what);
-    if (negative == all) return fmt::format("{} < 0 at all", what);
-    if (negative == 0) return fmt::format("{} >= 0 at all", what);
-    if (positive == 0) return fmt::format("{} <= 0 at all", what);
-    return fmt::format("{} > 0 at {}, < 0 at {}", what, positive, negative);
+    if (positive == all) return say("{} > 0 at all", what);
+    if (negative == all) return say("{} < 0 at all", what);
+    if (negative == 0) return say("{} >= 0 at all", what);
+    if (positive == 0) return say("{} <= 0 at all", what);
+    return say("{} > 0 at {}, < 0 at {}", what, positive, negative);
 }
 
 }  // namespace
@@ -121,17 +122,16 @@ std::string lyapunov_samples(const ex& V, const LinearizedScene& scene) {
             if (value != 0) ++V_signs[value < 0];
             if (std::abs(rate) > 1e-12 * size) ++rate_signs[rate < 0];
         }
-    return fmt::format("In floating point, at {} states within 0.1, 0.01 and 0.001 of the point, {}, {}", all,
-                       counted("V", V_signs[0], V_signs[1], all),
-                       counted("dV/dt", rate_signs[0], rate_signs[1], all));
+    return say("In floating point, at {} states within 0.1, 0.01 and 0.001 of the point, {}, {}", all,
+               counted("V", V_signs[0], V_signs[1], all), counted("dV/dt", rate_signs[0], rate_signs[1], all));
 }
 
 void check_zero_there(const ex& V, const LinearizedScene& scene) {
     const SampledFunction function(V, scene);
     const double value = function.at(std::vector<double>(function.moving().size(), 0.0)).V;
     if (std::abs(value) < 1e-9) return;
-    throw ModelError(fmt::format(
-        "the Lyapunov function is {0:.10g} at this state; expected 0 there: subtract {0:.10g}", value));
+    throw ModelError(
+        say("the Lyapunov function is {0:.10g} at this state; expected 0 there: subtract {0:.10g}", value));
 }
 
 }  // namespace alembert

@@ -8,6 +8,7 @@
 #include "alembert/dense.hpp"
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "program/differentiate.hpp"
@@ -54,10 +55,11 @@ std::vector<double> integrated(const Variation<double>& f, const std::vector<dou
 Program differentiated_program(const Derived& d) {
     if (!d.mechanism.unilateral.empty())
         throw ModelError(
-            "multipliers are computed for scenes without contacts; put a constraint in place of a "
-            "contact that stays closed");
+            say("multipliers are computed for scenes without contacts; put a constraint in place of a "
+                "contact that stays closed"));
     auto program = differentiated(lowered(d).program);
-    if (!program) throw ModelError("the equations of this scene are too large to be differentiated, or singular");
+    if (!program)
+        throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
     return std::move(program->program);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "linear/linearize_symbolic.hpp"
 #include "lower/lower.hpp"
 #include "notation/readable.hpp"
@@ -69,9 +70,9 @@ Stability stability_of_polynomial(const Scene& scene, const StabilityOptions& op
     const std::vector<Expansion> value = interpret(program, state);
     for (const int node : nodes) coefficients.push_back(value[node].value());
     if (coefficients.front().may_be_zero())
-        throw ModelError(
+        throw ModelError(say(
             "the first coefficient of [polynomial] is zero at these parameters; expected the coefficient of the "
-            "highest power, which is not zero: leave it out, or change the parameters");
+            "highest power, which is not zero: leave it out, or change the parameters"));
     result.eigenvalues = roots_of(coefficients);
     result.certain = true;
     const Decision decision = decide_linear(result.eigenvalues, nullptr);
@@ -79,7 +80,7 @@ Stability stability_of_polynomial(const Scene& scene, const StabilityOptions& op
     result.theorem = decision.theorem;
     result.reason = decision.reason;
     result.conditions = texts(hurwitz_conditions(polynomial.coefficients), *m.symbols);
-    result.conditions_for = "asymptotic stability";
+    result.conditions_for = say("asymptotic stability");
     for (const std::vector<ex>& row : routh_array(polynomial.coefficients)) {
         std::string line;
         for (const ex& entry : row) {
@@ -142,7 +143,7 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
         texts(odd_vanish ? real_frequency_conditions(p, positive) : hurwitz_conditions(p, positive), *m.symbols);
     if (result.conditions.empty()) return;
     result.conditions_for =
-        odd_vanish ? "distinct frequencies in the first approximation" : "asymptotic stability";
+        odd_vanish ? say("distinct frequencies in the first approximation") : say("asymptotic stability");
 }
 
 }  // namespace alembert

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "language/say.hpp"
 #include "stability/exact_field.hpp"
 #include "stability/periodic.hpp"
 
@@ -24,10 +25,10 @@ Decision by_reversal(const Local& local, const std::vector<RootOf>& roots) {
         const int speed = local.split.u[j];
         if (!local.point.u[speed].is_zero() || !field.is_reversed_with(j, cyclic)) continue;
         return {StabilityVerdict::stable, StabilityTheorem::reversible,
-                fmt::format("the equations do not change if {} and t change their signs, and one pair of "
-                            "eigenvalues +-{:.8g}i is on the imaginary axis: all motions near this one are "
-                            "periodic in what is not cyclic, about steady motions near this one",
-                            local.equations.u[speed].get_name(), std::sqrt(-square.number() / 2))};
+                say("the equations do not change if {} and t change their signs, and one pair of "
+                    "eigenvalues +-{:.8g}i is on the imaginary axis: all motions near this one are "
+                    "periodic in what is not cyclic, about steady motions near this one",
+                    local.equations.u[speed].get_name(), std::sqrt(-square.number() / 2))};
     }
     return {};
 }

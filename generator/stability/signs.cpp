@@ -6,6 +6,7 @@
 #include <random>
 
 #include "alembert/dense.hpp"
+#include "language/say.hpp"
 #include "stability/spectrum.hpp"
 
 namespace alembert {
@@ -141,7 +142,7 @@ CertainMatrix complement(const CertainMatrix& Z) {
         }
         if (rank(longer) == longer.columns) all = longer;
     }
-    if (all.columns < n) throw NotAnalytic("a kernel is not certain");
+    if (all.columns < n) throw NotAnalytic(say("a kernel is not certain"));
     std::vector<int> rows, columns;
     for (int i = 0; i < n; ++i) rows.push_back(i);
     for (int c = Z.columns; c < n; ++c) columns.push_back(c);

@@ -8,6 +8,7 @@
 
 #include "alembert/error.hpp"
 #include "equilibrium/judge.hpp"
+#include "language/say.hpp"
 #include "linear/dense_long.hpp"
 #include "lower/lower.hpp"
 #include "model/friction.hpp"
@@ -34,15 +35,15 @@ std::optional<Spectra::Roots> roots_of(const LongMatrix& A) {
 void check_names(const std::vector<std::string>& names, const StabilityOptions& options, const Scene& scene) {
     for (const std::string& name : names) {
         for (const auto& [other, value] : options.at)
-            if (other == name) throw ModelError(fmt::format("{} cannot be held by --at and varied", name));
+            if (other == name) throw ModelError(say("{} cannot be held by --at and varied", name));
         const bool is_coordinate =
             std::any_of(scene.coordinates.begin(), scene.coordinates.end(),
                         [&](const auto& coordinate) { return coordinate.name.text == name; });
         if (is_coordinate || name == "t")
             throw ModelError(
-                fmt::format("{} cannot be varied: expected a parameter, or the rate of a cyclic "
-                            "coordinate",
-                            name));
+                say("{} cannot be varied: expected a parameter, or the rate of a cyclic "
+                    "coordinate",
+                    name));
     }
 }
 
@@ -53,15 +54,15 @@ const char* name_of(SpectrumKind kind) {
         case SpectrumKind::none:
             return "none";
         case SpectrumKind::inside:
-            return "asymptotically stable";
+            return to_say("asymptotically stable");
         case SpectrumKind::edge:
-            return "critical";
+            return to_say("critical");
         case SpectrumKind::divergence:
-            return "divergence";
+            return to_say("divergence");
         case SpectrumKind::flip:
-            return "flip";
+            return to_say("flip");
         case SpectrumKind::flutter:
-            return "flutter";
+            return to_say("flutter");
     }
     return "";
 }
@@ -157,8 +158,8 @@ void Spectra::take_polynomial(const Scene& scene, const StabilityOptions&) {
 void Spectra::take_equilibrium(const std::shared_ptr<const Derived>& d, const std::vector<double>& middle) {
     if (!d->mechanism.unilateral.empty())
         throw ModelError(
-            "a chart is drawn for scenes without contacts; put a constraint in place of a contact that "
-            "stays closed");
+            say("a chart is drawn for scenes without contacts; put a constraint in place of a contact that "
+                "stays closed"));
     const auto starts = std::make_shared<const Starts>(d->mechanism, names_);
     const auto problem = std::make_shared<const SteadyProblem>(d->mechanism, d->equations, starts->at(middle));
     at_ = [held = held_, d, starts, problem](const std::vector<double>& values) -> std::optional<Roots> {

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "stability/arnold.hpp"
@@ -28,13 +29,13 @@ using Side = RootOf::Side;
 const char* name_of(StabilityVerdict verdict) {
     switch (verdict) {
         case StabilityVerdict::asymptotically_stable:
-            return "asymptotically stable";
+            return to_say("asymptotically stable");
         case StabilityVerdict::stable:
-            return "stable";
+            return to_say("stable");
         case StabilityVerdict::unstable:
-            return "unstable";
+            return to_say("unstable");
         case StabilityVerdict::undecided:
-            return "undecided";
+            return to_say("undecided");
     }
     return "";
 }
@@ -44,47 +45,47 @@ const char* name_of(StabilityTheorem theorem) {
         case StabilityTheorem::none:
             return "none";
         case StabilityTheorem::hurwitz:
-            return "Routh-Hurwitz";
+            return to_say("Routh-Hurwitz");
         case StabilityTheorem::jordan:
-            return "roots on the axis and their Jordan blocks";
+            return to_say("roots on the axis and their Jordan blocks");
         case StabilityTheorem::first_approximation:
-            return "Lyapunov's first approximation";
+            return to_say("Lyapunov's first approximation");
         case StabilityTheorem::malkin:
-            return "Lyapunov-Malkin";
+            return to_say("Lyapunov-Malkin");
         case StabilityTheorem::lagrange_dirichlet:
-            return "Lagrange-Dirichlet";
+            return to_say("Lagrange-Dirichlet");
         case StabilityTheorem::routh:
-            return "Routh (amended potential)";
+            return to_say("Routh (amended potential)");
         case StabilityTheorem::jacobi:
-            return "Lagrange-Dirichlet with Jacobi's integral";
+            return to_say("Lagrange-Dirichlet with Jacobi's integral");
         case StabilityTheorem::kelvin_chetaev:
-            return "Kelvin-Tait-Chetaev (damping)";
+            return to_say("Kelvin-Tait-Chetaev (damping)");
         case StabilityTheorem::kelvin_odd:
-            return "Kelvin-Tait-Chetaev (odd number of unstable degrees)";
+            return to_say("Kelvin-Tait-Chetaev (odd number of unstable degrees)");
         case StabilityTheorem::chetaev_integrals:
-            return "Chetaev (combination of integrals)";
+            return to_say("Chetaev (combination of integrals)");
         case StabilityTheorem::potential_form:
-            return "terms of higher degree of the potential";
+            return to_say("terms of higher degree of the potential");
         case StabilityTheorem::one_zero_root:
-            return "Lyapunov's critical case of one zero root";
+            return to_say("Lyapunov's critical case of one zero root");
         case StabilityTheorem::pair_on_axis:
-            return "Lyapunov's critical case of a pair on the axis";
+            return to_say("Lyapunov's critical case of a pair on the axis");
         case StabilityTheorem::reversible:
-            return "reversibility (one frequency)";
+            return to_say("reversibility (one frequency)");
         case StabilityTheorem::arnold:
-            return "Arnold (two frequencies)";
+            return to_say("Arnold (two frequencies)");
         case StabilityTheorem::lyapunov_stable:
-            return "Lyapunov's theorem on stability";
+            return to_say("Lyapunov's theorem on stability");
         case StabilityTheorem::lyapunov_asymptotic:
-            return "Lyapunov's theorem on asymptotic stability";
+            return to_say("Lyapunov's theorem on asymptotic stability");
         case StabilityTheorem::lasalle:
-            return "Barbashin-Krasovskii-LaSalle";
+            return to_say("Barbashin-Krasovskii-LaSalle");
         case StabilityTheorem::lyapunov_instability:
-            return "Lyapunov's theorem on instability";
+            return to_say("Lyapunov's theorem on instability");
         case StabilityTheorem::chetaev_instability:
-            return "Chetaev's theorem on instability";
+            return to_say("Chetaev's theorem on instability");
         case StabilityTheorem::floquet:
-            return "Floquet multipliers";
+            return to_say("Floquet multipliers");
     }
     return "";
 }
@@ -98,23 +99,22 @@ void take(Stability& result, const Decision& decision) {
 }
 
 Decision by_integrals(const IntegralProof& proof, bool conserved) {
-    const std::string energy = proof.relative ? "Jacobi's integral T2 - T0 + V" : "the energy";
-    const std::string falls = conserved ? "" : ", which never grows,";
+    const std::string energy = proof.relative ? say("Jacobi's integral T2 - T0 + V") : say("the energy");
+    const std::string falls = conserved ? "" : say(", which never grows,");
     switch (proof.by) {
         case IntegralProof::By::energy:
             return {StabilityVerdict::stable,
                     proof.relative ? StabilityTheorem::jacobi : StabilityTheorem::lagrange_dirichlet,
-                    fmt::format("{}{} has a strict minimum here: {} is positive definite to second degree", energy,
-                                falls, proof.relative ? "V - T0" : "V")};
+                    say("{}{} has a strict minimum here: {} is positive definite to second degree", energy, falls,
+                        proof.relative ? "V - T0" : "V")};
         case IntegralProof::By::momenta:
             return {StabilityVerdict::stable, StabilityTheorem::routh,
-                    fmt::format("{}{} has a strict minimum among motions with the same momenta of the cyclic "
-                                "coordinates: the amended potential is positive definite to second degree",
-                                energy, falls)};
+                    say("{}{} has a strict minimum among motions with the same momenta of the cyclic "
+                        "coordinates: the amended potential is positive definite to second degree",
+                        energy, falls)};
         case IntegralProof::By::angular_momenta:
             return {StabilityVerdict::stable, StabilityTheorem::chetaev_integrals,
-                    fmt::format(
-                        "a combination of {} with momenta and angular momenta is positive definite where these "
+                    say("a combination of {} with momenta and angular momenta is positive definite where these "
                         "keep their values",
                         energy)};
     }
@@ -126,11 +126,10 @@ Decision by_potential(const Local& local, const PowerSign& power) {
     if (!degenerate) return {};
     return {degenerate->minimum ? StabilityVerdict::stable : StabilityVerdict::unstable,
             StabilityTheorem::potential_form,
-            fmt::format(
-                "the second derivatives of the {}potential do not decide; its first term beyond them, of degree "
+            say("the second derivatives of the {}potential do not decide; its first term beyond them, of degree "
                 "{}, makes it {}",
-                local.cyclic_momenta.empty() ? "" : "amended ", degenerate->degree,
-                degenerate->minimum ? "a strict minimum" : "no minimum, and the position is left")};
+                local.cyclic_momenta.empty() ? "" : say("amended "), degenerate->degree,
+                degenerate->minimum ? say("a strict minimum") : say("no minimum, and the position is left"))};
 }
 
 /// For nonlinear equations whose first approximation does not decide, the first method that does.
@@ -161,8 +160,8 @@ void name_forces(Decision& decision, const Local& local, const PowerSign& power)
     if (decision.verdict == StabilityVerdict::asymptotically_stable && !power.is_zero &&
         proof_by_integrals(local, power)) {
         decision.theorem = StabilityTheorem::kelvin_chetaev;
-        decision.reason += fmt::format("; the potential has a strict minimum, and the damping is {}",
-                                       damping_is_complete(local, power) ? "complete" : "pervasive");
+        decision.reason += say("; the potential has a strict minimum, and the damping is {}",
+                               damping_is_complete(local, power) ? say("complete") : say("pervasive"));
     }
     if (decision.verdict != StabilityVerdict::unstable || !local.near.matrices.moving.empty()) return;
     std::vector<int> rows;
@@ -178,14 +177,14 @@ void name_forces(Decision& decision, const Local& local, const PowerSign& power)
     if (!signs || signs->negative == 0) return;
     if (signs->negative % 2 == 1 && signs->zero == 0) {
         decision.theorem = StabilityTheorem::kelvin_odd;
-        decision.reason += fmt::format(
-            "; {} of {} degrees of freedom {} unstable without gyroscopic forces, an odd "
-            "number, which no gyroscopic forces stabilize",
-            signs->negative, K.rows, signs->negative == 1 ? "is" : "are");
+        decision.reason +=
+            say("; {} of {} degrees of freedom {} unstable without gyroscopic forces, an odd "
+                "number, which no gyroscopic forces stabilize",
+                signs->negative, K.rows, signs->negative == 1 ? "is" : "are");
     } else if (damping_is_complete(local, power)) {
         decision.theorem = StabilityTheorem::kelvin_chetaev;
         decision.reason +=
-            "; the potential has no minimum, and complete damping destroys any gyroscopic stabilization";
+            say("; the potential has no minimum, and complete damping destroys any gyroscopic stabilization");
     }
 }
 
@@ -218,12 +217,11 @@ CertainMatrix blurred(const Eigen::MatrixXd& A) {
 Decision undecided(const std::vector<RootOf>& roots) {
     const bool on_axis =
         std::any_of(roots.begin(), roots.end(), [](const RootOf& r) { return r.side == Side::axis; });
-    return {
-        StabilityVerdict::undecided, StabilityTheorem::none,
-        fmt::format("the first approximation says nothing: no eigenvalue is surely to the right of the imaginary "
-                    "axis, and {}. Neither the energy, nor a combination of integrals, nor terms of higher degree "
-                    "decided",
-                    on_axis ? "some are on it" : "some are on it or too near to tell")};
+    return {StabilityVerdict::undecided, StabilityTheorem::none,
+            say("the first approximation says nothing: no eigenvalue is surely to the right of the imaginary "
+                "axis, and {}. Neither the energy, nor a combination of integrals, nor terms of higher degree "
+                "decided",
+                on_axis ? say("some are on it") : say("some are on it or too near to tell"))};
 }
 
 /// Refuses states that `linearize` accepts but for which stability cannot be decided.
@@ -232,19 +230,19 @@ void check_steady(const LinearizedScene& near) {
         for (const Mechanism::Constraint& c : near.mechanism.constraints)  // linearize closes contacts that press
             if (c.multiplier.is_equal(contact.gap.multiplier))
                 throw ModelError(
-                    fmt::format("contact {} is closed at this state: a disturbance may open it, and no first "
-                                "approximation describes the motion after that. Give a state in which all "
-                                "contacts are open, or a constraint in place of the contact",
-                                c.name));
+                    say("contact {} is closed at this state: a disturbance may open it, and no first "
+                        "approximation describes the motion after that. Give a state in which all "
+                        "contacts are open, or a constraint in place of the contact",
+                        c.name));
     for (const Mechanism::Input& input : near.mechanism.inputs)
         for (const std::string& name : near.matrices.inputs)
             if (name.substr(0, name.find('\'')) == input.derivative[0].get_name() &&
                 near.mechanism.z->depends(input.value, {near.mechanism.t}))
                 throw ModelError(
-                    fmt::format("the input {} changes with time, so that there is no equilibrium; give the period "
-                                "of the system, --period or `period` of [simulation], for its Floquet "
-                                "multipliers, or make the input constant",
-                                input.derivative[0].get_name()));
+                    say("the input {} changes with time, so that there is no equilibrium; give the period "
+                        "of the system, --period or `period` of [simulation], for its Floquet "
+                        "multipliers, or make the input constant",
+                        input.derivative[0].get_name()));
 }
 
 Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
@@ -267,11 +265,12 @@ Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
 /// The verdict is what V proves; what is known without V is told beside.
 void judge_function(Stability& result, const std::string& V, const Local* local) {
     const auto [answer, decision] = by_lyapunov_function(V, *result.near, local);
-    const std::string without = result.verdict == StabilityVerdict::undecided
-                                    ? "undecided"
-                                    : fmt::format("{}, by {}", name_of(result.verdict), name_of(result.theorem));
+    const std::string without =
+        result.verdict == StabilityVerdict::undecided
+            ? say("undecided")
+            : say("{}, by {}", translated(name_of(result.verdict)), translated(name_of(result.theorem)));
     take(result, decision);
-    result.reason += fmt::format(" (without V: {})", without);
+    result.reason += say(" (without V: {})", without);
     result.lyapunov = answer;
 }
 
@@ -280,10 +279,10 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
 Stability stability(Scene scene, const StabilityOptions& options) {
     const bool periodic = options.period > 0 || scene.simulation.period;
     if (!options.lyapunov.empty() && (scene.polynomial || periodic))
-        throw ModelError(
+        throw ModelError(say(
             "a Lyapunov function is judged at an equilibrium or a steady motion of a mechanism; leave it out for "
             "a "
-            "[polynomial] or a periodic motion");
+            "[polynomial] or a periodic motion"));
     if (scene.polynomial) return stability_of_polynomial(scene, options);
     if (periodic) return stability_of_periodic(std::move(scene), options);
     Stability result{.title = scene.title};
@@ -315,7 +314,7 @@ Stability stability(Scene scene, const StabilityOptions& options) {
     result.certain = true;
     if (local->A.rows == 0) {
         take(result, {StabilityVerdict::stable, StabilityTheorem::routh,
-                      "all coordinates are cyclic, and their momenta are constant"});
+                      say("all coordinates are cyclic, and their momenta are constant")});
         return result;
     }
     const bool linear = is_linear(local->mechanism, local->equations);
@@ -333,8 +332,8 @@ Stability stability(Scene scene, const StabilityOptions& options) {
     if (decision.verdict == StabilityVerdict::asymptotically_stable && !local->cyclic_momenta.empty()) {
         decision.verdict = StabilityVerdict::stable;
         decision.reason +=
-            "; the momenta of the cyclic coordinates keep their disturbed values, and the motion tends to "
-            "the steady motion that has these";
+            say("; the momenta of the cyclic coordinates keep their disturbed values, and the motion tends to "
+                "the steady motion that has these");
     }
     take(result, decision);
     add_conditions(result, *local, options.exact_at);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -64,54 +66,51 @@ std::optional<bool> axis_is_semisimple(const CertainMatrix& A) {
 }  // namespace
 
 Decision decide_linear(const std::vector<RootOf>& roots, const CertainMatrix* A) {
-    const char* const what = A ? "eigenvalue" : "root";
+    const std::string what = A ? say("eigenvalue") : say("root");
     if (const RootOf* const right = first_on(roots, Side::right))
         return {StabilityVerdict::unstable, StabilityTheorem::hurwitz,
-                fmt::format("the {} {} has a positive real part", what, shown(*right))};
+                say("the {} {} has a positive real part", what, shown(*right))};
     if (const RootOf* const unclear = first_on(roots, Side::unclear))
         return {StabilityVerdict::undecided, StabilityTheorem::none,
-                fmt::format("the {} {} may lie on either side of the imaginary axis", what, shown(*unclear))};
+                say("the {} {} may lie on either side of the imaginary axis", what, shown(*unclear))};
     const RootOf* const axis = first_on(roots, Side::axis);
     if (!axis)
         return {StabilityVerdict::asymptotically_stable, StabilityTheorem::hurwitz,
-                fmt::format("all {}s have negative real parts", what)};
+                say("all {}s have negative real parts", what)};
     const auto multiple = std::find_if(roots.begin(), roots.end(),
                                        [](const RootOf& r) { return r.side == Side::axis && r.multiplicity > 1; });
     if (multiple == roots.end())
         return {StabilityVerdict::stable, StabilityTheorem::jordan,
-                fmt::format("no {} has a positive real part, and those on the imaginary axis are simple", what)};
+                say("no {} has a positive real part, and those on the imaginary axis are simple", what)};
     if (!A)
         return {StabilityVerdict::unstable, StabilityTheorem::jordan,
-                fmt::format("the root {} on the imaginary axis is a multiple one: solutions of the equation with "
-                            "this characteristic polynomial grow like a power of t",
-                            shown(*multiple))};
+                say("the root {} on the imaginary axis is a multiple one: solutions of the equation with "
+                    "this characteristic polynomial grow like a power of t",
+                    shown(*multiple))};
     const std::optional<bool> semisimple = axis_is_semisimple(*A);
     if (!semisimple)
-        return {
-            StabilityVerdict::undecided, StabilityTheorem::none,
-            fmt::format("{} on the imaginary axis is multiple to the last digit, and how many eigenvectors it has "
-                        "is not decided",
-                        shown(*multiple))};
-    if (*semisimple)
-        return {
-            StabilityVerdict::stable, StabilityTheorem::jordan,
-            "no eigenvalue has a positive real part, and those on the imaginary axis have as many eigenvectors as "
-            "they count (rank, exactly)"};
-    return {
-        StabilityVerdict::unstable, StabilityTheorem::jordan,
-        fmt::format("the multiple eigenvalue {} on the imaginary axis has a Jordan block (rank, exactly): motions "
-                    "grow like a power of t",
+        return {StabilityVerdict::undecided, StabilityTheorem::none,
+                say("{} on the imaginary axis is multiple to the last digit, and how many eigenvectors it has "
+                    "is not decided",
                     shown(*multiple))};
+    if (*semisimple)
+        return {StabilityVerdict::stable, StabilityTheorem::jordan,
+                say("no eigenvalue has a positive real part, and those on the imaginary axis have as many "
+                    "eigenvectors as "
+                    "they count (rank, exactly)")};
+    return {StabilityVerdict::unstable, StabilityTheorem::jordan,
+            say("the multiple eigenvalue {} on the imaginary axis has a Jordan block (rank, exactly): motions "
+                "grow like a power of t",
+                shown(*multiple))};
 }
 
 Decision decide_first(const std::vector<RootOf>& roots) {
     if (const RootOf* const right = first_on(roots, Side::right))
-        return {
-            StabilityVerdict::unstable, StabilityTheorem::first_approximation,
-            fmt::format("the eigenvalue {} of the first approximation has a positive real part", shown(*right))};
+        return {StabilityVerdict::unstable, StabilityTheorem::first_approximation,
+                say("the eigenvalue {} of the first approximation has a positive real part", shown(*right))};
     if (!first_on(roots, Side::axis) && !first_on(roots, Side::unclear))
         return {StabilityVerdict::asymptotically_stable, StabilityTheorem::first_approximation,
-                "all eigenvalues of the first approximation have negative real parts"};
+                say("all eigenvalues of the first approximation have negative real parts")};
     return {};
 }
 

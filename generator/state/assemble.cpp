@@ -13,6 +13,7 @@
 
 #include "alembert/dense.hpp"
 #include "alembert/tolerances.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "program/rounding.hpp"
 
@@ -83,11 +84,12 @@ private:
             }
             const LeastNorm change = least_norm(J, misfit);
             if (change.rank < n)
-                throw IntegrationError(
-                    "the speeds do not determine the rates at the start: their forms, with the constraints, lose "
-                    "rank at these coordinates; start elsewhere, or choose other coordinates (a quaternion, for "
-                    "angles in gimbal lock)",
-                    start_.t, start_.q);
+                throw IntegrationError(say("the speeds do not determine the rates at the start: their forms, with "
+                                           "the constraints, lose "
+                                           "rank at these coordinates; start elsewhere, or choose other "
+                                           "coordinates (a quaternion, for "
+                                           "angles in gimbal lock)"),
+                                       start_.t, start_.q);
             const Eigen::VectorXd step = change.x;
             for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
         }
@@ -105,9 +107,9 @@ private:
                   tolerance::initial_values * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k])) +
                       rounding))
                 throw ModelError(
-                    fmt::format("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
-                                "constraints leave it off by {:.6g} at these coordinates",
-                                m_.speeds[k].u.get_name(), start_.speeds[k], misfit));
+                    say("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
+                        "constraints leave it off by {:.6g} at these coordinates",
+                        m_.speeds[k].u.get_name(), start_.speeds[k], misfit));
         }
     }
 
@@ -139,8 +141,7 @@ private:
         for (const int i : free)
             if (std::abs(x[i] - before[i]) >
                 1e-14 * std::max(1.0, std::abs(before[i])))  // a smaller change is rounding and is not reported
-                moved_.push_back(
-                    fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
+                moved_.push_back(say("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
     }
 
     /// The rounding error of a step, here or in the computation that gave the values; the terms themselves may all
@@ -164,18 +165,18 @@ private:
                 continue;
             if (!std::isfinite(misfit))
                 throw ModelError(
-                    fmt::format("constraint '{}' is not finite at the start: it divides by zero there, or takes "
-                                "a root or a logarithm of what has none; give other initial values",
-                                m_.constraints[k].name));
+                    say("constraint '{}' is not finite at the start: it divides by zero there, or takes "
+                        "a root or a logarithm of what has none; give other initial values",
+                        m_.constraints[k].name));
             const std::string what =
-                fmt::format("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
+                say("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
             if (guessed)
-                throw IntegrationError(
-                    what +
-                        ": the guesses do not converge to a state that obeys it; try others, or "
-                        "let more values move",
-                    start_.t, start_.q);
-            throw ModelError(what + "; give initial values that obey it, or let some move: guess, rate_guess");
+                throw IntegrationError(say("{}: the guesses do not converge to a state that obeys it; try others, "
+                                           "or let more values move",
+                                           what),
+                                       start_.t, start_.q);
+            throw ModelError(
+                say("{}; give initial values that obey it, or let some move: guess, rate_guess", what));
         }
     }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "alembert/dense.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -104,11 +105,11 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
         names += fmt::format("{}'{}'", names.empty() ? "" : ", ", constraints[kept[k]]);
         ++count;
     }
-    return fmt::format(
+    return say(
         "{} in this pose, and the rank of the constraints drops from {} to {}; start beside it "
         "(audit lists such poses; dop853 goes through one where every coordinate has inertia)",
-        count == 1 ? fmt::format("constraint {} has no row left", names)
-                   : fmt::format("the rows of constraints {} become dependent", names),
+        count == 1 ? say("constraint {} has no row left", names)
+                   : say("the rows of constraints {} become dependent", names),
         m, left);
 }
 
@@ -120,11 +121,11 @@ std::optional<std::string> not_finite(const Program& program, const State<double
         std::string what =
             fmt::format("{}({:.6g})", name_of(node.op), node.args.empty() ? 0.0 : value[node.args[0]]);
         if (node.op == Op::variable)
-            what = "a value of the state";
+            what = say("a value of the state");
         else if (node.is_reciprocal())
-            what = "a division by zero";
+            what = say("a division by zero");
         else if (node.op == Op::sum || node.op == Op::product)
-            what = "a number too large for double precision";
+            what = say("a number too large for double precision");
         std::string where;
         for (const int source : node.sources)
             where += (where.empty() ? " in " : ", ") + program.source_labels[source];

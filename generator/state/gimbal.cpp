@@ -8,6 +8,7 @@
 
 #include "alembert/dense.hpp"
 #include "alembert/tolerances.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -27,15 +28,17 @@ double evenness(const Program& program, const std::vector<int>& nodes, const Sta
 
 std::string way_out(const Scene& scene, const Body& body) {
     if (!body.joint)
-        return "give the frame a quaternion, quaternion = [\"e0\", \"e1\", \"e2\", \"e3\"], in place of 'rotate'";
+        return say(
+            "give the frame a quaternion, quaternion = [\"e0\", \"e1\", \"e2\", \"e3\"], in place of 'rotate'");
     const Joint& joint = scene.joints[*body.joint];
     if (!joint.angles.empty())
-        return fmt::format(
+        return say(
             "give joint '{}' a quaternion: four coordinates, {{ e0 = 1, e1 = 0, e2 = 0, e3 = 0 }}, in place of "
             "its three angles, and no 'angles'",
             joint.name.text);
-    return "let one spherical joint turn the body, by a quaternion: four coordinates, scalar first, and no "
-           "'angles'";
+    return say(
+        "let one spherical joint turn the body, by a quaternion: four coordinates, scalar first, and no "
+        "'angles'");
 }
 
 }  // namespace
@@ -66,7 +69,7 @@ std::optional<std::string> gimbal_lock(const Scene& scene, const Mechanism& m, c
         State<double> beside = here;
         for (std::size_t i = 0; i < beside.q.size(); ++i) beside.q[i] += 0.3 + 0.1 * static_cast<double>(i);
         if (evenness(program, nodes, beside) < tolerance::gimbal_lock) continue;
-        return fmt::format(
+        return say(
             "the angles {} of frame '{}' are in gimbal lock: two of them turn body '{}' about the same line, and "
             "the third cannot turn it about all others; {}",
             angles, body.frame.text, body.name.text, way_out(scene, body));

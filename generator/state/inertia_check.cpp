@@ -8,6 +8,7 @@
 
 #include "alembert/inertia.hpp"
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -48,8 +49,8 @@ std::vector<Diagnostic> InertiaCheck::findings(const State<double>& state) const
     std::size_t next = 0;
     for (const MassElement& element : m_.masses) {
         if (const double mass = value[nodes_[next++]]; !(mass >= 0))
-            found.push_back({place_of(element.origin), fmt::format("the mass of {} is {}; expected zero or more",
-                                                                   label(element.origin), mass)});
+            found.push_back({place_of(element.origin), say("the mass of {} is {}; expected zero or more",
+                                                           shown_label(element.origin), mass)});
         if (!element.rotation) continue;
         std::array<double, 6> I;
         for (double& entry : I) entry = value[nodes_[next++]];
@@ -67,26 +68,23 @@ void InertiaCheck::add_moments(std::vector<Diagnostic>& found, const Body& body,
                                double given) const {
     const Place place = body.inertia->place;
     const std::string about =
-        body.about ? fmt::format(" (about its mass centre; they are given about '{}')", body.about->text) : "";
+        body.about ? say(" (about its mass centre; they are given about '{}')", body.about->text) : "";
     if (body.inertia->planar) {
         if (I[2] < -rounded_moment * given)
-            found.push_back(
-                {place, fmt::format("the moment of inertia of body '{}' is {}{}; expected zero or more",
-                                    body.name.text, I[2], about)});
+            found.push_back({place, say("the moment of inertia of body '{}' is {}{}; expected zero or more",
+                                        body.name.text, I[2], about)});
         return;
     }
     const PrincipalAxes<> own =
         principal_axes<double>(inertia_matrix<double>({I[0], I[1], I[2], I[3], I[4], I[5]}));
-    const std::string moments =
-        fmt::format("the principal moments of inertia of body '{}'{}, {:.6g}, {:.6g} and {:.6g},", body.name.text,
-                    about, own.moments[0], own.moments[1], own.moments[2]);
+    const std::string moments = say("the principal moments of inertia of body '{}'{}, {:.6g}, {:.6g} and {:.6g},",
+                                    body.name.text, about, own.moments[0], own.moments[1], own.moments[2]);
     if (has_negative_moment(own, given))
-        found.push_back({place, moments + " are not all zero or more; no body has them"});
+        found.push_back({place, say("{} are not all zero or more; no body has them", moments)});
     else if (breaks_triangle_inequality(own, given))
         found.push_back(
             {place,
-             fmt::format(
-                 "{} break the triangle inequality: {:.6g} + {:.6g} is less than {:.6g}; no distribution of mass "
+             say("{} break the triangle inequality: {:.6g} + {:.6g} is less than {:.6g}; no distribution of mass "
                  "has them",
                  moments, own.moments[0], own.moments[1], own.moments[2]),
              Severity::warning});

@@ -11,6 +11,7 @@
 #include "alembert/dense.hpp"
 #include "alembert/tolerances.hpp"
 #include "formalism/elements.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/sample_functions.hpp"
 #include "state/assemble.hpp"
@@ -240,7 +241,7 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
         for (const int r : redundant) {
             const double misfit = std::abs(value[velocity[r]]);
             if (std::isfinite(misfit) && misfit > 1e-6 * (1 + size_of_terms(program, velocity[r], value)))
-                throw ModelError(fmt::format(
+                throw ModelError(say(
                     "constraint '{0}' has a row that follows from the others', but prescribes rates that "
                     "contradict theirs: together they hold only where a relation between the coordinates does; "
                     "write that relation as a holonomic constraint in place of '{0}'",

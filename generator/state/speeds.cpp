@@ -9,6 +9,7 @@
 
 #include "alembert/tolerances.hpp"
 #include "formalism/kinematics.hpp"
+#include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "lower/start.hpp"
 #include "model/sample_functions.hpp"
@@ -44,10 +45,10 @@ std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
             numbers += fmt::format("{}{}", k == 0 ? "" : k + 1 == allowed.size() ? " or " : ", ", allowed[k]);
         const int rows = static_cast<int>(m.constraints.size());
         return Diagnostic{m.speeds.back().place,
-                          fmt::format("there {} {} generalized speed{}, and {} coordinate{} with {} independent "
-                                      "constraint{}; expected {}",
-                                      count == 1 ? "is" : "are", count, count == 1 ? "" : "s", n,
-                                      n == 1 ? "" : "s", rows, rows == 1 ? "" : "s", numbers)};
+                          say("there {} {} generalized speed{}, and {} coordinate{} with {} independent "
+                              "constraint{}; expected {}",
+                              count == 1 ? "is" : "are", count, count == 1 ? "" : "s", n, n == 1 ? "" : "s", rows,
+                              rows == 1 ? "" : "s", numbers)};
     }
     std::vector<int> left_out;
     const bool all = count == n - static_cast<int>(m.constraints.size());
@@ -75,15 +76,13 @@ std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
     }
     if (!dependent) return std::nullopt;  // there is no state without a pole; the run will report that
     if (*dependent < count)
-        return Diagnostic{
-            m.speeds[*dependent].place,
-            fmt::format("speed '{}' is a combination of the speeds before it; expected independent forms",
-                        m.speeds[*dependent].u.get_name())};
+        return Diagnostic{m.speeds[*dependent].place,
+                          say("speed '{}' is a combination of the speeds before it; expected independent forms",
+                              m.speeds[*dependent].u.get_name())};
     const std::string& constraint = m.constraints[left_out[*dependent - count]].name;
     return Diagnostic{
         m.speeds.back().place,
-        fmt::format(
-            "the speeds and the constraints do not determine the rates: constraint '{}' fixes a combination "
+        say("the speeds and the constraints do not determine the rates: constraint '{}' fixes a combination "
             "of the speeds; expected forms that it leaves free",
             constraint)};
 }

@@ -14,6 +14,8 @@
 
 #include <cln/integer.h>
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -301,7 +303,7 @@ Fourier power(const Fourier& base, const Rational& exponent, Budget& budget) {
     if (is_integer(exponent) && exponent >= 0) return raise(base, to_int(exponent), budget);
     if (base.size() == 0) {
         if (exponent > 0) return {};
-        throw std::domain_error("division by an expression that is identically zero");
+        throw std::domain_error(say("division by an expression that is identically zero"));
     }
     const Fourier result = base.size() == 1 ? power_of_term(base.terms()[0], exponent)
                                             : power_of_sum(base.polynomial(), exponent, budget);

@@ -4,6 +4,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "language/say.hpp"
 #include "symbolic/unspecified.hpp"
 
 namespace alembert {
@@ -78,7 +79,7 @@ const std::array<Unary, 13> unary{{
 const Unary& find_unary(const std::string& ginac_name) {
     for (const Unary& f : unary)
         if (ginac_name == f.ginac) return f;
-    throw std::invalid_argument("the function '" + ginac_name + "' is not one of the scene language's");
+    throw std::invalid_argument(say("the function '{}' is not one of the scene language's", ginac_name));
 }
 
 }  // namespace

@@ -25,6 +25,8 @@
 
 #include "symbolic/symbols.hpp"
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 class Intermediates {
@@ -102,7 +104,7 @@ private:
     std::map<unsigned, std::size_t> position_;                   // symbol hash → entry
     std::map<GiNaC::ex, GiNaC::ex, GiNaC::ex_is_less> known_;    // definition → symbol
     std::map<std::pair<std::size_t, int>, GiNaC::ex> partials_;  // (entry, rank) → ∂definition/∂symbol
-    std::vector<std::string> labels_{"the scene"};
+    std::vector<std::string> labels_{say("the scene")};
     Flow last_flow_;
     int current_source_ = 0;
 };

@@ -9,6 +9,8 @@
 
 #include "symbolic/fourier.hpp"
 
+#include "language/say.hpp"
+
 namespace alembert {
 
 namespace {
@@ -30,7 +32,7 @@ public:
 
 private:
     static Rational number(const GiNaC::numeric& n) {
-        if (!n.is_real()) throw std::invalid_argument("the expression holds a complex number");
+        if (!n.is_real()) throw std::invalid_argument(say("the expression holds a complex number"));
         const auto real = cln::the<cln::cl_R>(n.to_cl_N());
         return n.is_rational() ? cln::the<cln::cl_RA>(real) : cln::rational(real);
     }
@@ -45,11 +47,12 @@ private:
         if (GiNaC::is_a<GiNaC::mul>(e)) return product(e);
         if (GiNaC::is_a<GiNaC::power>(e)) return power_of((*this)(e.op(0)), e.op(1));
         if (GiNaC::is_a<GiNaC::function>(e)) return function(e);
-        throw std::invalid_argument("the expression holds something that is no scalar");
+        throw std::invalid_argument(say("the expression holds something that is no scalar"));
     }
 
     static Fourier constant(const GiNaC::ex& e) {
-        if (!e.is_equal(GiNaC::Pi)) throw std::invalid_argument("the expression holds a constant other than pi");
+        if (!e.is_equal(GiNaC::Pi))
+            throw std::invalid_argument(say("the expression holds a constant other than pi"));
         return Fourier(pi_atom());
     }
 

@@ -9,6 +9,7 @@
 
 #include <cln/integer.h>
 
+#include "language/say.hpp"
 #include "symbolic/functions.hpp"
 
 namespace alembert {
@@ -295,7 +296,7 @@ bool is_integer(const Rational& value) {
 
 int to_int(const Rational& value) {
     if (!is_integer(value) || value > 1000000 || value < -1000000)
-        throw std::overflow_error("the exponent is no small integer");
+        throw std::overflow_error(say("the exponent is no small integer"));
     return cln::cl_I_to_int(cln::numerator(value));
 }
 

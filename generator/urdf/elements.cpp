@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "alembert/inertia.hpp"
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -83,25 +84,25 @@ std::vector<double> Elements::numbers(const TiXmlElement& e, const char* attribu
     std::istringstream words(e.Attribute(attribute));
     std::vector<double> result;
     const auto wrong = [&](const std::string& what) {
-        refuse(place_of(e), fmt::format("{}=\"{}\" of {}: {}; expected {}", attribute,
-                                        escaped(squeezed(e.Attribute(attribute)), 60), shown(e), what,
-                                        count == 1 ? std::string("one number, as in 1.5")
-                                                   : fmt::format("{} numbers between blanks", count)));
+        refuse(place_of(e), say("{}=\"{}\" of {}: {}; expected {}", attribute,
+                                escaped(squeezed(e.Attribute(attribute)), 60), shown(e), what,
+                                count == 1 ? std::string(say("one number, as in 1.5"))
+                                           : say("{} numbers between blanks", count)));
     };
     for (std::string word; words >> word;) {
         const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
         double value = 0;
         const auto [end, failure] = std::from_chars(begin, word.data() + word.size(), value);
         if (failure == std::errc::result_out_of_range)
-            wrong(fmt::format("{} is beyond the range of double precision", in_quotes(word)));
+            wrong(say("{} is beyond the range of double precision", in_quotes(word)));
         if (failure != std::errc() || end != word.data() + word.size())
-            wrong(fmt::format("{} is no number{}", in_quotes(word),
-                              word.find(',') != std::string::npos ? ", the decimal sign is a point" : ""));
-        if (!std::isfinite(value)) wrong(fmt::format("{} is not finite", in_quotes(word)));
+            wrong(say("{} is no number{}", in_quotes(word),
+                      word.find(',') != std::string::npos ? say(", the decimal sign is a point") : ""));
+        if (!std::isfinite(value)) wrong(say("{} is not finite", in_quotes(word)));
         result.push_back(value);
     }
     if (result.size() != count)
-        wrong(result.size() == 1 ? "this is one number" : fmt::format("these are {} numbers", result.size()));
+        wrong(result.size() == 1 ? say("this is one number") : say("these are {} numbers", result.size()));
     return result;
 }
 
@@ -112,7 +113,7 @@ std::optional<double> Elements::number(const TiXmlElement& e, const char* attrib
 
 double Elements::needed_number(const TiXmlElement& e, const char* attribute) const {
     const std::optional<double> value = number(e, attribute);
-    if (!value) refuse(place_of(e), fmt::format("{} has no {}=\"…\"; expected a number", shown(e), attribute));
+    if (!value) refuse(place_of(e), say("{} has no {}=\"…\"; expected a number", shown(e), attribute));
     return *value;
 }
 
@@ -132,9 +133,9 @@ RobotPose Elements::pose(const TiXmlElement* origin) {
         refuse(place_of(*origin), "<origin> has rpy and quat_xyzw; expected one of them");
     const std::vector<double> e = numbers(*origin, "quat_xyzw", 4);
     const double length = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3]);
-    if (length == 0) refuse(place_of(*origin), "quat_xyzw is zero; expected a quaternion of length 1");
+    if (length == 0) refuse(place_of(*origin), say("quat_xyzw is zero; expected a quaternion of length 1"));
     if (std::abs(length - 1) > unit_enough)
-        remark(place_of(*origin), fmt::format("quat_xyzw has the length {:.9g}; it is divided by it", length));
+        remark(place_of(*origin), say("quat_xyzw has the length {:.9g}; it is divided by it", length));
     result.rpy = angles_of(Eigen::Quaterniond(e[3], e[0], e[1], e[2]).normalized().toRotationMatrix());
     return result;
 }
@@ -142,8 +143,7 @@ RobotPose Elements::pose(const TiXmlElement* origin) {
 double Elements::needed_moment(const TiXmlElement& inertia, const char* attribute) const {
     if (inertia.Attribute(attribute) == nullptr)
         refuse(place_of(inertia),
-               fmt::format("<inertia> has no {}; expected ixx, iyy and izz (products that are missing are 0)",
-                           attribute));
+               say("<inertia> has no {}; expected ixx, iyy and izz (products that are missing are 0)", attribute));
     return *number(inertia, attribute);
 }
 
@@ -152,15 +152,14 @@ void Elements::read_inertial(const TiXmlElement& inertial, Robot::Link& link) {
     link.centre = at.shift;
     const TiXmlElement *mass = only(inertial, "mass"), *inertia = only(inertial, "inertia");
     if (mass == nullptr)
-        refuse(place_of(inertial), fmt::format("<inertial> of link {} has no mass; expected <mass value=\"…\"/>",
-                                               in_quotes(link.name)));
+        refuse(place_of(inertial),
+               say("<inertial> of link {} has no mass; expected <mass value=\"…\"/>", in_quotes(link.name)));
     link.mass = needed_number(*mass, "value");
     if (link.mass < 0)
         refuse(place_of(*mass),
-               fmt::format("the mass of link {} is {}; expected zero or more", in_quotes(link.name), link.mass));
+               say("the mass of link {} is {}; expected zero or more", in_quotes(link.name), link.mass));
     if (inertia == nullptr) {
-        remark(place_of(inertial),
-               fmt::format("link {} has no <inertia>: its mass is a point", in_quotes(link.name)));
+        remark(place_of(inertial), say("link {} has no <inertia>: its mass is a point", in_quotes(link.name)));
         return;
     }
     std::vector<std::string> missing;
@@ -173,24 +172,23 @@ void Elements::read_inertial(const TiXmlElement& inertial, Robot::Link& link) {
                  izz = needed_moment(*inertia, "izz"), ixy = product("ixy"), iyz = product("iyz"),
                  ixz = product("ixz");
     if (!missing.empty())
-        remark(place_of(*inertia), fmt::format("the inertia of link {} has no {}, taken as 0",
-                                               in_quotes(link.name), fmt::join(missing, ", ")));
+        remark(place_of(*inertia), say("the inertia of link {} has no {}, taken as 0", in_quotes(link.name),
+                                       fmt::join(missing, ", ")));
     const Real33 own = inertia_matrix<double>({ixx, iyy, izz, ixy, iyz, ixz});
     link.inertia = turned<double>(own, at.rotation());
     if (const PrincipalAxes<> principal = principal_axes<double>(own); has_negative_moment(principal))
-        remark(
-            place_of(*inertia),
-            fmt::format("the principal moments of inertia of link {}, {:.6g}, {:.6g} and {:.6g}, are not all zero "
-                        "or more; no body has them",
-                        in_quotes(link.name), principal.moments[0], principal.moments[1], principal.moments[2]));
+        remark(place_of(*inertia),
+               say("the principal moments of inertia of link {}, {:.6g}, {:.6g} and {:.6g}, are not all zero "
+                   "or more; no body has them",
+                   in_quotes(link.name), principal.moments[0], principal.moments[1], principal.moments[2]));
 }
 
 const TiXmlElement* Elements::only(const TiXmlElement& e, const char* tag) const {
     const TiXmlElement* const first = e.FirstChildElement(tag);
     if (first != nullptr)
         if (const TiXmlElement* const second = first->NextSiblingElement(tag))
-            refuse(place_of(*second), fmt::format("a second <{}> inside {}, the first is on line {}; expected one",
-                                                  tag, shown(e), first->Row()));
+            refuse(place_of(*second), say("a second <{}> inside {}, the first is on line {}; expected one", tag,
+                                          shown(e), first->Row()));
     return first;
 }
 
@@ -226,7 +224,8 @@ TiXmlDocument checkable(const TiXmlDocument& document, Elements& elements) {
     TiXmlElement& robot = *result.RootElement();
     if (const char* name = robot.Attribute("name"); name == nullptr || squeezed(name).empty()) {
         robot.SetAttribute("name", "robot");
-        elements.remark(Elements::place_of(*document.RootElement()), "<robot> has no name; it is called robot");
+        elements.remark(Elements::place_of(*document.RootElement()),
+                        say("<robot> has no name; it is called robot"));
     }
     remove_children(robot, {"link", "joint"});
     squeeze_attributes(robot);
@@ -246,7 +245,7 @@ TiXmlDocument checkable(const TiXmlDocument& document, Elements& elements) {
     if (hangs_from_world && !has_world) {
         robot.LinkEndChild(new TiXmlElement("link"))->ToElement()->SetAttribute("name", "world");
         elements.remark(Elements::place_of(*document.RootElement()),
-                        "the link 'world', from which joints hang, is not described; it is the ground");
+                        say("the link 'world', from which joints hang, is not described; it is the ground"));
     }
     return result;
 }

@@ -11,6 +11,7 @@
 #include <map>
 #include <sstream>
 
+#include "language/say.hpp"
 #include "scene/text.hpp"
 #include "scene/text_file.hpp"
 #include "urdf/elements.hpp"
@@ -41,13 +42,12 @@ public:
         document_.Parse(text_.c_str(), nullptr, TIXML_ENCODING_UTF8);
         if (document_.Error())
             refuse({document_.ErrorRow(), document_.ErrorCol()},
-                   fmt::format("this is no XML: {}; expected a robot description, <robot name=…>",
-                               document_.ErrorDesc()));
+                   say("this is no XML: {}; expected a robot description, <robot name=…>", document_.ErrorDesc()));
         const TiXmlElement* root = document_.RootElement();
         if (root == nullptr || root->ValueStr() != "robot")
             refuse(root != nullptr ? place_of(*root) : Place{},
-                   fmt::format("the outermost element is {}; expected <robot>",
-                               root != nullptr ? shown(*root) : "missing"));
+                   say("the outermost element is {}; expected <robot>",
+                       root != nullptr ? shown(*root) : say("missing")));
         refuse_macros(*root);
         for (const TiXmlElement* e = root->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
             const std::string& tag = e->ValueStr();
@@ -98,14 +98,14 @@ private:
         Complaints complaints;
         model_ = urdf::parseURDF(printer.Str());
         if (model_ && complaints.said.empty()) return;
-        const std::string said = complaints.said.empty() ? "no reason given" : complaints.said.front();
+        const std::string said = complaints.said.empty() ? say("no reason given") : complaints.said.front();
         Place place{};
         for (const TiXmlElement* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
             if (const std::string name = named(*e); place.line == 0 && !name.empty() &&
                                                     (said.find("[" + name + "]") != std::string::npos ||
                                                      said.find("'" + name + "'") != std::string::npos))
                 place = place_of(*e);
-        refuse(place, fmt::format("urdfdom refuses it: {}", escaped(said, 300)));
+        refuse(place, say("urdfdom refuses it: {}", escaped(said, 300)));
     }
     void drop_unknown(const TiXmlElement& e, const std::string& of) {
         for (const std::string& what : elements_.unknown_attributes(e)) drop(what, of);
@@ -137,17 +137,16 @@ private:
                 if (end == std::string::npos || text_[end - 1] != '/') ++depth;
             }
             if (depth > deepest)
-                refuse({}, fmt::format(
-                               "more than {} elements stand inside each other; a robot description has five or so",
+                refuse({}, say("more than {} elements stand inside each other; a robot description has five or so",
                                deepest));
         }
     }
 
     void refuse_macros(const TiXmlElement& e) const {
         if (e.ValueStr().starts_with("xacro:"))
-            refuse(place_of(e), fmt::format("{} is a macro of xacro; expected plain URDF: expand it first, as in "
-                                            "xacro robot.urdf.xacro > robot.urdf",
-                                            shown(e)));
+            refuse(place_of(e), say("{} is a macro of xacro; expected plain URDF: expand it first, as in "
+                                    "xacro robot.urdf.xacro > robot.urdf",
+                                    shown(e)));
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement())
             refuse_macros(*child);
@@ -182,10 +181,10 @@ private:
         if (const TiXmlElement* const dynamics = elements_.only(e, "dynamics")) {
             joint.damping = elements_.number(*dynamics, "damping").value_or(0);
             if (joint.damping < 0)
-                refuse(joint.place, fmt::format("the damping of joint {} is {}; expected zero or more",
-                                                in_quotes(joint.name), joint.damping));
+                refuse(joint.place, say("the damping of joint {} is {}; expected zero or more",
+                                        in_quotes(joint.name), joint.damping));
             if (elements_.number(*dynamics, "friction").value_or(0) != 0)
-                drop("Coulomb friction, <dynamics friction=…>", joint.name);
+                drop(say("Coulomb friction, <dynamics friction=…>"), joint.name);
         }
         if (const TiXmlElement* const limit = elements_.only(e, "limit"))
             if (limit->Attribute("lower") != nullptr || limit->Attribute("upper") != nullptr)
@@ -213,11 +212,10 @@ private:
         if (joint.type == Robot::Type::fixed || joint.type == Robot::Type::floating)
             joint.axis = Real3::UnitX();
         else if (joint.axis.norm() == 0)
-            refuse(joint.place,
-                   fmt::format("the axis of joint {} is zero; expected a direction", in_quotes(joint.name)));
+            refuse(joint.place, say("the axis of joint {} is zero; expected a direction", in_quotes(joint.name)));
         if (joint.damping != 0 && (joint.type == Robot::Type::floating || joint.type == Robot::Type::planar ||
                                    joint.type == Robot::Type::fixed))
-            drop("damping of a floating, planar or fixed joint", joint.name);
+            drop(say("damping of a floating, planar or fixed joint"), joint.name);
         if (!is_hinge) joint.limits.reset();
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement()) {
@@ -227,10 +225,10 @@ private:
         }
         int& above = robot_.links[static_cast<std::size_t>(joint.child)].joint;
         if (above >= 0)
-            refuse(joint.place, fmt::format("joint {} holds link {}, which joint {} holds already; a robot "
-                                            "description is a tree, loops are added to the scene as joints",
-                                            in_quotes(joint.name), in_quotes(known->child_link_name),
-                                            in_quotes(robot_.joints[static_cast<std::size_t>(above)].name)));
+            refuse(joint.place, say("joint {} holds link {}, which joint {} holds already; a robot "
+                                    "description is a tree, loops are added to the scene as joints",
+                                    in_quotes(joint.name), in_quotes(known->child_link_name),
+                                    in_quotes(robot_.joints[static_cast<std::size_t>(above)].name)));
         above = static_cast<int>(robot_.joints.size());
         joint_of_[joint.name] = above;
         robot_.joints.push_back(std::move(joint));
@@ -242,16 +240,16 @@ private:
         if (!mimic || joint.type == Robot::Type::fixed) return joint.mimic.reset();
         const auto found = joint_of_.find(mimic->joint_name);
         if (found == joint_of_.end())
-            refuse(joint.place, fmt::format("joint {} mimics {}, which is no joint of this robot",
-                                            in_quotes(joint.name), in_quotes(mimic->joint_name)));
+            refuse(joint.place, say("joint {} mimics {}, which is no joint of this robot", in_quotes(joint.name),
+                                    in_quotes(mimic->joint_name)));
         for (const Robot::Joint* both :
              {static_cast<const Robot::Joint*>(&joint),
               static_cast<const Robot::Joint*>(&robot_.joints[static_cast<std::size_t>(found->second)])})
             if (both->type == Robot::Type::planar || both->type == Robot::Type::floating)
                 refuse(joint.place,
-                       fmt::format("joint {} mimics {}: joint {} has more than one coordinate; expected revolute, "
-                                   "continuous or prismatic joints",
-                                   in_quotes(joint.name), in_quotes(mimic->joint_name), in_quotes(both->name)));
+                       say("joint {} mimics {}: joint {} has more than one coordinate; expected revolute, "
+                           "continuous or prismatic joints",
+                           in_quotes(joint.name), in_quotes(mimic->joint_name), in_quotes(both->name)));
         joint.mimic->joint = found->second;
     }
 
@@ -262,7 +260,7 @@ private:
             const Robot::Joint& leader = robot_.joints[static_cast<std::size_t>(joint.mimic->joint)];
             if (!leader.mimic) return;
             if (steps > robot_.joints.size())
-                refuse(joint.place, fmt::format("joint {} mimics itself in a circle", in_quotes(joint.name)));
+                refuse(joint.place, say("joint {} mimics itself in a circle", in_quotes(joint.name)));
             joint.mimic = Robot::Mimic{leader.mimic->joint, joint.mimic->factor * leader.mimic->factor,
                                        joint.mimic->factor * leader.mimic->offset + joint.mimic->offset};
         }
@@ -274,10 +272,9 @@ private:
             const Robot::Link* at = &link;
             for (std::size_t steps = 0; at->joint >= 0; ++steps) {
                 if (steps > robot_.links.size())
-                    refuse(
-                        link.place,
-                        fmt::format("link {} hangs on itself in a circle of joints; expected a tree from one root",
-                                    in_quotes(link.name)));
+                    refuse(link.place,
+                           say("link {} hangs on itself in a circle of joints; expected a tree from one root",
+                               in_quotes(link.name)));
                 at = &robot_.links[static_cast<std::size_t>(
                     robot_.joints[static_cast<std::size_t>(at->joint)].parent)];
             }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "language/say.hpp"
 #include "scene/text.hpp"
 #include "urdf/scene_words.hpp"
 #include "urdf/welded.hpp"
@@ -51,13 +52,13 @@ public:
         }
         if (std::none_of(robot_.links.begin(), robot_.links.end(),
                          [](const Robot::Link& l) { return l.mass != 0 || !l.inertia.isZero(0); }))
-            throw ModelError(
+            throw ModelError(say(
                 "no link of this robot has a mass, so that no joint moves a mass; expected <inertial> with <mass> "
-                "and <inertia> in the links (meshes alone have none)");
+                "and <inertia> in the links (meshes alone have none)"));
         if (result_.coordinates.empty())
-            throw ModelError(
+            throw ModelError(say(
                 "this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or "
-                "floating one, or a root that floats");
+                "floating one, or a root that floats"));
         result_.text += joints_ + dampers_;
         if (!result_.drives.empty()) result_.text += fmt::format("\n[inputs]\n{}\n[forces]\n{}", inputs_, forces_);
         result_.dropped.insert(result_.dropped.begin(), robot_.dropped.begin(), robot_.dropped.end());
@@ -71,7 +72,7 @@ private:
     void name_all() {
         const auto named = [&](SceneNames& names, const std::string& wanted) {
             const std::string name = names.given(wanted);
-            const std::string note = fmt::format("{} is called {} in the scene", in_quotes(wanted), name);
+            const std::string note = say("{} is called {} in the scene", in_quotes(wanted), name);
             if (name != wanted &&
                 std::find(result_.notes.begin(), result_.notes.end(), note) == result_.notes.end())
                 result_.notes.push_back(note);
@@ -182,7 +183,7 @@ private:
                 fmt::format("limits {} to {}", scene_number((*joint.limits)[0]), scene_number((*joint.limits)[1]));
         if (joint.limits && (*joint.limits)[0] <= (*joint.limits)[1] &&
             ((*joint.limits)[0] > 0 || (*joint.limits)[1] < 0))
-            result_.notes.push_back(fmt::format("{} starts at 0, outside its limits", q));
+            result_.notes.push_back(say("{} starts at 0, outside its limits", q));
         const std::string rotate =
             at.rotate.empty() ? "" : fmt::format("parent_rotate = {}\n", rotations(at.rotate));
         joint_table(name, slides ? "prismatic" : "revolute", at.parent->name, child, at.point,

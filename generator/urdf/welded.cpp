@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "alembert/inertia.hpp"
+#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -38,7 +39,7 @@ private:
             std::vector<std::string> names;
             for (const int i : result_.bodies[0].links)
                 if (link(i).mass != 0) names.push_back(link(i).name);
-            drop("mass that is fixed to the ground", names);
+            drop(say("mass that is fixed to the ground"), names);
         }
     }
     int new_group(int top) {
@@ -66,9 +67,8 @@ private:
             }
             const int above = link(i).joint;
             if (above >= 0 && robot_.joints[static_cast<std::size_t>(above)].type == Robot::Type::fixed)
-                result_.merged.push_back(
-                    fmt::format("{} is fixed to {}", link(i).name,
-                                link(robot_.joints[static_cast<std::size_t>(above)].parent).name));
+                result_.merged.push_back(say("{} is fixed to {}", link(i).name,
+                                             link(robot_.joints[static_cast<std::size_t>(above)].parent).name));
         }
     }
     static Seat fixed(const Seat& parent, const Robot::Joint& joint) {
@@ -95,11 +95,12 @@ private:
                                                        centre(i) - group.centre);
         if (const PrincipalAxes<> own = principal_axes<double>(group.inertia);
             !group.ground && has_negative_moment(own))
-            throw ModelError(fmt::format(
-                "link {}{} has the principal moments of inertia {:.6g}, {:.6g} and {:.6g}, which are not all "
-                "zero or more; no body has them",
-                in_quotes(link(group.top).name), group.links.size() > 1 ? ", with all that is fixed to it," : "",
-                own.moments[0], own.moments[1], own.moments[2]));
+            throw ModelError(
+                say("link {}{} has the principal moments of inertia {:.6g}, {:.6g} and {:.6g}, which are not all "
+                    "zero or more; no body has them",
+                    in_quotes(link(group.top).name),
+                    group.links.size() > 1 ? say(", with all that is fixed to it,") : "", own.moments[0],
+                    own.moments[1], own.moments[2]));
     }
 
     void leave_out_massless() {
@@ -124,7 +125,7 @@ private:
                 names.push_back(robot_.joints[static_cast<std::size_t>(own)].name);
             }
         }
-        drop("joints that move no mass", names);
+        drop(say("joints that move no mass"), names);
     }
 
     void drop(const std::string& what, std::vector<std::string> of) {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "language/libraries.hpp"
+
+#include <fmt/args.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "language/say.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr std::array patterns{
+    // The runtime. What is more special stands first.
+    to_say("{} right-hand sides were not enough to come further than t = {}, with {} impacts and changes of "
+           "contact{}; "
+           "raise the budget, loosen the tolerance or shorten the duration"),
+    to_say("{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen the "
+           "tolerance or "
+           "shorten the duration"),
+    to_say("step size underflow at t = {} (step {}): {} is the stiffest component, its error was {} times the "
+           "tolerance; there may be a singularity here, or the tolerance is beyond double precision"),
+    to_say("step size underflow at t = {} (step {}): {} or its rate is not finite, however short the step; there "
+           "is a "
+           "singularity here"),
+    to_say("{} is no longer finite after t = {}; take a shorter step, or an adaptive method such as dop853"),
+    to_say(
+        "the equations of {} could not be solved for the step after t = {}; take a shorter step, or radau for a "
+        "stiff system"),
+    to_say(
+        "the rate of {} is not finite at the start, t = {}; look at its equation, and at the initial values and "
+        "parameters"),
+    to_say("the sign of {} changes without end at t = {}: no side of it is consistent"),
+    to_say(
+        "at t = {} the sign of {} has no consistent side: the equations have no motion that goes on from there"),
+    to_say(
+        "at t = {} the motion may go on to either side of {} = 0: the equations do not say which; start close to "
+        "that state instead"),
+    to_say("no contact mode is consistent at t = {} with the contacts {} closed: {}"),
+    to_say(
+        "no contact mode is consistent at t = {}: contact '{}' and others open and close while the time does not "
+        "advance; loosen the tolerance, or look at the gaps there"),
+    to_say("the impulses of event '{}' follow each other without end before t = {}: the last {} came within {} s; "
+           "what "
+           "bounces and comes to rest is a [[unilateral]] with its restitution"),
+    to_say("there are no rates after the impulses of the events at t = {}: {}"),
+    to_say("a value is not finite"),
+    to_say("the mass matrix is singular"),
+    to_say("the constraints contradict each other"),
+    to_say("a contact closes at a speed that the constraints prescribe"),
+    to_say("no rates keep all contacts apart"),
+    to_say("the collisions at one instant do not come to an end"),
+    to_say("the constraints prescribe that a contact closes"),
+    to_say("no accelerations keep all contacts apart"),
+    to_say("friction makes the contact force grow without bound during the impact"),
+    to_say("an impact with friction can be computed only for a single contact with one friction, and without "
+           "impulses "
+           "of events"),
+    to_say(
+        "no C++ compiler: looked for {} in $PATH; install one (on Debian: apt install g++) or name one with $CXX"),
+    to_say("cannot write {}: {}; is the disk full?"),
+    to_say("{} has a fixed step: give it, for example step = {}"),
+    to_say("step = {}: more than {} steps"),
+    to_say("sample = {}: more than {} rows"),
+    // CLI11.
+    to_say("The following argument was not expected: {}"),
+    to_say("The following arguments were not expected: {}"),
+    to_say("Could not convert: {} = {}"),
+    to_say("{}: Value {} not in range [{} - {}]"),
+    to_say("{}: {} not in {}"),
+    to_say("{}: 1 required {} missing"),
+    to_say("{} requires {}"),
+    to_say("{} is required"),
+};
+
+/// What stands at the places {} of the pattern; none if the text is not of this form.
+std::optional<std::vector<std::string>> values_of(std::string_view text, std::string_view pattern) {
+    std::vector<std::string> values;
+    for (std::size_t place = pattern.find("{}"); place != pattern.npos; place = pattern.find("{}")) {
+        if (!text.starts_with(pattern.substr(0, place))) return {};
+        text.remove_prefix(place);
+        pattern.remove_prefix(place + 2);
+        const std::string_view next = pattern.substr(0, pattern.find("{}"));
+        const std::size_t end = next.empty() ? text.size() : text.find(next);
+        if (end == text.npos) return {};
+        values.emplace_back(text.substr(0, end));
+        text.remove_prefix(end);
+    }
+    if (text != pattern) return {};
+    return values;
+}
+
+}  // namespace
+
+std::string translated_from_library(const std::string& message) {
+    for (const char* const pattern : patterns) {
+        const auto values = values_of(message, pattern);
+        if (!values) continue;
+        fmt::dynamic_format_arg_store<fmt::format_context> store;
+        for (const std::string& value : *values) store.push_back(translated_from_library(value));
+        return translated_with(pattern, store);
+    }
+    return message;
+}
+
+}  // namespace alembert
