@@ -385,9 +385,9 @@ Audit audit_of(const Mechanism& mechanism) {
         c.residual = {std::nan(""), std::nan("")};
         c.integral.reset();
     }
-    result.notes.push_back(
+    result.notes.push_back(say(
         "[functions] leaves functions in the constraints open: ranks and integrability are those with functions "
-        "chosen at random in their place, and whether the initial state obeys the constraints is unknown");
+        "chosen at random in their place, and whether the initial state obeys the constraints is unknown"));
     return result;
 }
 

@@ -117,8 +117,8 @@ private:
                 if (result_.claims[j].verdict != Verdict::proved) {
                     result_.claims[k] = {};
                     result_.claims[k].reason =
-                        fmt::format("it is not linear in a constant that only '{}' gives, which is not proved",
-                                    text_of(scene_.claims[j].equation));
+                        say("it is not linear in a constant that only '{}' gives, which is not proved",
+                            text_of(scene_.claims[j].equation));
                 }
     }
 

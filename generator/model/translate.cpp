@@ -88,9 +88,10 @@ ex Translator::partial(const Tree& tree) {
             value = is_free ? mechanism_.z->push_forward({value}, {{GiNaC::ex_to<GiNaC::symbol>(variable), 1}})[0]
                             : by_argument(value, *by);
         if (is_free && variable.is_equal(mechanism_.t) && value.is_zero())
-            throw SceneMistake{{current_->place(tree.offset),
-                                "this does not depend on t by itself; a derivative in the course of the motion is "
-                                "written with a prime: x' or (…)'"}};
+            throw SceneMistake{
+                {current_->place(tree.offset),
+                 say("this does not depend on t by itself; a derivative in the course of the motion is "
+                     "written with a prime: x' or (…)'")}};
     }
     return value;
 }
@@ -112,8 +113,8 @@ ex Translator::by_argument(const ex& value, const Tree& by) {
     if (result.is_zero())
         throw SceneMistake{
             {current_->place(by.offset),
-             "expected by what is differentiated: a coordinate, a rate, a parameter, an input or t, or "
-             "for a function of [functions] one of its arguments or the position of one"}};
+             say("expected by what is differentiated: a coordinate, a rate, a parameter, an input or t, or "
+                 "for a function of [functions] one of its arguments or the position of one")}};
     return result;
 }
 

@@ -111,20 +111,20 @@ const char* const section_event = "section_of_Poincare_";
 EventRule section_rule(const Overview& all, const std::string& section) {
     const auto refuse = [&](const std::string& why) {
         throw ModelError(
-            fmt::format("--poincare {}: {}; expected an equation of the state, as in --poincare "
-                        "\"theta1 = 0\"",
-                        section, why));
+            say("--poincare {}: {}; expected an equation of the state, as in --poincare \"theta1 = 0\"", section,
+                why));
     };
     const std::size_t equals = section.find('=');
-    if (equals == std::string::npos || section.find('=', equals + 1) != std::string::npos) refuse("this is none");
+    if (equals == std::string::npos || section.find('=', equals + 1) != std::string::npos)
+        refuse(say("this is none"));
     std::vector<Diagnostic> mistakes;
     const Expression difference = parse_expression(
         fmt::format("({}) - ({})", section.substr(0, equals), section.substr(equals + 1)), {}, mistakes);
-    if (!difference) refuse(mistakes.empty() ? "this is none" : mistakes[0].message);
+    if (!difference) refuse(mistakes.empty() ? say("this is none") : mistakes[0].message);
     try {
         Formulas formulas(all.scene, all.mechanism);
         const GiNaC::ex value = all.mechanism.z->name(formulas.value(difference));
-        if (all.mechanism.z->depends(value, all.mechanism.qddot)) refuse("it holds accelerations");
+        if (all.mechanism.z->depends(value, all.mechanism.qddot)) refuse(say("it holds accelerations"));
     } catch (const SceneMistake& mistake) {
         refuse(mistake.diagnostic.message);
     }
@@ -158,8 +158,8 @@ constexpr int equilibria_judged = 6;
 /// Only for scenes so small that this takes a second or two.
 std::string too_large_to_judge(const Mechanism& m) {
     if (m.size() <= 6 && m.constraints.size() <= 4) return "";
-    return "Left out here, as the scene is large; the program does it when asked: alembert equilibrium, alembert "
-           "stability";
+    return say("Left out here, as the scene is large; the program does it when asked: alembert {}",
+               "equilibrium, alembert stability");
 }
 
 JudgedEquilibria judged(const Scene& scene, const std::string& by) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "alembert/error.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -288,11 +289,12 @@ std::vector<int> Program::right_hand_side() const {
 
 void Program::refuse_unspecified(const Node& node) const {
     const auto index = static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(nodes_[node.args[0]].number)));
-    const std::string name = index < functions.size() ? "'" + functions[index] + "'" : "a function";
+    const std::string name = index < functions.size() ? "'" + functions[index] + "'" : say("a function");
     throw ModelError(
-        "[functions] leaves " + name +
-        " open, so that what depends on it has no values; `derive`, `check`, `agree` and `audit` need "
-        "none. For numbers write its formula in place of it, for example as a name in [definitions]");
+        say("[functions] leaves {} open, so that what depends on it has no values; `derive`, `check`, `agree` and "
+            "`audit` need none. For numbers write its formula in place of it, for example as a name in "
+            "[definitions]",
+            name));
 }
 
 Program Program::shell() const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "language/say.hpp"
 #include "report/bench.hpp"
 #include "report/page_parts.hpp"
 #include "report/page_plot.hpp"
@@ -13,29 +14,35 @@ namespace {
 
 constexpr std::size_t equilibria_shown = 12;
 
-/// The style class of a verdict.
-const char* style_of(const std::string& verdict) {
-    return verdict == "unstable" ? "refuted" : verdict == "undecided" ? "undecided" : "proved";
-}
-
 struct PageVerdict {
+    const char* style;  ///< its class in the page's style sheet
     std::string verdict, because;
     std::vector<std::complex<double>> eigenvalues;
 };
 
+const char* style_of(StabilityVerdict verdict) {
+    return verdict == StabilityVerdict::unstable    ? "refuted"
+           : verdict == StabilityVerdict::undecided ? "undecided"
+                                                    : "proved";
+}
+
 PageVerdict verdict_of(const Equilibrium& one, const std::optional<Stability>& judged) {
     if (judged) {
-        PageVerdict result{name_of(judged->verdict), judged->reason, {}};
+        PageVerdict result{style_of(judged->verdict), translated(name_of(judged->verdict)), judged->reason, {}};
         if (judged->theorem != StabilityTheorem::none)
-            result.because = std::string(name_of(judged->theorem)) + ": " + result.because;
+            result.because = translated(name_of(judged->theorem)) + ": " + result.because;
         for (const RootOf& root : judged->eigenvalues) result.eigenvalues.push_back(root.value);
         return result;
     }
     const StabilityHint& hint = one.judgement;
-    return {hint.stable == Stable::yes  ? "stable"
-            : hint.stable == Stable::no ? "unstable"
-                                        : "undecided",
-            hint.because, hint.eigenvalues};
+    switch (hint.stable) {
+        case Stable::yes:
+            return {"proved", say("stable"), hint.because, hint.eigenvalues};
+        case Stable::no:
+            return {"refuted", say("unstable"), hint.because, hint.eigenvalues};
+        default:
+            return {"undecided", say("undecided"), hint.because, hint.eigenvalues};
+    }
 }
 
 std::string state_text(const Equilibria& found, const Equilibrium& one) {
@@ -53,7 +60,7 @@ std::string state_text(const Equilibria& found, const Equilibrium& one) {
             add(name, one.start.q[i], one.exact && one.exact->text[i] != "0" ? one.exact->text[i] : "");
         if (one.start.qdot[i] != 0) add(name + "'", one.start.qdot[i], "");
     }
-    return text.empty() ? "any state" : text;
+    return text.empty() ? say("any state") : text;
 }
 
 void add_plane(PageParts& page, const std::vector<PageVerdict>& verdicts) {
@@ -67,10 +74,10 @@ void add_plane(PageParts& page, const std::vector<PageVerdict>& verdicts) {
         if (!line.x.empty()) lines.push_back(std::move(line));
     }
     if (lines.empty()) return;
-    page.body += page_plot({.title = "Eigenvalues",
-                            .x_name = "real part",
+    page.body += page_plot({.title = say("Eigenvalues"),
+                            .x_name = say("real part"),
                             .x_unit = "",
-                            .y_name = "imaginary part",
+                            .y_name = say("imaginary part"),
                             .y_unit = "",
                             .points = true,
                             .axes = true},
@@ -82,21 +89,22 @@ void add_plane(PageParts& page, const std::vector<PageVerdict>& verdicts) {
 void add_stability(PageParts& page, const Overview& all) {
     if (!all.rest.value) {
         if (all.rest.problem.empty()) return;
-        page.section("stability", "Equilibria and stability");
+        page.section("stability", say("Equilibria and stability"));
         put(page.body, "<p class=\"hint\">{}</p>\n", html(all.rest.problem));
         page.end();
         return;
     }
     const Equilibria& found = all.rest.value->found;
-    page.section("stability", "Equilibria and stability");
+    page.section("stability", say("Equilibria and stability"));
     if (found.list.empty()) {
         put(page.body, "<p>{}.</p>\n", html(found.nothing));
         page.end();
         return;
     }
     put(page.body,
-        "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\"></th><th scope=\"col\">state</th>"
-        "<th scope=\"col\">verdict</th><th scope=\"col\">because</th></tr></thead>\n<tbody>\n");
+        "<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\"></th><th scope=\"col\">{}</th>"
+        "<th scope=\"col\">{}</th><th scope=\"col\">{}</th></tr></thead>\n<tbody>\n",
+        say("state"), say("verdict"), say("because"));
     std::vector<PageVerdict> verdicts;
     for (std::size_t k = 0; k < std::min(found.list.size(), equilibria_shown); ++k) {
         const Equilibrium& one = found.list[k];
@@ -104,22 +112,21 @@ void add_stability(PageParts& page, const Overview& all) {
         put(page.body,
             "<tr><th scope=\"row\">{}</th><td>{}</td><td><strong class=\"verdict {}\">{}</strong></td>"
             "<td>{}</td></tr>\n",
-            k + 1, state_text(found, one), style_of(verdicts.back().verdict), html(verdicts.back().verdict),
+            k + 1, state_text(found, one), verdicts.back().style, html(verdicts.back().verdict),
             html(verdicts.back().because));
     }
     put(page.body, "</tbody></table></div>\n");
     if (found.list.size() > equilibria_shown)
-        put(page.body, "<p class=\"hint\">The first {} of {} are shown.</p>\n", equilibria_shown,
-            found.list.size());
+        put(page.body, "<p class=\"hint\">{}</p>\n",
+            say("The first {} of {} are shown.", equilibria_shown, found.list.size()));
     if (!found.cyclic.empty()) {
         std::string names;
         for (const std::string& name : found.cyclic) names += (names.empty() ? "" : ", ") + html_letters(name);
-        put(page.body, "<p>Nothing depends on {}: any value will do.</p>\n", names);
+        put(page.body, "<p>{}</p>\n", say("Nothing depends on {}: any value will do.", names));
     }
     put(page.body, "<p class=\"hint\">{}</p>\n",
-        found.closed
-            ? "Solved in the parameters: these are all, modulo whole turns."
-            : fmt::format("Found by Newton's method from {} starts; there may be more.", found.search.starts));
+        found.closed ? say("Solved in the parameters: these are all, modulo whole turns.")
+                     : say("Found by Newton's method from {} starts; there may be more.", found.search.starts));
     add_plane(page, verdicts);
     page.end();
 }
@@ -127,10 +134,11 @@ void add_stability(PageParts& page, const Overview& all) {
 void add_section_of_poincare(PageParts& page, const Overview& all) {
     if (!all.motion.value || all.motion.value->section.empty()) return;
     const WatchedMotion& motion = *all.motion.value;
-    page.section("poincare", "Section of Poincaré");
-    put(page.body, "<p>The motion crosses {}, from less to more, {} time{}{}.</p>\n", html(motion.section),
-        motion.crossings.size(), motion.crossings.size() == 1 ? "" : "s",
-        motion.crossings.size() < 20 ? "; a longer motion, --duration, gives more points" : "");
+    page.section("poincare", say("Section of Poincaré"));
+    put(page.body, "<p>{}{}.</p>\n",
+        say("The motion crosses {}, from less to more, {} time{}", html(motion.section), motion.crossings.size(),
+            motion.crossings.size() == 1 ? "" : "s"),
+        motion.crossings.size() < 20 ? say("; a longer motion, --duration, gives more points") : std::string());
     const Mechanism& m = all.mechanism;
     const std::size_t n = m.q.size();
     put(page.body, "<div class=\"plots\">\n");
@@ -144,7 +152,7 @@ void add_section_of_poincare(PageParts& page, const Overview& all) {
         const auto [low, high] = std::minmax_element(line.x.begin(), line.x.end());
         if (motion.crossings.size() > 1 && *high - *low < 1e-6) continue;  // what the section holds fast
         const std::string name = m.q[k].get_name();
-        page.body += page_plot({.title = "Section",
+        page.body += page_plot({.title = say("Section"),
                                 .x_name = name,
                                 .x_unit = unit_text(m.units[k]),
                                 .y_name = name + "'",
@@ -158,11 +166,10 @@ void add_section_of_poincare(PageParts& page, const Overview& all) {
 
 void add_bench(PageParts& page, const Overview& all) {
     if (!all.bench.was_asked) return;
-    page.section("bench", "Speed against error");
+    page.section("bench", say("Speed against error"));
     if (all.bench.value)
-        put(page.body,
-            "<div class=\"sheet\">{}</div>\n<details><summary>The numbers</summary><pre>{}</pre></details>\n",
-            as_svg(*all.bench.value), html(as_text(*all.bench.value)));
+        put(page.body, "<div class=\"sheet\">{}</div>\n<details><summary>{}</summary><pre>{}</pre></details>\n",
+            as_svg(*all.bench.value), say("The numbers"), html(as_text(*all.bench.value)));
     else
         page.problem(all.bench.problem);
     page.end();

@@ -37,7 +37,7 @@ void check_derivative(const std::vector<TreePtr>& args) {
         const bool is_whole = arg.text.size() == 1 && arg.text[0] >= '1' && arg.text[0] <= '9';
         if (arg.kind == Tree::Kind::number && !is_whole)
             stop(arg.offset,
-                 "diff takes whole numbers from 1 to 9: how often, or by which argument, is differentiated");
+                 say("diff takes whole numbers from 1 to 9: how often, or by which argument, is differentiated"));
     }
 }
 

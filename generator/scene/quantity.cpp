@@ -57,8 +57,8 @@ void Quantities::describe(const Definition& definition) {
         for (const TreePtr& term : definition.value.tree->args)
             if (rank(context, *term->args[0], 0) == Rank::vector)
                 complain(context, *term->args[0],
-                         "a component of a vector is a number, and this is a vector; take its component "
-                         "with dot(…, ex(N)), or write a sum of vectors without brackets");
+                         say("a component of a vector is a number, and this is a vector; take its component "
+                             "with dot(…, ex(N)), or write a sum of vectors without brackets"));
         vectors_.insert(definition.name.text);
     } else if (rank(context, *definition.value.tree, 0) == Rank::vector)
         vectors_.insert(definition.name.text);
@@ -194,18 +194,18 @@ void Quantities::meet_function(Context& context, const Tree& tree) {
         const std::string meant = nearest(tree.text, known);
         return complain(
             context, tree,
-            fmt::format("unknown function {}{}; if a product was meant write {}*{}", in_quotes(tree.text),
-                        meant.empty() ? "" : "; did you mean '" + meant + "'?", escaped(tree.text), argument));
+            say("unknown function {}{}; if a product was meant write {}*{}", in_quotes(tree.text),
+                meant.empty() ? "" : say("; did you mean '{}'?", meant), escaped(tree.text), argument));
     }
     const UnspecifiedFunction& function = names_.functions[declared->index];
     if (tree.args.size() != function.arguments.size())
         complain(context, tree,
-                 fmt::format("{} takes {} argument{}, not {}: {}", in_quotes(tree.text), function.arguments.size(),
-                             function.arguments.size() == 1 ? "" : "s", tree.args.size(), function.usage()));
+                 say("{} takes {} argument{}, not {}: {}", in_quotes(tree.text), function.arguments.size(),
+                     function.arguments.size() == 1 ? "" : "s", tree.args.size(), function.usage()));
     if (context.legal.order < 0)
         complain(context, tree,
-                 fmt::format("{} needs a value, and {} has none: [functions] leaves it open",
-                             context.legal.subject, in_quotes(tree.text)));
+                 say("{} needs a value, and {} has none: [functions] leaves it open", context.legal.subject,
+                     in_quotes(tree.text)));
     context.contents.order = std::max(context.contents.order, 0);  // where it is open, so are values
 }
 
@@ -242,9 +242,9 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
         }
         case Declared::Kind::function:
             return complain(context, tree,
-                            fmt::format("{} is a function; write {}{}", in_quotes(tree.text),
-                                        names_.functions[declared->index].usage(),
-                                        tree.primes > 0 ? ", and diff(…) for its derivative" : ""));
+                            say("{} is a function; write {}{}", in_quotes(tree.text),
+                                names_.functions[declared->index].usage(),
+                                tree.primes > 0 ? say(", and diff(…) for its derivative") : ""));
         case Declared::Kind::multiplier:
             if (!context.legal.multipliers)
                 complain(context, tree,

@@ -135,10 +135,10 @@ void read_functions(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries()) {
         UnspecifiedFunction made{
             {entry.key, entry.place},
-            read_names(table.reading(), *entry.node, labelled("the arguments of function", entry.key))};
+            read_names(table.reading(), *entry.node, labelled(say("the arguments of function"), entry.key))};
         if (made.arguments.size() > most_arguments || (made.arguments.empty() && entry.node->is_array()))
-            table.reading().complain(
-                entry.place, fmt::format("a function has one to {} arguments, as in V = [\"r\"]; {} has {}",
+            table.reading().complain(entry.place,
+                                     say("a function has one to {} arguments, as in V = [\"r\"]; {} has {}",
                                          most_arguments, in_quotes(entry.key), made.arguments.size()));
         scene.functions.push_back(std::move(made));
     }
