@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "alembert/dense.hpp"
 #include "linear/dense_long.hpp"
@@ -205,8 +206,8 @@ bool has_family(const Local& local, const Eigen::MatrixXd& V) {
     return static_cast<Eigen::Index>(ne) - static_cast<Eigen::Index>(still.size()) + forces == V.cols();
 }
 
-/// The same in numbers: Newton's method finds steady motions a small distance along each null vector, the last
-/// columns of V.
+/// The same in numbers: Newton's method finds steady motions a small distance along some random null vectors,
+/// which are combinations of the last columns of V.
 bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
     const int n = local.A.rows, p = static_cast<int>(local.split.u.size());
     const std::size_t ne = local.essential.size();
@@ -238,9 +239,13 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
         return F;
     };
     const Eigen::MatrixXd across = V.leftCols(n - zeros);
-    for (int k = 0; k < zeros; ++k)
+    std::mt19937_64 random(15);
+    std::normal_distribution<double> normal;
+    for (int k = 0; k < (zeros == 1 ? 1 : 2 * zeros); ++k)
         for (const double step : {0.05, -0.03}) {
-            CertainPoint at = moved(local.point, step * V.col(n - zeros + k));
+            Eigen::VectorXd direction(zeros);
+            for (double& one : direction) one = normal(random);
+            CertainPoint at = moved(local.point, step * V.rightCols(zeros) * direction.normalized());
             double residual = 1;
             for (int round = 0; round < 60 && residual > 1e-31; ++round) {
                 const Eigen::VectorXd F = rate(local.tangent_at(at));
@@ -277,7 +282,7 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots,
                 "{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters{}, "
                 "and all others have negative real parts: disturbed motions tend to steady motions near this "
                 "one",
-                zeros, zeros == 1 ? "is" : "are", proved ? "" : " (found by Newton's method along each)")};
+                zeros, zeros == 1 ? "is" : "are", proved ? "" : " (found by Newton's method in several directions)")};
 }
 
 }  // namespace alembert
