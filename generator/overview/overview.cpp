@@ -157,7 +157,7 @@ constexpr int equilibria_judged = 6;
 
 /// Only for scenes so small that this takes a second or two.
 std::string too_large_to_judge(const Mechanism& m) {
-    if (m.size() <= 6 && m.constraints.size() <= 4) return "";
+    if (m.size() <= 4 && m.constraints.size() <= 2) return "";
     return say("Left out here, as the scene is large; the program does it when asked: alembert {}",
                "equilibrium, alembert stability");
 }

@@ -280,7 +280,8 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots,
             say("{} of the eigenvalues {} zero, as many as the steady motions near this one have parameters{}, "
                 "and all others have negative real parts: disturbed motions tend to steady motions near this "
                 "one",
-                zeros, zeros == 1 ? "is" : "are", proved ? "" : say(" (found by Newton's method along each)"))};
+                zeros, zeros == 1 ? "is" : "are",
+                proved ? "" : say(" (found by Newton's method in several directions)"))};
 }
 
 }  // namespace alembert
