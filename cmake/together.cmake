@@ -2,12 +2,15 @@
 # GiNaC and Eigen, are read and instantiated once instead of once per file. The 22 files of the room `formalism`
 # take 12 s of processor time if they are compiled together, and 44 s one by one (g++ 12). The preset `debug`
 # compiles each file by itself, which is faster for a person who changes one file after the other.
-#   alembert_together(TARGET [ALONE FILE...])
-# At most `most` files form a group, so that two processors have work. The files after ALONE use the same short names for
+#   alembert_together(TARGET [MOST COUNT] [ALONE FILE...])
+# At most COUNT files (12) form a group, so that two processors have work. The files after ALONE use the same short names for
 # different things and are compiled by themselves.
 function(alembert_together target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ALONE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "MOST" "ALONE")
   set(most 12)
+  if(arg_MOST)
+    set(most ${arg_MOST})
+  endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   list(REMOVE_ITEM sources ${arg_ALONE})

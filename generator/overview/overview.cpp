@@ -17,7 +17,7 @@ namespace {
 
 constexpr int rows_shown = 480;                // of a motion
 constexpr std::size_t poses_shown = 360;       // of a figure
-constexpr std::size_t numbers_shown = 60'000;  // the most points times poses, so that the page stays small
+constexpr std::size_t numbers_shown = 30'000;  // the most points times poses, so that the page stays small
 constexpr double work_of_agreement = 1e5;      // for normal forms; after that sampling decides
 // The most coordinates for which all formalisms are compared and constraints audited.
 constexpr int readable_size = 10;
@@ -136,7 +136,9 @@ WatchedMotion watched(const Overview& all, const OverviewOptions& options) {
     wishes.by = options.by;
     if (wishes.sample <= 0) {
         const double duration = wishes.duration >= 0 ? wishes.duration : start_of(all.mechanism).duration;
-        if (duration > 0) wishes.sample = duration / rows_shown;
+        const int rows =
+            std::clamp(static_cast<int>(numbers_shown) / (2 * std::max(1, all.mechanism.size())), 120, rows_shown);
+        if (duration > 0) wishes.sample = duration / rows;
     }
     Scene scene = all.scene;
     if (!options.section.empty()) scene.events.push_back(section_rule(all, options.section));

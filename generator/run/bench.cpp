@@ -75,7 +75,7 @@ std::vector<Measured> ladder(Workbench& bench, Options options, double each, lon
             if (!last.failure.empty() || last.seconds > most_seconds / 2) break;
             continue;
         }
-        if (last.failure.find("not enough") != std::string::npos || last.seconds > most_seconds / 4) break;
+        if (last.budget_used_up || last.seconds > most_seconds / 4) break;
         if (!last.failure.empty() || !last.error) continue;
         if (*last.error < 1e-13) break;
         worse = *last.error > best / 1.5 && *last.error < 1e-6 ? worse + 1 : 0;  // rounding dominates

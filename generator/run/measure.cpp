@@ -86,6 +86,7 @@ Measured Workbench::measure(Options options) {
     result.steps = motion.statistics.steps;
     if (motion.failure) {
         result.failure = motion.failure->message;
+        result.budget_used_up = motion.failure->kind == FailureKind::budget_used_up;
         return result;
     }
     const std::size_t n = parts_.derived.mechanism.q.size();

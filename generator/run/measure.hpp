@@ -32,6 +32,7 @@ struct Measured {
                           momentum_error = {};  ///< nothing if the quantity is not conserved
     bool work = false;                          ///< whether energy_drift is that of E − E₀ − W
     std::string failure = {};
+    bool budget_used_up = false;  ///< whether that is the failure
 };
 
 /// Coordinates, then their rates.
