@@ -23,15 +23,14 @@ set(CPACK_PACKAGE_VENDOR "the alembert authors")
 set(CPACK_PACKAGE_CONTACT "the alembert authors <alembert@example.org>")
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "equations of motion derived, proved, emitted and integrated")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-"${CPACK_PACKAGE_DESCRIPTION_SUMMARY}
- From a description of a mechanical system in a text file, alembert derives the
- equations of motion in symbols by several formalisms, judges derivations made
- by hand, writes a C++ solver for this one system, compiles and integrates it,
- and says how large the error is.
- .
- The package has the program, the libraries with their headers for
- find_package(alembert), the manual and the documentation.")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION  # CPack writes the summary before it
+"From a description of a mechanical system in a text file, alembert derives the
+equations of motion in symbols by several formalisms, judges derivations made
+by hand, writes a C++ solver for this one system, compiles and integrates it,
+and says how large the error is.
+
+The package has the program, the libraries with their headers for
+find_package(alembert), the manual and the documentation.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
