@@ -142,7 +142,9 @@ ex short_form(const ex& e, const Mechanism& m) {
         return m.z->name(known->second);
     const auto f = fourier(plain, *m.symbols, 200);
     if (!f || f->size() > 20) return e;
-    const ex result = expression(readable(*f));
+    // A chain of trailers has a hundred such expressions, so that the search for a short form of each is limited.
+    constexpr std::size_t effort = 1500;
+    const ex result = expression(readable(*f, effort));
     m.symbols->short_forms.emplace(plain, result);
     return m.z->name(result);
 }

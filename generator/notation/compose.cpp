@@ -66,10 +66,6 @@ Piece symbol_piece(const Factor& factor) {
     return piece;
 }
 
-/// Shorter forms are searched for until the polynomials composed have this many terms together, which takes a few
-/// tenths of a second. A free rigid body takes 2900.
-constexpr std::size_t most_effort = 6000;
-
 /// Steady terms first, then by degree, then in canonical order.
 bool stands_before(const Term& a, const Term& b) {
     const auto degree = [](const Monomial& monomial) {
@@ -146,7 +142,7 @@ int Composer::cost(const Polynomial& polynomial) {
 }
 
 bool Composer::is_exhausted() const {
-    return effort_ > most_effort;
+    return effort_ > most_effort_;
 }
 
 const Polynomial& Composer::unfolded(const Polynomial& normal_form) {

@@ -19,7 +19,12 @@ class Composer {
 public:
     /// With `decimals`, all fractions that are finite decimals are written as decimals: 0.4·x + 9.81, not 2/5·x +
     /// 9.81.
-    explicit Composer(bool decimals = false) : decimals_(decimals) {}
+    /// Shorter forms are searched for until the polynomials composed have `most_effort` terms together.
+    explicit Composer(bool decimals = false, std::size_t most_effort = usual_effort)
+        : decimals_(decimals), most_effort_(most_effort) {}
+
+    /// This takes a few tenths of a second. A free rigid body takes 2900.
+    static constexpr std::size_t usual_effort = 6000;
 
     /// Sines and cosines count as variables here. Sums are grouped where that is shorter.
     const Phrase& operator()(const Polynomial& polynomial);
@@ -47,6 +52,7 @@ private:
     bool stays_apart(const Polynomial& polynomial) const;
 
     bool decimals_;
+    std::size_t most_effort_;
     std::size_t effort_ = 0;  ///< number of terms of all polynomials composed so far
     Factorizer factorizer_;
     struct Entry {

@@ -86,7 +86,7 @@ bool has_decimals(const Fourier& f) {
 
 class Writer {
 public:
-    explicit Writer(bool decimals) : compose_(decimals) {}
+    explicit Writer(bool decimals, std::size_t effort = Composer::usual_effort) : compose_(decimals, effort) {}
 
     Lines lines(const Fourier& f) {
         std::vector<Term> accelerated, others;
@@ -318,7 +318,11 @@ Rational common_number(const Lines& lhs, const Lines& rhs) {
 }  // namespace
 
 Phrase readable(const Fourier& f) {
-    Writer writer(has_decimals(f));
+    return readable(f, Composer::usual_effort);
+}
+
+Phrase readable(const Fourier& f, std::size_t effort) {
+    Writer writer(has_decimals(f), effort);
     return writer.write(writer.energy_lines(f));
 }
 

@@ -21,7 +21,9 @@
 
 namespace alembert {
 
-/// An energy, a generalized force, an output.
+/// An energy, a generalized force, an output. `effort` limits the search for a short form: the terms of all
+/// polynomials that are tried (usual_effort of the composer).
+Phrase readable(const Fourier& f, std::size_t effort);
 Phrase readable(const Fourier& f);
 
 struct ReadableEquation {
