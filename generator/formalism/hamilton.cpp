@@ -185,6 +185,12 @@ Equations hamilton(const Mechanism& mechanism) {
 OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
     const StepWriter write(m);
     const CanonicalEquations c = canonical(m).value();
+    std::vector<Fourier> rates;  // q', then p'
+    for (int i = 0; i < 2 * m.size(); ++i) {
+        const auto f = write.normal(i < m.size() ? c.qdot[i] : c.pdot[i - m.size()]);
+        if (!f) return {};
+        rates.push_back(*f);
+    }
     Section section{.words =
                         say("Legendre's transform: with p = dL/dq', Hamilton's function is H = sum of p q' - L:")};
     for (int i = 0; i < m.size(); ++i) write.equality(section, write.symbol_of(c.p[i]), c.momenta[i]);
@@ -192,10 +198,9 @@ OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
     OwnSteps result{.sections = {std::move(section)}, .title = say("Hamilton's canonical equations")};
     for (int i = 0; i < 2 * m.size(); ++i) {
         const int k = i % m.size();
-        const auto f = write.normal(i < m.size() ? c.qdot[k] : c.pdot[k]);
-        if (!f) return {};
-        result.equations.push_back(
-            {i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]), in_fractions(*f, *m.symbols), {}});
+        result.equations.push_back({i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]),
+                                    in_fractions(rates[static_cast<std::size_t>(i)], *m.symbols),
+                                    {}});
     }
     return result;
 }

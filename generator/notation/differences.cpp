@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "notation/phrase.hpp"
+
 namespace alembert {
 
 namespace {
@@ -107,7 +109,9 @@ bool is_difference_of_waves(const Polynomial& polynomial) {
     if (polynomial.size() != 2) return false;
     const Term &a = polynomial.terms()[0], &b = polynomial.terms()[1];
     const auto is_wave = [](const Monomial& monomial) {
-        return monomial.size() == 1 && monomial[0].atom->is_circular() && monomial[0].exponent == 1;
+        if (monomial.size() != 1 || !monomial[0].atom->is_circular() || monomial[0].exponent != 1) return false;
+        const Polynomial& angle = monomial[0].atom->args[0];
+        return angle.size() == 1 && angle.terms()[0].coefficient == 1 && angle.terms()[0].monomial.size() == 1;
     };
     return is_wave(a.monomial) && is_wave(b.monomial) && a.monomial[0].atom->kind == b.monomial[0].atom->kind &&
            cln::abs(a.coefficient) == 1 && a.coefficient == -b.coefficient;
@@ -115,11 +119,16 @@ bool is_difference_of_waves(const Polynomial& polynomial) {
 
 std::vector<Polynomial> differences_of_waves(const Polynomial& polynomial) {
     std::vector<Polynomial> result, terms;
+    if (polynomial.size() > longest_searched) return result;
     for (const Term& term : polynomial.terms()) terms.push_back(Polynomial::collect({term}));
     for (std::size_t i = 0; i < terms.size(); ++i)
         for (std::size_t j = i + 1; j < terms.size(); ++j) {
+            const Term &first = terms[i].terms()[0], &second = terms[j].terms()[0];
+            if (first.coefficient != -second.coefficient || is_decimal(first.coefficient) ||
+                first.monomial.size() != second.monomial.size())
+                continue;
             const Polynomial pair = terms[i] + terms[j];
-            const Rational scale = cln::abs(terms[i].terms()[0].coefficient);
+            const Rational scale = cln::abs(first.coefficient);
             if (!is_difference_of_waves((1 / scale) * divide(pair, common_monomial(pair)))) continue;
             result.push_back(pair);
             terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(j));

@@ -25,7 +25,7 @@ std::vector<Polynomial> powers_of_differences(const Polynomial& polynomial);
 /// cosine, and the remaining terms one by one. The list is empty if there is no such pair.
 std::vector<Polynomial> differences_of_waves(const Polynomial& polynomial);
 
-/// sin θ − sin φ or cos θ − cos φ, or the opposite.
+/// sin θ − sin φ or cos θ − cos φ of two variables, or the opposite.
 bool is_difference_of_waves(const Polynomial& polynomial);
 
 }  // namespace alembert
