@@ -19,11 +19,15 @@
 #include "report/check.hpp"
 #include "report/derivation.hpp"
 #include "report/emission.hpp"
+#include "report/equilibria.hpp"
 #include "report/evaluation.hpp"
 #include "report/impact.hpp"
+#include "report/inertia.hpp"
 #include "report/inverse.hpp"
+#include "report/kinematics.hpp"
 #include "report/linearization.hpp"
 #include "report/run.hpp"
+#include "report/stability.hpp"
 #include "run/emission.hpp"
 #include "scene/claims_file.hpp"
 #include "system.hpp"
@@ -54,10 +58,32 @@ Answer check_claims(const std::string& text, const std::string& file, const std:
     return answer(check(std::move(scene), by));
 }
 
+/// The values as typed: the shortest decimals that give them, which are then exact.
+ExactOverrides exact_overrides_of(const Values& at) {
+    ExactOverrides result;
+    for (const auto& [name, value] : at) result.emplace_back(name, fmt::format("{}", value));
+    return result;
+}
+
 Answer linearized(const std::string& text, const std::string& file, const Values& at, const std::string& by) {
-    LinearizeOptions options{.by = by, .at = overrides_of(at)};
-    for (const auto& [name, value] : at) options.exact_at.emplace_back(name, fmt::format("{:.17g}", value));
-    return answer(linearize(parse_scene(text, file), options));
+    return answer(linearize(parse_scene(text, file),
+                            {.by = by, .at = overrides_of(at), .exact_at = exact_overrides_of(at)}));
+}
+
+Answer judged_stability(const std::string& text, const std::string& file, const Values& at, const std::string& by,
+                        double period, const std::string& lyapunov) {
+    return answer(stability(parse_scene(text, file), {.by = by,
+                                                      .at = overrides_of(at),
+                                                      .exact_at = exact_overrides_of(at),
+                                                      .period = period,
+                                                      .lyapunov = lyapunov}));
+}
+
+Answer kinematics_of(const std::string& text, const std::string& file, const std::vector<std::string>& of,
+                     const Values& at, bool steps) {
+    const SceneKinematics found =
+        kinematics(parse_scene(text, file), {.of = of, .at = overrides_of(at), .steps = steps});
+    return {as_json(found, steps).dump(), found.warnings};
 }
 
 Answer evaluated(const std::string& text, const std::string& file, const Values& at, const std::string& by,
@@ -188,6 +214,16 @@ void add_verbs(py::module_& module) {
     });
     module.def("evaluate", evaluated);
     module.def("linearize", linearized);
+    module.def("stability", judged_stability);
+    module.def("equilibrium", [](const std::string& text, const std::string& file, const Values& at,
+                                 const std::string& by, int starts) {
+        return answer(equilibria(parse_scene(text, file), {.by = by, .at = overrides_of(at), .starts = starts}));
+    });
+    module.def("kinematics", kinematics_of);
+    module.def("inertia", [](const std::string& text, const std::string& file, const std::vector<std::string>& of,
+                             const std::string& about, const Values& at) {
+        return answer(inertia(parse_scene(text, file), {.of = of, .about = about, .at = overrides_of(at)}));
+    });
     module.def("inverse",
                [](const std::string& text, const std::string& file, const Values& at, const std::string& by) {
                    return answer(inverse(parse_scene(text, file), {.by = by, .at = overrides_of(at)}));

@@ -56,6 +56,17 @@ class Verbs(unittest.TestCase):
         still = scene.linearize({"theta1": 0, "theta2": 0, "theta1'": 0, "theta2'": 0, "t": 0})
         self.assertEqual(len(still.eigenvalues), 4)
 
+    def test_stability_equilibria_kinematics_and_inertia(self):
+        file = scene_file("textbook/rotating_hoop.toml")
+        scene = alembert.Scene(file)
+        self.assertEqual(scene.stability({"theta": 0}).json, program("stability", file, "--at", "theta=0"))
+        self.assertEqual(scene.equilibrium(starts=30).json, program("equilibrium", file, "--starts", "30"))
+        pendulum = alembert.Scene(PENDULUM)
+        velocity = pendulum.kinematics(["P"]).points["P"]["values"]["velocity"]
+        np.testing.assert_allclose(velocity, [0.15 * math.cos(0.4), 0.15 * math.sin(0.4), 0])
+        bodies = scene_file("textbook/gyrocompass.toml")
+        self.assertEqual(alembert.Scene(bodies).inertia(["rotor"]).json, program("inertia", bodies, "--of", "rotor"))
+
     def test_formulas_for_notebooks(self):
         derivation = alembert.Scene(PENDULUM).derive()
         self.assertIn("\\theta", derivation._repr_latex_())

@@ -244,6 +244,22 @@ class Scene:
         """Matrices and eigenvalues near an equilibrium or a steady motion."""
         return Result(_taken(_alembert.linearize(self.text, self.name, at or {}, by)))
 
+    def stability(self, at=None, *, by="", period=0.0, lyapunov=""):
+        """Is an equilibrium or a steady motion stable, and why? `verdict`, `by` and the rest of the command's."""
+        return Result(_taken(_alembert.stability(self.text, self.name, at or {}, by, period, lyapunov)))
+
+    def equilibrium(self, at=None, *, by="", starts=0):
+        """Where the system can stay at rest or move steadily: `equilibria`."""
+        return Result(_taken(_alembert.equilibrium(self.text, self.name, at or {}, by, starts)))
+
+    def kinematics(self, of=(), at=None, *, steps=False):
+        """Positions, velocities and accelerations of frames, bodies and points (all of them, or those named)."""
+        return Result(_taken(_alembert.kinematics(self.text, self.name, list(of), at or {}, steps)))
+
+    def inertia(self, of=(), about="", at=None):
+        """Masses, centres of mass and moments of inertia of bodies (all of them, or those named)."""
+        return Result(_taken(_alembert.inertia(self.text, self.name, list(of), about, at or {})))
+
     def simulate(self, duration=None, tolerance=None, *, method="", step=None, sample=None, max_step=None,
                  budget=10_000_000, estimate=True, reactions=False, by=""):
         """Integrates the motion. What is not given is the scene's."""
