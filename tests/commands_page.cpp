@@ -2,7 +2,9 @@
 // The page of a scene: its contents, that it is well formed, and that nothing of a scene becomes markup or script.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -212,6 +214,69 @@ TEST_CASE("page: equilibria with their verdicts and eigenvalues, and a section o
     const auto refused = run({"report", hoop, "-o", file, "--poincare", "theta"});
     CHECK(refused.exit == 3);
     CHECK(refused.err.find("expected an equation of the state") != std::string::npos);
+}
+
+TEST_CASE("page: letters of a figure do not cover each other, and lie inside it") {
+    struct Letter {
+        double x, y, half;
+    };
+    for (const char* name : {"cart_pole", "planetary_gear", "hoop_pendulum", "coin", "belt_drive", "snakeboard"}) {
+        CAPTURE(name);
+        const std::string file = temporary("figure.svg", "");
+        REQUIRE(
+            run({"derive", source_path("scenes/textbook/" + std::string(name) + ".toml"), "--draw", file}).exit ==
+            0);
+        const std::string svg = contents(file);
+        std::vector<Letter> letters;
+        for (std::size_t at = svg.find("<text "); at != std::string::npos; at = svg.find("<text ", at + 1)) {
+            const std::size_t x = svg.find(" x=\"", at) + 4, y = svg.find(" y=\"", at) + 4,
+                              end = svg.find('>', at);
+            if (svg.substr(at, end - at).find("visibility=\"hidden\"") != std::string::npos) continue;
+            std::string shown;
+            const std::size_t stop = svg.find("</text>", end);
+            for (std::size_t k = end; k < stop; k = svg.find('>', k + 1))
+                shown += svg.substr(k + 1, std::min(svg.find('<', k + 1), stop) - k - 1);
+            const auto characters =
+                std::count_if(shown.begin(), shown.end(), [](char c) { return (c & 0xc0) != 0x80; });
+            letters.push_back(
+                {std::stod(svg.substr(x)), std::stod(svg.substr(y)), 3.0 * static_cast<double>(characters)});
+        }
+        CHECK(letters.size() >= 4);
+        for (std::size_t i = 0; i < letters.size(); ++i) {
+            CHECK(letters[i].x > 5);
+            CHECK(letters[i].y > 8);
+            for (std::size_t j = 0; j < i; ++j) {
+                const bool covers = std::abs(letters[i].x - letters[j].x) < letters[i].half + letters[j].half &&
+                                    std::abs(letters[i].y - letters[j].y) < 9;
+                CHECK_FALSE(covers);
+            }
+        }
+    }
+}
+
+TEST_CASE("page: numbers along an axis that differ after many digits count from a round number in its name") {
+    const std::string page = page_of(temporary("slow.toml", R"toml(
+gravity = [0, -9.81]
+[coordinates]
+x = { initial = 1.5, unit = "m" }
+[[particle]]
+name = "bead"
+mass = 1
+position = ["x", "1 + x"]
+[simulation]
+duration = 1e-3
+)toml"));
+    const std::size_t plots = page.find("<section id=\"plots\"");
+    bool has_base = false;
+    for (std::size_t at = page.find("class=\"tick\"", plots); at != std::string::npos;
+         at = page.find("class=\"tick\"", at + 1)) {
+        const std::size_t begin = page.find('>', at) + 1;
+        CHECK(page.find('<', begin) - begin <= 8);
+    }
+    for (std::size_t at = page.find("class=\"axis-label\"", plots); at != std::string::npos;
+         at = page.find("class=\"axis-label\"", at + 1))
+        has_base = has_base || page.substr(at, page.find("</text>", at) - at).find(" − ") != std::string::npos;
+    CHECK(has_base);
 }
 
 TEST_CASE("page: a force that acts later is drawn pale until then") {
