@@ -173,22 +173,23 @@ function figureDrawer(f, root) {
     for (const k of Object.keys(f.angles)) angles[k] = f.angles[k][low] * (1 - part) + f.angles[k][high] * part;
     f.shapes.forEach((shape, n) => {
       const node = nodes[n];
+      let hidden = false;
       if (shape.vector !== undefined) {
         const v = points[shape.vector];
-        node.setAttribute("visibility", norm(v) > 1e-3 * (shape.full || 0) && norm(v) > 0 ? "visible" : "hidden");
+        hidden = !(norm(v) > 1e-3 * (shape.full || 0) && norm(v) > 0);
       }
       if (shape.inside) {
-        const out = shape.v.some((v) => {
-          const p = vertex(v, shape, place, points), room = shape.inside;
+        const room = shape.inside;
+        hidden = hidden || shape.v.some((v) => {
+          const p = vertex(v, shape, place, points);
           return !(p[0] > room && p[0] < f.width - room && p[1] > room && p[1] < f.height - room);
         });
-        node.setAttribute("visibility", out ? "hidden" : "visible");
       }
       if (shape.from !== undefined) {
         const a = place(shape.from), b = place(shape.to), length = Math.hypot(a[0] - b[0], a[1] - b[1]);
-        const hidden = length < shape.least || (shape.most > 0 && length >= shape.most);
-        node.setAttribute("visibility", hidden ? "hidden" : "visible");
+        hidden = hidden || length < shape.least || (shape.most > 0 && length >= shape.most);
       }
+      node.setAttribute("visibility", hidden ? "hidden" : "visible");
       if (shape.kind === "circle") {
         const c = vertex(shape.v[0], shape, place, points);
         node.setAttribute("cx", c[0].toFixed(1));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -214,6 +215,48 @@ TEST_CASE("page: equilibria with their verdicts and eigenvalues, and a section o
     const auto refused = run({"report", hoop, "-o", file, "--poincare", "theta"});
     CHECK(refused.exit == 3);
     CHECK(refused.err.find("expected an equation of the state") != std::string::npos);
+}
+
+TEST_CASE("page: without --output it is named after the scene, in the current folder") {
+    const std::filesystem::path scene = source_path("scenes/textbook/rotating_hoop.toml"),
+                                folder = std::filesystem::path(temporary("unused", "")).parent_path();
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder);
+    const auto result = run({"report", scene.string(), "--no-motion"});
+    std::filesystem::current_path(before);
+    CHECK(result.exit == 0);
+    CHECK(result.out == "wrote rotating_hoop.html\n");
+    CHECK(contents((folder / "rotating_hoop.html").string()).find("<section id=\"figure\"") != std::string::npos);
+}
+
+TEST_CASE("simulate: --poincare lists the states at which the motion crosses a section") {
+    // x = cos t grows through 0 at t = 3π/2 + 2πk, where x' = 1.
+    const std::string scene = temporary("spring.toml", R"toml(
+[coordinates]
+x = { initial = 1 }
+[[particle]]
+name = "mass"
+mass = 1
+position = ["x", 0]
+[[spring]]
+along = "x"
+stiffness = 1
+)toml");
+    const std::vector<std::string> args{"simulate", scene, "--duration", "12", "--poincare", "2*x = 0"};
+    std::vector<std::string> in_json = args;
+    in_json.emplace_back("--json");
+    const Json section = Json::parse(run(in_json).out)["poincare"];
+    CHECK(section["equation"] == "2*x = 0");
+    REQUIRE(section["crossings"].size() == 2);
+    for (int k = 0; k < 2; ++k) {
+        const Json& one = section["crossings"][static_cast<std::size_t>(k)];
+        CHECK(one["time"].get<double>() == doctest::Approx((1.5 + 2 * k) * 3.14159265358979).epsilon(1e-8));
+        CHECK(one["rates"]["x"].get<double>() == doctest::Approx(1).epsilon(1e-7));
+    }
+    const auto shown = run(args);
+    CHECK(shown.out.find("section of Poincare 2*x = 0, from less to more: 2 crossings") != std::string::npos);
+    CHECK(shown.out.find("section_of") == std::string::npos);
+    CHECK(run({"simulate", scene, "--poincare", "x"}).exit == 3);
 }
 
 TEST_CASE("page: letters of a figure do not cover each other, and lie inside it") {

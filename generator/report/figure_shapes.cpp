@@ -455,6 +455,8 @@ private:
             f_.shapes[k].from = a;
             f_.shapes[k].to = b;
         }
+        if (f_.follows)  // a dimension line may reach out of a picture that moves with the masses
+            for (std::size_t k = first_shape; k < f_.shapes.size(); ++k) f_.shapes[k].inside = 7;
         if (e.points.size() < 3) return;
         const std::size_t arrow = f_.shapes.size();
         const int c = e.points[2];

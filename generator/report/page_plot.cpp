@@ -80,7 +80,11 @@ struct Ticks {
         base = fmt::format("{:.{}g}", middle, digits + 1);
     }
 
-    std::string text(double value) const { return tick_text(value - std::stod(base), step); }
+    std::string text(double value) const {
+        const double part =
+            std::round((value - std::stod(base)) / step * 1e6) / 1e6;  // without rounding of the base
+        return tick_text(part * step, step);
+    }
     /// "+ 3.6478" after the name of what is shown.
     std::string shift() const {
         if (base == "0") return "";
