@@ -144,6 +144,11 @@ TEST_CASE("page: nothing of a hostile scene becomes markup or script") {
     CHECK(nesting(svg, {}) == "");
     CHECK(count(svg, "<script") == 0);
     CHECK(count(svg, "<title ") == 1);
+    for (const std::string& written : {page, svg}) {  // XML has no control characters; one reverses what follows
+        CHECK(std::none_of(written.begin(), written.end(),
+                           [](unsigned char c) { return c < 0x20 && c != '\n' && c != '\t'; }));
+        CHECK(count(written, "\xE2\x80\xAE") == 0);
+    }
 }
 
 TEST_CASE("page: a scene that cannot be read has a page with the mistake, and the exit code 3") {

@@ -8,6 +8,7 @@
 #include "report/figure_screen.hpp"
 #include "report/letters.hpp"
 #include "report/page.hpp"
+#include "report/plot.hpp"
 
 namespace alembert {
 
@@ -90,7 +91,7 @@ std::string as_svg(const FigureShapes& figure, const Pose& pose, const std::vect
         for_page
             ? ""
             : fmt::format(" width=\"{}\" height=\"{}\"", number(1.5 * figure.width), number(1.5 * figure.height)),
-        xml_escaped(title), xml_escaped(description));
+        plot_escaped(title), plot_escaped(description));
     if (!for_page)
         svg += fmt::format("<style>{}</style>\n<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n", paper,
                            number(figure.width), number(figure.height));
