@@ -1,6 +1,6 @@
 "use strict";
 // The figure's other poses, the cursor of the plots, and the copy buttons. All positions and values were calculated by
-// alembert; what is done here is drawing. The arithmetic of the figure is that of report/figure_svg.cpp.
+// alembert; what is done here is drawing. The arithmetic of the figure is that of report/figure_screen.cpp.
 (() => {
 const SVG = "http://www.w3.org/2000/svg";
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -173,28 +173,36 @@ function figureDrawer(f, root) {
     for (const k of Object.keys(f.angles)) angles[k] = f.angles[k][low] * (1 - part) + f.angles[k][high] * part;
     f.shapes.forEach((shape, n) => {
       const node = nodes[n];
+      let hidden = false;
       if (shape.vector !== undefined) {
         const v = points[shape.vector];
-        node.setAttribute("visibility", norm(v) > 1e-3 * (shape.full || 0) && norm(v) > 0 ? "visible" : "hidden");
+        hidden = !(norm(v) > 1e-3 * (shape.full || 0) && norm(v) > 0);
+      }
+      if (shape.inside) {
+        const room = shape.inside;
+        hidden = hidden || shape.v.some((v) => {
+          const p = vertex(v, shape, place, points);
+          return !(p[0] > room && p[0] < f.width - room && p[1] > room && p[1] < f.height - room);
+        });
       }
       if (shape.from !== undefined) {
         const a = place(shape.from), b = place(shape.to), length = Math.hypot(a[0] - b[0], a[1] - b[1]);
-        const hidden = length < shape.least || (shape.most > 0 && length >= shape.most);
-        node.setAttribute("visibility", hidden ? "hidden" : "visible");
+        hidden = hidden || length < shape.least || (shape.most > 0 && length >= shape.most);
       }
+      node.setAttribute("visibility", hidden ? "hidden" : "visible");
       if (shape.kind === "circle") {
         const c = vertex(shape.v[0], shape, place, points);
         node.setAttribute("cx", c[0].toFixed(1));
         node.setAttribute("cy", c[1].toFixed(1));
       } else if (shape.kind === "text") {
-        const p = vertex(shape.v[0], shape, place, points);
-        node.setAttribute("x", p[0].toFixed(1));
-        node.setAttribute("y", (p[1] + 5).toFixed(1));
+        const p = vertex(shape.v[0], shape, place, points), [right, down] = shape.nudge || [0, 0];
+        node.setAttribute("x", (p[0] + right).toFixed(1));
+        node.setAttribute("y", (p[1] + down + 5).toFixed(1));
       } else if (shape.kind === "angle_text") {
-        const [c, start, sweep] = arc(shape, place, angles), r = shape.size + 11;
+        const [c, start, sweep] = arc(shape, place, angles), r = shape.size + 11, [right, down] = shape.nudge || [0, 0];
         const at = Math.abs(sweep) >= 0.5 ? start + sweep / 2 : start + sweep + (sweep < 0 ? -0.32 : 0.32);
-        node.setAttribute("x", (c[0] + r * Math.cos(at)).toFixed(1));
-        node.setAttribute("y", (c[1] + r * Math.sin(at) + 5).toFixed(1));
+        node.setAttribute("x", (c[0] + right + r * Math.cos(at)).toFixed(1));
+        node.setAttribute("y", (c[1] + down + r * Math.sin(at) + 5).toFixed(1));
       } else {
         node.setAttribute("d", path(shape, place, points, angles));
       }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "commands/language.hpp"
 #include "language/catalogue.hpp"
 #include "language/say.hpp"
+#include "program.hpp"
 
 namespace commands_language {
 
@@ -111,6 +113,24 @@ TEST_CASE("language: each translation holds values of its English text, written 
         CAPTURE(english);
         CAPTURE(translation);
         CHECK(std::includes(wanted.begin(), wanted.end(), used.begin(), used.end()));
+    }
+}
+
+TEST_CASE("language: what the reader of TOML finds is said in Chinese too") {
+    for (const char* text : {"a = [1 2]", "= 1", "a = \"\\q\"", "a = 1\n[a]", "a = 10:99:00", "a = 1__0",
+                             "a = [1,,2]", "a..b = 1", "a b = 1", "a = {b = 1}\na.c = 2"}) {
+        CAPTURE(text);
+        const auto result = test::run({"derive", "--language", "zh", test::temporary("mistake.toml", text)});
+        CHECK(result.exit == 3);
+        const std::string mark = "TOML：";
+        const std::size_t begin = result.err.find(mark);
+        REQUIRE(begin != std::string::npos);
+        const std::string message = result.err.substr(begin + mark.size(), result.err.find('\n', begin) - begin);
+        int letters = 0;  // one after the other
+        for (const char c : message.substr(0, message.find('\n'))) {
+            letters = std::isalpha(static_cast<unsigned char>(c)) != 0 ? letters + 1 : 0;
+            CHECK(letters < 3);
+        }
     }
 }
 

@@ -2,7 +2,10 @@
 // The page of a scene: its contents, that it is well formed, and that nothing of a scene becomes markup or script.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -135,6 +138,11 @@ TEST_CASE("page: nothing of a hostile scene becomes markup or script") {
     CHECK(nesting(svg, {}) == "");
     CHECK(count(svg, "<script") == 0);
     CHECK(count(svg, "<title ") == 1);
+    for (const std::string& written : {page, svg}) {  // XML has no control characters; one reverses what follows
+        CHECK(std::none_of(written.begin(), written.end(),
+                           [](unsigned char c) { return c < 0x20 && c != '\n' && c != '\t'; }));
+        CHECK(count(written, "\xE2\x80\xAE") == 0);
+    }
 }
 
 TEST_CASE("page: a scene that cannot be read has a page with the mistake, and the exit code 3") {
@@ -206,6 +214,111 @@ TEST_CASE("page: equilibria with their verdicts and eigenvalues, and a section o
     const auto refused = run({"report", hoop, "-o", file, "--poincare", "theta"});
     CHECK(refused.exit == 3);
     CHECK(refused.err.find("expected an equation of the state") != std::string::npos);
+}
+
+TEST_CASE("page: without --output it is named after the scene, in the current folder") {
+    const std::filesystem::path scene = source_path("scenes/textbook/rotating_hoop.toml"),
+                                folder = std::filesystem::path(temporary("unused", "")).parent_path();
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder);
+    const auto result = run({"report", scene.string(), "--no-motion"});
+    std::filesystem::current_path(before);
+    CHECK(result.exit == 0);
+    CHECK(result.out == "wrote rotating_hoop.html\n");
+    CHECK(contents((folder / "rotating_hoop.html").string()).find("<section id=\"figure\"") != std::string::npos);
+}
+
+TEST_CASE("simulate: --poincare lists the states at which the motion crosses a section") {
+    // x = cos t grows through 0 at t = 3π/2 + 2πk, where x' = 1.
+    const std::string scene = temporary("spring.toml", R"toml(
+[coordinates]
+x = { initial = 1 }
+[[particle]]
+name = "mass"
+mass = 1
+position = ["x", 0]
+[[spring]]
+along = "x"
+stiffness = 1
+)toml");
+    const std::vector<std::string> args{"simulate", scene, "--duration", "12", "--poincare", "2*x = 0"};
+    std::vector<std::string> in_json = args;
+    in_json.emplace_back("--json");
+    const Json section = Json::parse(run(in_json).out)["poincare"];
+    CHECK(section["equation"] == "2*x = 0");
+    REQUIRE(section["crossings"].size() == 2);
+    for (int k = 0; k < 2; ++k) {
+        const Json& one = section["crossings"][static_cast<std::size_t>(k)];
+        CHECK(one["time"].get<double>() == doctest::Approx((1.5 + 2 * k) * 3.14159265358979).epsilon(1e-8));
+        CHECK(one["rates"]["x"].get<double>() == doctest::Approx(1).epsilon(1e-7));
+    }
+    const auto shown = run(args);
+    CHECK(shown.out.find("section of Poincare 2*x = 0, from less to more: 2 crossings") != std::string::npos);
+    CHECK(shown.out.find("section_of") == std::string::npos);
+    CHECK(run({"simulate", scene, "--poincare", "x"}).exit == 3);
+}
+
+TEST_CASE("page: letters of a figure do not cover each other, and lie inside it") {
+    struct Letter {
+        double x, y, half;
+    };
+    for (const char* name : {"cart_pole", "planetary_gear", "hoop_pendulum", "coin", "belt_drive", "snakeboard"}) {
+        CAPTURE(name);
+        const std::string file = temporary("figure.svg", "");
+        REQUIRE(
+            run({"derive", source_path("scenes/textbook/" + std::string(name) + ".toml"), "--draw", file}).exit ==
+            0);
+        const std::string svg = contents(file);
+        std::vector<Letter> letters;
+        for (std::size_t at = svg.find("<text "); at != std::string::npos; at = svg.find("<text ", at + 1)) {
+            const std::size_t x = svg.find(" x=\"", at) + 4, y = svg.find(" y=\"", at) + 4,
+                              end = svg.find('>', at);
+            if (svg.substr(at, end - at).find("visibility=\"hidden\"") != std::string::npos) continue;
+            std::string shown;
+            const std::size_t stop = svg.find("</text>", end);
+            for (std::size_t k = end; k < stop; k = svg.find('>', k + 1))
+                shown += svg.substr(k + 1, std::min(svg.find('<', k + 1), stop) - k - 1);
+            const auto characters =
+                std::count_if(shown.begin(), shown.end(), [](char c) { return (c & 0xc0) != 0x80; });
+            letters.push_back(
+                {std::stod(svg.substr(x)), std::stod(svg.substr(y)), 3.0 * static_cast<double>(characters)});
+        }
+        CHECK(letters.size() >= 4);
+        for (std::size_t i = 0; i < letters.size(); ++i) {
+            CHECK(letters[i].x > 5);
+            CHECK(letters[i].y > 8);
+            for (std::size_t j = 0; j < i; ++j) {
+                const bool covers = std::abs(letters[i].x - letters[j].x) < letters[i].half + letters[j].half &&
+                                    std::abs(letters[i].y - letters[j].y) < 9;
+                CHECK_FALSE(covers);
+            }
+        }
+    }
+}
+
+TEST_CASE("page: numbers along an axis that differ after many digits count from a round number in its name") {
+    const std::string page = page_of(temporary("slow.toml", R"toml(
+gravity = [0, -9.81]
+[coordinates]
+x = { initial = 1.5, unit = "m" }
+[[particle]]
+name = "bead"
+mass = 1
+position = ["x", "1 + x"]
+[simulation]
+duration = 1e-3
+)toml"));
+    const std::size_t plots = page.find("<section id=\"plots\"");
+    bool has_base = false;
+    for (std::size_t at = page.find("class=\"tick\"", plots); at != std::string::npos;
+         at = page.find("class=\"tick\"", at + 1)) {
+        const std::size_t begin = page.find('>', at) + 1;
+        CHECK(page.find('<', begin) - begin <= 8);
+    }
+    for (std::size_t at = page.find("class=\"axis-label\"", plots); at != std::string::npos;
+         at = page.find("class=\"axis-label\"", at + 1))
+        has_base = has_base || page.substr(at, page.find("</text>", at) - at).find(" − ") != std::string::npos;
+    CHECK(has_base);
 }
 
 TEST_CASE("page: a force that acts later is drawn pale until then") {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <set>
 
 #include "figure/drawing.hpp"
 #include "lower/lower.hpp"
@@ -230,6 +231,46 @@ TEST_CASE("figure: springs along a coordinate are found between their points, st
     CHECK(of_kind(chain.figure, Kind::spring).size() == 3);
     CHECK(of_kind(chain.figure, Kind::damper).size() == 1);
     CHECK(of_kind(chain.figure, Kind::wall).size() == 2);
+}
+
+TEST_CASE("figure: a body that no joint holds is round where its moment of inertia or its ropes say so") {
+    const Drawn ball = drawn("scenes/textbook/sphere_on_sphere.toml");
+    REQUIRE(of_kind(ball.figure, Kind::ring).size() == 1);
+    CHECK(of_kind(ball.figure, Kind::ring)[0].size == doctest::Approx(0.2));  // of 2 m r²/5
+    REQUIRE(of_kind(ball.figure, Kind::curve).size() == 1);                   // the sphere below it, of radius R
+    const FigureElement circle = of_kind(ball.figure, Kind::curve)[0];
+    for (const int k : circle.points) CHECK(ball.pose[k].norm() == doctest::Approx(1.0));
+    CHECK(of_kind(ball.figure, Kind::tie).empty());
+    const Drawn inside = drawn("scenes/textbook/cylinder_in_cylinder.toml");
+    CHECK(of_kind(inside.figure, Kind::curve).size() == 1);
+    const Drawn drum = drawn("scenes/textbook/stepped_drum.toml");
+    std::set<double> radii;
+    for (const FigureElement& e : of_kind(drum.figure, Kind::ring)) radii.insert(std::round(1e6 * e.size) / 1e6);
+    CHECK(radii == std::set{0.15, 0.4});
+    const Drawn belt = drawn("scenes/textbook/belt_drive.toml");
+    CHECK(of_kind(belt.figure, Kind::ring).size() == 2);
+    const Drawn stick = drawn("scenes/textbook/falling_stick.toml");
+    CHECK(of_kind(stick.figure, Kind::ring).empty());
+    // A ball on a floor: its gap is that of its lowest point.
+    const Drawn billiards = drawn("scenes/friction/billiard_ball.toml");
+    REQUIRE(of_kind(billiards.figure, Kind::floor).size() == 1);
+    CHECK(near(billiards.pose[of_kind(billiards.figure, Kind::floor)[0].points[0]], {0, 0, 0}));
+}
+
+TEST_CASE("figure: a particle hangs on the centre of its circle, on its rope, or runs on its curve") {
+    const Drawn two = drawn("scenes/textbook/coupled_pendulums.toml");
+    CHECK(has_line(two, Kind::rod, {0.5, 0, 0}, {0.5, -1, 0}, "l"));
+    CHECK(has_point(two, Kind::support, {0.5, 0, 0}));
+    CHECK(letter(two, Kind::angle, "theta2") != nullptr);
+    const Drawn bead = drawn("scenes/textbook/bead_on_parabola.toml");
+    REQUIRE(of_kind(bead.figure, Kind::curve).size() == 1);
+    const FigureElement parabola = of_kind(bead.figure, Kind::curve)[0];
+    for (const int k : parabola.points) {
+        const Vector3d& p = bead.pose[k];
+        CHECK(p[2] == doctest::Approx(1.5 * (p[0] * p[0] + p[1] * p[1])));
+    }
+    const Drawn swing = drawn("scenes/textbook/swinging_atwood.toml");
+    CHECK(has_line(swing, Kind::rope, {0, 0, 0}, {std::sin(1.5), -std::cos(1.5), 0}, ""));
 }
 
 TEST_CASE("figure: scenes with energies only have none, and all others have finite points") {

@@ -47,6 +47,27 @@ double critical(const std::string& name, const Axis& axis, const Overrides& at =
 
 }  // namespace
 
+TEST_CASE("stability: a state that is steady for these parameters alone has no conditions in the parameters") {
+    const Scene spring = parse_scene(R"toml(
+[parameters]
+k = 2.0
+c = 3.0
+[coordinates]
+x = "sqrt(k/c)"
+[[particle]]
+name = "p"
+mass = 1
+position = ["x", 0]
+[[force]]
+at = "p"
+vector = ["k - c*x^2", 0]
+)toml",
+                                     "spring.toml");
+    CHECK(!stability(spring, {}).conditions.empty());
+    CHECK(stability(spring, {.at = {{"x", 0.816496580927726}}, .exact_at = {{"x", "0.816496580927726"}}})
+              .conditions.empty());
+}
+
 TEST_CASE("scenes of stability: every claim is proved, and each scene says where it is from and how to run it") {
     const std::vector<std::string> files = test::scenes_in("scenes/stability");
     CHECK(files.size() == 14);

@@ -127,6 +127,7 @@ std::string help_of_verb(const CLI::App& verb) {
     append(lines, filled(say("{}.", verb.get_description()), columns));
     append(lines, entries_of(verb));
     const std::vector<std::string> codes = about_exit_codes();
+    if (lines.size() + codes.size() + 1 > lines_of_a_screen) lines.erase(lines.begin() + 1);  // the empty line
     append(lines, lists_of(verb, lines.size() + codes.size()));
     append(lines, codes);
     return joined(lines);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <filesystem>
+
 #include "alembert/error.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
@@ -25,7 +27,14 @@ struct ReportVerb : SceneOptions {
     throw;
 }
 
-int run(const ReportVerb& verb) {
+/// The page beside which nothing was named: SCENE.html in the current folder.
+std::string usual_page(const std::string& scene) {
+    return std::filesystem::path(scene).stem().string() + ".html";
+}
+
+int run(const ReportVerb& given) {
+    ReportVerb verb = given;
+    if (verb.output.empty()) verb.output = usual_page(verb.scene);
     check_output(verb.output, {verb.scene});
     Progress progress;
     OverviewOptions options{.by = verb.by, .wishes = verb.wishes, .moves = verb.moves};
@@ -57,11 +66,11 @@ void add_report(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "report",
          .about = say("writes one page about the scene, with a figure that moves"),
-         .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
+         .example = "alembert report scenes/textbook/double_pendulum.toml"},
         run, [](Verb& verb, ReportVerb& options) {
-            verb.add_option("-o,--output", options.output, say("the page, HTML"))
-                .type_name(values::file)
-                .required();
+            verb.add_option("-o,--output", options.output,
+                            say("the page, HTML; default: the scene's name with .html, in this folder"))
+                .type_name(values::file);
             add_by_option(verb, options.by);
             add_duration_option(verb, options.wishes);
             verb.add_option("--budget", options.wishes.budget, say("evaluations of the motion, at most"))

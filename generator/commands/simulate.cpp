@@ -11,14 +11,16 @@
 #include "language/say.hpp"
 #include "report/motion_plot.hpp"
 #include "report/run.hpp"
+#include "run/section.hpp"
 
 namespace alembert {
 
 namespace {
 
 struct SimulateVerb : RunVerb {
-    std::string plot;  ///< an SVG file; empty for none
-    std::string show;  ///< the names of the columns that it shows, with commas; if empty, all
+    std::string plot;     ///< an SVG file; empty for none
+    std::string section;  ///< of Poincaré; empty for none
+    std::string show;     ///< the names of the columns that it shows, with commas; if empty, all
 };
 
 int run(const SimulateVerb& verb) {
@@ -28,15 +30,25 @@ int run(const SimulateVerb& verb) {
     wishes.columns = shown_names(verb.show);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Run run = simulate(scene_of(verb.scene), wishes);
+    Scene scene = scene_of(verb.scene);
+    if (!verb.section.empty()) {
+        Prepared begun = prepared(std::move(scene));
+        scene = std::move(begun.scene);
+        add_section(scene, begun.mechanism, verb.section);
+    }
+    Run run = simulate(std::move(scene), wishes);
+    const SectionOfRun section{verb.section, take_crossings(run)};
     progress.wipe();
     warn(run.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(run.rows), {verb.scene});
     if (!verb.plot.empty()) write_file(verb.plot, motion_plot(run, wishes.columns), {verb.scene});
     if (verb.json) {
-        show(as_json(run));
+        Json all = as_json(run);
+        if (!verb.section.empty()) all["poincare"] = as_json(section, run);
+        show(all);
     } else {
         show_formulas(as_text(run, ink_for(STDOUT_FILENO)));
+        if (!verb.section.empty()) show_formulas(as_text(section, run));
         for (const std::string& file : {verb.output, verb.plot})
             if (!file.empty()) show(say("wrote {}\n", file));
     }
@@ -60,6 +72,8 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.add_option("--plot", options.plot, say("SVG picture of the motion over time"))
                 .type_name(values::file);
             add_show_option(verb, options.show, "--plot");
+            verb.add_option("--poincare", options.section, say("section of Poincare, as in \"theta1 = 0\""))
+                .type_name(values::formula);
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));
             add_reactions_option(verb, options.wishes.reactions);

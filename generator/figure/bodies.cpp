@@ -128,6 +128,76 @@ private:
         return turn / way;
     }
 
+    /// p, if the moment of inertia about the normal of the plane is mass·p²·c with a parameter p and the c of a
+    /// disc, a ball or a hoop. Nothing says more about the body's shape.
+    struct Radius {
+        double here, changed;  ///< at the initial state, and with other parameters
+    };
+    std::optional<Radius> round_radius() const {
+        const MassElement& mass = s_.m.masses[body_->mass];
+        if (!mass.rotation || !(body_->weight > 0)) return {};
+        const GiNaC::ex inertia = mass.rotation->inertia[static_cast<std::size_t>(s_.normal)];
+        if (s_.m.z->tree_size(inertia) > 100 || s_.m.z->tree_size(mass.mass) > 100) return {};
+        const GiNaC::ex square = s_.m.z->expand(inertia) / s_.m.z->expand(mass.mass);
+        std::size_t next = 0;
+        for (const Mechanism::Parameter& p : s_.m.parameters) {
+            if (!p.independent) continue;
+            const std::size_t k = next++;
+            const GiNaC::ex part = (square / GiNaC::pow(p.symbol, 2)).normal();
+            for (const GiNaC::numeric& round : {GiNaC::numeric(1, 2), GiNaC::numeric(2, 5), GiNaC::numeric(1)})
+                if (part.is_equal(round)) return Radius{s_.parameter(0, k), s_.parameter(Sketch::states, k)};
+        }
+        return {};
+    }
+
+    /// Does coordinate k turn the body and leave its centre at rest?
+    bool turns_only(int state, int k) const {
+        const double step = 1e-3, q = s_.coordinate(state, k);
+        const auto change = [&](int track) {
+            return (s_.with(state, track, k, q + step) - s_.at(state, track)).norm() / step;
+        };
+        return change(body_->centre) < 1e-9 && std::abs(change(body_->axes[s_.normal == 0 ? 1 : 0]) - 1) < 1e-3;
+    }
+
+    /// The radii of a drum or pulley: what a turn of it moves by a rope or a belt, as r·theta in a constraint
+    /// beside the way of a mass, or in the length of a spring beside another coordinate.
+    std::vector<double> rope_radii() const {
+        std::vector<double> radii;
+        const auto add = [&](double radius) {
+            if (radius > 0 && std::none_of(radii.begin(), radii.end(),
+                                           [&](double known) { return nearly(known, radius, 1e-6); }))
+                radii.push_back(radius);
+        };
+        const auto slope = [&](int track, int k) {
+            const double step = 1e-3, q = s_.coordinate(0, k);
+            return std::abs(s_.with(0, track, k, q + step)[0] - s_.at(0, track)[0]) / step;
+        };
+        const auto way_of_masses = [&](int k) {
+            double way = 0;
+            for (const int mass : s_.free_track)
+                way = std::max(way,
+                               (s_.with(0, mass, k, s_.coordinate(0, k) + 1e-3) - s_.at(0, mass)).norm() / 1e-3);
+            return way;
+        };
+        const int n = s_.m.size();
+        for (int k = 0; k < n; ++k) {
+            if (!turns_only(0, k)) continue;
+            for (const std::vector<int>& row : asked_.rows) {
+                if (static_cast<int>(row.size()) != n || s_.at(0, row[k])[0] == 0) continue;
+                for (int other = 0; other < n; ++other)
+                    if (const double a = std::abs(s_.at(0, row[other])[0]);
+                        other != k && a > 0 && way_of_masses(other) > 0)
+                        add(std::abs(s_.at(0, row[k])[0]) / a * way_of_masses(other));
+            }
+            for (const int along : asked_.spring_along) {
+                if (along < 0 || !(slope(along, k) > 1e-9)) continue;
+                for (int other = 0; other < n; ++other)
+                    if (other != k && slope(along, other) > 1e-9) add(slope(along, k));
+            }
+        }
+        return radii;
+    }
+
     /// The axis of symmetry of a body, about which the inertia is the same in all perpendicular directions; -1 if
     /// there is none.
     int axis_of_symmetry() const {
@@ -174,11 +244,31 @@ private:
         else
             element(Kind::ball,
                     {centre(), spot_at({radius, 0, 0}), spot_at({0, radius, 0}), spot_at({0, 0, radius})}, radius);
+        add_track({});
+    }
+
+    /// The circle on which a wheel rolls whose centre turns about a fixed point.
+    void add_track(std::optional<double> changed_radius) {
+        for (const Sketch::Site& site : s_.sites)
+            if (s_.is_finite(site.track) && s_.distance(site.track, body_->centre) &&
+                add_round_ground(s_, site.track, body_->centre, changed_radius))
+                return;
     }
 
     void add_in_plane(const std::vector<int>& held) {
-        const double square = body_->inertia[s_.normal == 2 ? 2 : s_.normal];
+        const double square = body_->inertia[s_.normal];
         if (held.empty()) {
+            if (const std::optional<Radius> radius = round_radius()) {
+                add_ring(s_.normal, radius->here);
+                add_track(radius->changed);
+                return;
+            }
+            if (s_.is_fixed(body_->centre)) {
+                std::vector<double> radii = rope_radii();
+                if (radii.empty() && body_->weight == 0) radii.push_back(0.12 * s_.scale);
+                for (const double radius : radii) add_ring(s_.normal, radius);
+                if (!radii.empty()) return;
+            }
             const double half = square > 0 ? std::sqrt(3 * square) : 0.12 * s_.scale;
             if (body_->weight > 0 && square == 0) {
                 element(Kind::disc, {centre()}, body_->weight);

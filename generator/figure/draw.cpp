@@ -60,6 +60,7 @@ Drawing draw(const Scene& scene, const Mechanism& mechanism) {
     Asked tracks = asked(sketch);
     sketch.sample();
     spread(sketch, tracks);
+    find_centres(sketch);
     add_bodies(sketch, tracks);
     add_particles(sketch);
     add_constraints(sketch, tracks);

@@ -24,6 +24,7 @@ struct FigureElement {
     enum class Kind {
         disc,     ///< centre: a particle, or a body of unknown size; `size` is its mass
         block,    ///< centre, and a point at distance one along its guide: a particle that slides
+        curve,    ///< points: the way on which a particle is led
         rod,      ///< two ends: a constant distance, without mass
         bar,      ///< two ends: a body along a line
         plate,    ///< corners: a body through several points

@@ -210,12 +210,12 @@ void add_coordinates(Sketch& s) {
         const auto rank = [&](const Sketch::Site& site) {
             return (site.mass >= 0 ? 0 : 1000) + movers(s, site.track);
         };
-        for (const Sketch::Site& site : s.sites)
-            if (s.is_finite(site.track) && shifts_by(s, k, site.track) &&
-                (moved == nullptr || rank(site) < rank(*moved)))
-                moved = &site;
+        for (const Sketch::Site& site : s.sites) {
+            if (!s.is_finite(site.track) || !shifts_by(s, k, site.track)) continue;
+            add_rope(s, k, site);
+            if (moved == nullptr || rank(site) < rank(*moved)) moved = &site;
+        }
         if (moved != nullptr) {
-            add_rope(s, k, *moved);
             found.push_back({.kind = Kind::length,
                              .points = {s.spot(moved->track, k), s.spot(moved->track)},
                              .label = name,

@@ -2,6 +2,7 @@
 /// Particles, the massless rods on which they turn, and the guides on which they slide.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "figure/parts.hpp"
 
@@ -65,23 +66,125 @@ std::vector<const Sketch::Site*> pivots(const Sketch& s, const Sketch::Site& par
     return found;
 }
 
+/// The only coordinate that moves the point; -1 if there is none, or more.
+int only_mover(const Sketch& s, int track) {
+    int found = -1;
+    for (int k = 0; k < s.m.size(); ++k) {
+        const double q = s.coordinate(1, k);
+        if (!((s.with(1, track, k, q + 0.3) - s.at(1, track)).norm() > 1e-7 * s.scale)) continue;
+        if (found >= 0) return -1;
+        found = k;
+    }
+    return found;
+}
+
+bool is_particle(const Sketch& s, const Sketch::Site& site) {
+    return site.mass >= 0 && s.m.masses[site.mass].origin.kind == Origin::Kind::particle &&
+           s.is_finite(site.track);
+}
+
+/// Is a full turn of coordinate k a full turn of the point?
+bool comes_back(const Sketch& s, int track, int k) {
+    for (int state = 0; state < Sketch::states; ++state) {
+        const double q = s.coordinate(state, k);
+        const Vector3d there = s.with(state, track, k, q + 2 * std::numbers::pi);
+        if (!((there - s.at(state, track)).norm() <= 1e-7 * s.scale)) return false;
+    }
+    return true;
+}
+
+/// Does the point turn on a circle, whose centre is the middle between opposite points?
+bool is_on_circle(const Sketch& s, int track, int k) {
+    if (!comes_back(s, track, k)) return false;
+    double radius = -1;
+    for (int state = 0; state < Sketch::states; ++state) {
+        const double q = s.coordinate(state, k);
+        const Vector3d opposite = s.with(state, track, k, q + std::numbers::pi),
+                       aside = s.with(state, track, k, q + 1), centre = (opposite + s.at(state, track)) / 2;
+        const double here = (s.at(state, track) - centre).norm();
+        if (radius < 0) radius = here;
+        if (!(here > 1e-6 * s.scale && std::abs(here - radius) <= 1e-7 * s.scale &&
+              std::abs((aside - centre).norm() - radius) <= 1e-7 * s.scale))
+            return false;
+    }
+    return true;
+}
+
+constexpr double longest_formula = 2000;
+
+/// A particle's place, with coordinate k set to a number.
+std::optional<Vector3> place_at(const Sketch& s, int mass, int k, const GiNaC::ex& value) {
+    Vector3 place;
+    for (int i = 0; i < 3; ++i) {
+        const GiNaC::ex& component = s.m.masses[mass].position[i];
+        if (s.m.z->tree_size(component) > longest_formula) return {};
+        place[i] = s.m.z->expand(component).subs(s.m.q[k] == value);
+    }
+    return place;
+}
+
+/// The way on which a particle with one coordinate is led, as far as it lies near the start.
+void add_curve(Sketch& s, const Sketch::Site& site) {
+    const int k = only_mover(s, site.track);
+    if (k < 0) return;
+    double low = 0, high = 2 * std::numbers::pi;
+    const bool is_closed = comes_back(s, site.track, k);
+    if (!is_closed) {
+        high = std::max(1.3 * std::abs(s.start.q[k]), 0.5 * std::abs(s.start.qdot[k]));
+        if (high == 0) high = 1;
+        low = -high;
+    }
+    constexpr int parts = 48;
+    std::vector<int> points;
+    for (int i = 0; i <= parts; ++i) {
+        const double q = low + (high - low) * i / parts;
+        const auto place = is_closed && i == parts ? std::nullopt : place_at(s, site.mass, k, exactly(q));
+        if (place)
+            points.push_back(s.spot(s.track(*place)));
+        else if (is_closed && i == parts && !points.empty())
+            points.push_back(points.front());
+        else
+            return;
+    }
+    s.add({.kind = Kind::curve, .points = points, .owner = site.mass});
+}
+
 }  // namespace
+
+void find_centres(Sketch& s) {
+    std::vector<int> centres;
+    for (const Sketch::Site& site : s.sites) {
+        if (!is_particle(s, site) || !pivots(s, site).empty() || is_part_of_a_body(s, site.track)) continue;
+        const int k = only_mover(s, site.track);
+        if (k < 0 || !is_on_circle(s, site.track, k)) continue;
+        const auto here = place_at(s, site.mass, k, 0), there = place_at(s, site.mass, k, GiNaC::Pi);
+        if (!here || !there) continue;
+        Vector3 centre;
+        for (int i = 0; i < 3; ++i) centre[i] = ((*here)[i] + (*there)[i]) / 2;
+        centres.push_back(s.track(centre));
+    }
+    if (centres.empty()) return;
+    for (const int centre : centres) s.add_site(centre);
+    s.sample();
+}
 
 void add_particles(Sketch& s) {
     for (const Sketch::Site& site : s.sites) {
-        if (site.mass < 0 || s.m.masses[site.mass].origin.kind != Origin::Kind::particle) continue;
-        if (!s.is_finite(site.track)) continue;
+        if (!is_particle(s, site)) continue;
         const double mass = s.masses[site.mass];
         const std::string& symbol = s.scene.particles[s.m.masses[site.mass].origin.index].mass.text;
         const bool is_symbol = symbol.size() <= 6 && symbol.find_first_not_of("0123456789.") != std::string::npos;
         const std::string label = is_symbol ? symbol : site.name;
-        if (!is_part_of_a_body(s, site.track))
-            for (const Sketch::Site* pivot : pivots(s, site))
-                s.add({.kind = Kind::rod,
-                       .points = {s.spot(pivot->track), s.spot(site.track)},
-                       .label = s.name_of_length(pivot->track, site.track),
-                       .owner = site.mass});
+        const bool is_free = !is_part_of_a_body(s, site.track);
+        const std::vector<const Sketch::Site*> about =
+            is_free ? pivots(s, site) : std::vector<const Sketch::Site*>();
+        for (const Sketch::Site* pivot : about)
+            s.add({.kind = Kind::rod,
+                   .points = {s.spot(pivot->track), s.spot(site.track)},
+                   .label = s.name_of_length(pivot->track, site.track),
+                   .owner = site.mass});
         const std::optional<Vector3d> way = straight_way(s, site.track);
+        if (is_free && about.empty() && !way && s.displaced.empty()) add_curve(s, site);
         const bool slides = s.is_plane && way && std::abs(way->dot(s.down)) < 0.99;
         const int here = s.spot(site.track);
         if (slides) {
@@ -98,6 +201,41 @@ void add_particles(Sketch& s) {
             s.add({.kind = Kind::disc, .points = {here}, .label = label, .size = mass, .owner = site.mass});
         }
     }
+}
+
+bool add_round_ground(Sketch& s, int middle, int wheel, std::optional<double> changed) {
+    if (!s.is_plane || !s.is_fixed(middle)) return false;
+    const int rim = s.spot(wheel);
+    const auto ring = std::find_if(s.elements.begin(), s.elements.end(), [&](const FigureElement& e) {
+        return (e.kind == Kind::ring || e.kind == Kind::ball) && e.points[0] == rim;
+    });
+    if (ring == s.elements.end()) return false;
+    const auto apart = [&](int state) { return (s.at(state, wheel) - s.at(state, middle)).norm(); };
+    const auto is_parameter = [&](double side) {
+        for (std::size_t k = 0; k < s.start.parameters.size(); ++k) {
+            const auto is_it = [&](int state, double r) {
+                return std::abs(s.parameter(state, k) - apart(state) - side * r) <= 1e-6 * apart(state);
+            };
+            if (is_it(0, ring->size) && (!changed || is_it(Sketch::states, *changed))) return true;
+        }
+        return false;
+    };
+    for (const double side : {-1.0, 1.0}) {
+        const double radius = apart(0) + side * ring->size;
+        if (!(radius > 0) || !is_parameter(side)) continue;
+        const Vector3d x = Vector3d::Unit(s.normal == 0 ? 1 : 0), y = Vector3d::Unit(s.normal == 2 ? 1 : 2),
+                       centre = s.at(0, middle) - s.at(0, s.place("O"));
+        std::vector<int> points;
+        constexpr int parts = 72;
+        for (int i = 0; i <= parts; ++i) {
+            const double angle = 2 * std::numbers::pi * i / parts;
+            points.push_back(
+                s.spot(s.place("O"), -1, centre + radius * (std::cos(angle) * x + std::sin(angle) * y)));
+        }
+        s.add({.kind = Kind::curve, .points = points});
+        return true;
+    }
+    return false;
 }
 
 void add_constraints(Sketch& s, const Asked& asked) {
@@ -122,6 +260,7 @@ void add_constraints(Sketch& s, const Asked& asked) {
             const auto value = [&](int state) { return s.at(state, track)[0]; };
             pairs([&](int a, int b) {
                 if (!s.shifted(value, square(a, b)) && !s.shifted(value, length(a, b))) return false;
+                if (add_round_ground(s, a, b) || add_round_ground(s, b, a)) return true;
                 s.add({.kind = Kind::tie, .points = {s.spot(a), s.spot(b)}, .label = s.m.constraints[k].name});
                 return true;
             });
@@ -136,8 +275,12 @@ void add_constraints(Sketch& s, const Asked& asked) {
                 const auto line = s.shifted(value, height);
                 if (!line) continue;
                 const int origin = s.place("O");
-                const Vector3d out = Vector3d::Unit(axis) * (line->first > 0 ? 1 : -1),
-                               foot = Vector3d::Unit(axis) * (-line->second / line->first);
+                const Vector3d out = Vector3d::Unit(axis) * (line->first > 0 ? 1 : -1);
+                Vector3d foot = Vector3d::Unit(axis) * (-line->second / line->first);
+                const int here = s.spot(site.track);  // the centre of a ball is above the floor
+                for (const FigureElement& e : s.elements)
+                    if ((e.kind == Kind::ring || e.kind == Kind::ball) && e.points[0] == here)
+                        foot -= e.size * out;
                 const int other = s.is_plane ? 3 - axis - s.normal : (axis + 1) % 3;
                 s.add({.kind = Kind::floor,
                        .points = {s.spot(origin, -1, foot), s.spot(origin, -1, foot + Vector3d::Unit(other)),

@@ -24,8 +24,15 @@ Asked asked(Sketch& sketch);
 /// the walls. For other scenes it does nothing. Springs and dampers that it has drawn are marked in `asked`.
 void spread(Sketch& sketch, Asked& asked);
 
+/// Adds the points about which particles turn as sites, where the scene has no name for them.
+void find_centres(Sketch& sketch);
+
 void add_bodies(Sketch& sketch, const Asked& asked);
 void add_particles(Sketch& sketch);
+/// The circle on which a wheel rolls, if the wheel's centre `wheel` keeps its distance from the fixed point
+/// `middle` and the radius of that circle is a parameter, also where the wheel's radius is `changed` because all
+/// parameters are. Returns whether it was added.
+bool add_round_ground(Sketch& sketch, int middle, int wheel, std::optional<double> changed = {});
 void add_constraints(Sketch& sketch, const Asked& asked);
 void add_springs(Sketch& sketch, const Asked& asked);
 void add_hinges(Sketch& sketch);

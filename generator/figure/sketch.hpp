@@ -57,6 +57,8 @@ public:
     std::optional<std::pair<double, double>> shifted(const std::function<double(int)>& f,
                                                      const std::function<double(int)>& g) const;
     double coordinate(int state, int k) const { return at_[state].q[k]; }
+    /// The k-th independent parameter; it differs only in the last state, `states`.
+    double parameter(int state, std::size_t k) const { return at_[state].parameters[k]; }
     /// The parameter that equals a distance, or half of it, for any values of the parameters; empty if there is
     /// none.
     std::string name_of_length(int a, int b) const;
@@ -66,6 +68,8 @@ public:
     /// The first of all sites at the same position.
     const Site& canonical(int track) const;
     const Site* site(const std::string& name) const;
+    /// Adds a point that the scene does not name; `sample` must be called again before its numbers are used.
+    void add_site(int track) { sites.push_back({Site::Of::point, "", track, -1, ""}); }
     /// A site of the scene: point, mass or origin.
     int place(const std::string& name) const { return site(name)->track; }
 

@@ -44,8 +44,8 @@ constexpr std::array patterns{
         "no contact mode is consistent at t = {}: contact '{}' and others open and close while the time does not "
         "advance; loosen the tolerance, or look at the gaps there"),
     to_say("the impulses of event '{}' follow each other without end before t = {}: the last {} came within {} s; "
-           "what "
-           "bounces and comes to rest is a [[unilateral]] with its restitution"),
+           "what bounces and comes to rest is a [[unilateral]] with its restitution; an impulse that is not to "
+           "follow itself needs a 'direction' or another 'when'"),
     to_say("there are no rates after the impulses of the events at t = {}: {}"),
     to_say("a value is not finite"),
     to_say("the mass matrix is singular"),
@@ -62,6 +62,22 @@ constexpr std::array patterns{
     to_say(
         "no C++ compiler: looked for {} in $PATH; install one (on Debian: apt install g++) or name one with $CXX"),
     to_say("cannot write {}: {}; is the disk full?"),
+    to_say("cannot write to the cache, nor make a temporary folder {}: {}; name a writable folder with "
+           "$XDG_CACHE_HOME or $TMPDIR"),
+    to_say("the cache of compiled solvers, {}, belongs to user {} and has mode {}; expected user {} and no right "
+           "for others to write, because what is in it is run: chmod go-w it if it is yours, or name another "
+           "folder with $XDG_CACHE_HOME"),
+    to_say("the compiler failed with status {}:\n  {}\n{}"),
+    to_say("the compiler succeeded but left no {}"),
+    to_say("cannot rename {} to {}: {}"),
+    to_say("cannot load the solver: {}; delete it from the cache, and see that the folder allows programs to run"),
+    to_say("{} was emitted for version {} of the solver ABI, this program has version {}; emit it again"),
+    to_say("{} was emitted for version {} of the series' ABI, this program has version {}; emit it again"),
+    to_say("{} is not a solver: it has no alembert_solver()"),
+    to_say("{} holds no Taylor series: it has no alembert_series()"),
+    to_say("cannot make a pipe to a child process: {}"),
+    to_say("cannot start {}: {}"),
+    to_say("a function whose sign is needed is not a number at t = {}"),
     to_say("{} has a fixed step: give it, for example step = {}"),
     to_say("step = {}: more than {} steps"),
     to_say("sample = {}: more than {} rows"),
@@ -74,6 +90,46 @@ constexpr std::array patterns{
     to_say("{}: 1 required {} missing"),
     to_say("{} requires {}"),
     to_say("{} is required"),
+};
+
+/// toml++, and the words that it puts into its messages.
+constexpr std::array toml_patterns{
+    to_say("expected comma or closing '{}', saw {}"),
+    to_say("expected value or closing '{}', saw {}"),
+    to_say("expected key-value pair or closing '{}', saw {}"),
+    to_say("expected keys, tables, whitespace or comments, saw {}"),
+    to_say("expected bare key starting character or string delimiter, saw {}"),
+    to_say("expected a comment or whitespace, saw {}"),
+    to_say("expected hex digit, saw {}"),
+    to_say("expected '{}', saw {}"),
+    to_say("expected second between {} and {} (inclusive), saw {}"),
+    to_say("expected {} between {} and {} (inclusive), saw {}"),
+    to_say("expected {} between {} to {} (inclusive), saw {}"),
+    to_say("unknown escape sequence '{}'"),
+    to_say("unicode surrogates (U+D800 - U+DFFF) are explicitly prohibited"),
+    to_say("values greater than U+10FFFF are invalid"),
+    to_say("cannot redefine existing {} '{}' as {}"),
+    to_say("cannot redefine existing {} as {}"),
+    to_say("cannot redefine existing {} '{}'"),
+    to_say("underscores may only follow digits"),
+    to_say("values may not begin with underscores"),
+    to_say("could not determine value type"),
+    to_say("multi-line strings are prohibited in keys"),
+    to_say("line-ending backslashes must be the last non-whitespace character on the line"),
+    to_say("dotted key-value pair"),
+    to_say("array-of-tables"),
+    to_say("array"),
+    to_say("table"),
+    to_say("integer"),
+    to_say("string"),
+    to_say("boolean"),
+    to_say("floating-point"),
+    to_say("year"),
+    to_say("month"),
+    to_say("day"),
+    to_say("hour"),
+    to_say("minute"),
+    to_say("comma"),
 };
 
 /// What stands at the places {} of the pattern; none if the text is not of this form.
@@ -93,17 +149,26 @@ std::optional<std::vector<std::string>> values_of(std::string_view text, std::st
     return values;
 }
 
-}  // namespace
-
-std::string translated_from_library(const std::string& message) {
+template <typename Patterns>
+std::string translated_by(const Patterns& patterns, const std::string& message) {
     for (const char* const pattern : patterns) {
         const auto values = values_of(message, pattern);
         if (!values) continue;
         fmt::dynamic_format_arg_store<fmt::format_context> store;
-        for (const std::string& value : *values) store.push_back(translated_from_library(value));
+        for (const std::string& value : *values) store.push_back(translated_by(patterns, value));
         return translated_with(pattern, store);
     }
     return message;
+}
+
+}  // namespace
+
+std::string translated_from_library(const std::string& message) {
+    return translated_by(patterns, message);
+}
+
+std::string translated_from_toml(const std::string& message) {
+    return translated_by(toml_patterns, message);
 }
 
 }  // namespace alembert

@@ -11,4 +11,7 @@ namespace alembert {
 /// The message in the language of the reader. English is given back unchanged.
 std::string translated_from_library(const std::string& message);
 
+/// The same for a message of toml++, whose values are words such as "table" and parts of the file.
+std::string translated_from_toml(const std::string& message);
+
 }  // namespace alembert

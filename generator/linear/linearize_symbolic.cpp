@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "linear/linearize_symbolic.hpp"
 
+#include <algorithm>
+
 #include "notation/readable.hpp"
 #include "symbolic/fourier.hpp"
 
@@ -62,6 +64,10 @@ std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e,
                 (*matrix)(i, j) = *element;
             }
         }
+    result.stays = std::all_of(f.begin(), f.end(), [&](const ex& force) {
+        const auto value = fourier(force.subs(there), *m.symbols, 400);
+        return value && is_zero(*value);
+    });
     return result;
 }
 

@@ -19,6 +19,7 @@ namespace alembert {
 
 struct SymbolicMatrices {
     GiNaC::matrix M, C, G, K, N;
+    bool stays = false;  ///< f(q0, u0) = 0 is proved for all values of the parameters: the motion stays steady
 };
 
 /// Nothing if there are constraints or other speeds, more than four coordinates, or an element with more than

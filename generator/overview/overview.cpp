@@ -8,7 +8,7 @@
 #include "alembert/error.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
-#include "model/formulas.hpp"
+#include "run/section.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -105,32 +105,6 @@ void pose(WatchedMotion& motion, const Drawing& drawing, const State<double>& st
     }
 }
 
-const char* const section_event = "section_of_Poincare_";
-
-/// The section as an event that is recorded.
-EventRule section_rule(const Overview& all, const std::string& section) {
-    const auto refuse = [&](const std::string& why) {
-        throw ModelError(
-            say("--poincare {}: {}; expected an equation of the state, as in --poincare \"theta1 = 0\"", section,
-                why));
-    };
-    const std::size_t equals = section.find('=');
-    if (equals == std::string::npos || section.find('=', equals + 1) != std::string::npos)
-        refuse(say("this is none"));
-    std::vector<Diagnostic> mistakes;
-    const Expression difference = parse_expression(
-        fmt::format("({}) - ({})", section.substr(0, equals), section.substr(equals + 1)), {}, mistakes);
-    if (!difference) refuse(mistakes.empty() ? say("this is none") : mistakes[0].message);
-    try {
-        Formulas formulas(all.scene, all.mechanism);
-        const GiNaC::ex value = all.mechanism.z->name(formulas.value(difference));
-        if (all.mechanism.z->depends(value, all.mechanism.qddot)) refuse(say("it holds accelerations"));
-    } catch (const SceneMistake& mistake) {
-        refuse(mistake.diagnostic.message);
-    }
-    return {.name = {section_event, {}}, .when = difference, .direction = 1};
-}
-
 WatchedMotion watched(const Overview& all, const OverviewOptions& options) {
     RunOptions wishes = options.wishes;
     wishes.by = options.by;
@@ -141,14 +115,10 @@ WatchedMotion watched(const Overview& all, const OverviewOptions& options) {
         if (duration > 0) wishes.sample = duration / rows;
     }
     Scene scene = all.scene;
-    if (!options.section.empty()) scene.events.push_back(section_rule(all, options.section));
+    if (!options.section.empty()) add_section(scene, all.mechanism, options.section);
     WatchedMotion motion{.run = simulate(std::move(scene), wishes)};
     motion.section = options.section;
-    std::erase_if(motion.run.motion.events, [&](const EventRecord& e) {
-        if (e.name != section_event) return false;
-        motion.crossings.push_back(e.state);
-        return true;
-    });
+    for (const EventRecord& crossing : take_crossings(motion.run)) motion.crossings.push_back(crossing.state);
     watch_energies(motion, all.mechanism, all.start);
     watch_constraints(motion, all.mechanism, all.start);
     if (all.drawing.value && all.drawing.value->obstacle.empty()) pose(motion, *all.drawing.value, all.start);
@@ -200,7 +170,8 @@ Overview overview(Scene scene, const OverviewOptions& options) {
         if (options.wishes.progress) options.wishes.progress(what, 0);
     };
     const Scene& s = all.scene;
-    if (!options.section.empty()) section_rule(all, options.section);  // throws before anything long is done
+    if (Scene unused = s; !options.section.empty())  // throws before anything long is done
+        add_section(unused, all.mechanism, options.section);
     const bool is_readable = all.mechanism.size() <= readable_size;
     tell(say("deriving"));
     all.derived = attempted([&] { return derive(s, {.by = options.by}); });

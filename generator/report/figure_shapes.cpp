@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "report/figure_screen.hpp"
+
 namespace alembert {
 
 namespace {
@@ -47,6 +49,7 @@ private:
         switch (kind) {
             case Element::floor:
             case Element::guide:
+            case Element::curve:
             case Element::wall:
             case Element::axes:
             case Element::gravity:
@@ -129,7 +132,7 @@ private:
                     {between(p[0], p[1], 0, -11, -18, true), between(p[0], p[1], 0, -11, 18),
                      between(p[0], p[1], 0, 11, 18), between(p[0], p[1], 0, 11, -18)})
                     .closed = true;
-                return text("name", at(p[0], 0, 5), mass_label(e));
+                return text("name", at(p[0]), mass_label(e));
             case Element::rod:
                 line("rod", p[0], p[1]);
                 return text("name", between(p[0], p[1], 0.5, label_side(p[0], p[1])), e.label);
@@ -185,6 +188,12 @@ private:
             case Element::tie:
                 line("tie", p[0], p[1]);
                 return;
+            case Element::curve: {
+                std::vector<FigureVertex> way;
+                for (const int k : p) way.push_back(at(k, 0, 0, way.empty()));
+                put(Kind::path, "curve", way);
+                return;
+            }
             case Element::force:
             case Element::waiting:
             case Element::impulse:
@@ -386,13 +395,16 @@ private:
         const std::vector<int>& p = e.points;
         for (int k = 0; k < 3; ++k) {
             if (f_.is_plane && k == d_.normal) continue;
-            const double length = 44;
+            const double length = 40;
             put(Kind::path, "axis",
                 {between(p[0], p[k + 1], 0, 0, 0, true), between(p[0], p[k + 1], 0, 0, length),
                  between(p[0], p[k + 1], 0, -3, length - 7, true), between(p[0], p[k + 1], 0, 0, length),
-                 between(p[0], p[k + 1], 0, 3, length - 7)});
-            text("axis-name", between(p[0], p[k + 1], 0, 0, length + 9),
-                 std::string(1, static_cast<char>('x' + k)));
+                 between(p[0], p[k + 1], 0, 3, length - 7)})
+                .inside = 2;
+            FigureShape& name =
+                put(Kind::text, "axis-name", {between(p[0], p[k + 1], 0, 0, length + 9), at(p[0])});
+            name.text = std::string(1, static_cast<char>('x' + k));
+            name.inside = 9;
         }
     }
 
@@ -443,6 +455,8 @@ private:
             f_.shapes[k].from = a;
             f_.shapes[k].to = b;
         }
+        if (f_.follows)  // a dimension line may reach out of a picture that moves with the masses
+            for (std::size_t k = first_shape; k < f_.shapes.size(); ++k) f_.shapes[k].inside = 7;
         if (e.points.size() < 3) return;
         const std::size_t arrow = f_.shapes.size();
         const int c = e.points[2];
@@ -470,7 +484,9 @@ private:
 
 FigureShapes shapes_of(const Drawing& drawing, const std::vector<Pose>& poses,
                        const std::vector<std::vector<double>>& q) {
-    return Strokes(drawing, poses, q).all();
+    FigureShapes shapes = Strokes(drawing, poses, q).all();
+    place_letters(shapes, poses.front(), q.front());
+    return shapes;
 }
 
 }  // namespace alembert

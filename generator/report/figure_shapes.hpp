@@ -44,10 +44,12 @@ struct FigureShape {
     int vector = -1;  ///< the direction to whose tip the vertices reach; its length on the screen shows its size
     double full = 0;  ///< the largest size of that direction; 0 if it always has the same length
     double turn = 1;  ///< for arcs in the plane, the sense in which the coordinate counts on the screen
-    int coordinate = -1;     ///< for arcs in the plane, the coordinate that gives the angle
-    int from = -1, to = -1;  ///< the stroke is hidden if these points are
-    double least = 0;        ///< nearer to each other on the screen than this,
-    double most = 0;         ///< or not nearer than this; 0 means no bound
+    int coordinate = -1;          ///< for arcs in the plane, the coordinate that gives the angle
+    int from = -1, to = -1;       ///< the stroke is hidden if these points are
+    double least = 0;             ///< nearer to each other on the screen than this,
+    double most = 0;              ///< or not nearer than this; 0 means no bound
+    double inside = 0;            ///< if not 0: hidden if a vertex is nearer than this to the edge of the picture
+    Eigen::Vector2d nudge{0, 0};  ///< shifts a text on the screen
 };
 
 struct FigureShapes : FigureView {

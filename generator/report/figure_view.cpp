@@ -53,11 +53,12 @@ private:
         v_.toward = std::cos(elevation) * out + std::sin(elevation) * vertical;
     }
 
-    /// The points that must be inside the picture.
-    std::vector<int> shown() const {
+    /// The points that must be inside the picture; without those that only show how far away something is.
+    std::vector<int> shown(bool with_lengths) const {
         std::vector<int> points;
         for (const FigureElement& e : d_.elements) {
             if (e.kind == Element::length) {
+                if (!with_lengths) continue;
                 points.insert(points.end(), e.points.begin(), e.points.begin() + 2);
                 continue;
             }
@@ -67,7 +68,7 @@ private:
                 e.kind == Element::guide || e.kind == Element::box || e.kind == Element::wall)
                 continue;
             if (e.kind == Element::floor) {
-                points.push_back(e.points[3]);
+                if (with_lengths) points.push_back(e.points[3]);
                 continue;
             }
             points.insert(points.end(), e.points.begin(), first_alone ? e.points.begin() + 1 : e.points.end());
@@ -111,14 +112,15 @@ private:
     }
 
     void fit() {
-        const std::vector<int> points = shown();
+        std::vector<int> points = shown(true);
+        const std::vector<int> near = shown(false);
         Extent whole;
         double own = 0;
         for (const Pose& pose : poses_) {
             const Extent here = extent_of(pose, points, Vector3d::Zero());
             whole.hold(here.low);
             whole.hold(here.high);
-            own = std::max(own, here.size().norm());
+            own = std::max(own, extent_of(pose, near, Vector3d::Zero()).size().norm());
         }
         const bool has_floor = std::any_of(d_.elements.begin(), d_.elements.end(), [](const FigureElement& e) {
             return e.kind == Element::floor && e.size == 0;
@@ -126,6 +128,7 @@ private:
         v_.followed = d_.traced;
         if (poses_.size() > 1 && own > 0 && whole.size().norm() > 4 * own && !has_floor) {
             v_.follows = true;
+            points = near;
             whole = {};
             for (const Pose& pose : poses_) {
                 const Extent here = extent_of(pose, points, middle(pose));

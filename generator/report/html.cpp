@@ -4,6 +4,7 @@
 #include "notation/lettering.hpp"
 #include "report/formula_page.hpp"
 #include "report/letters.hpp"
+#include "scene/text.hpp"
 
 namespace alembert {
 
@@ -39,8 +40,12 @@ bool is_sign(const std::string& element) {
 }  // namespace
 
 std::string html(const std::string& text) {
-    std::string result;
-    for (const char c : xml_escaped(text))
+    std::string legal, result;
+    for (std::size_t i = 0; i < text.size();) {
+        const char32_t c = decode(text, i);
+        legal += c == U'\n' || c == U'\t' || !is_disturbing(c) ? encode(c) : "\uFFFD";
+    }
+    for (const char c : xml_escaped(legal))
         if (c == '\'')
             result += "&#39;";
         else

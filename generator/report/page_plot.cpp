@@ -13,6 +13,19 @@
 
 namespace alembert {
 
+std::vector<double> page_ticks(double low, double high, int count) {
+    const double raw = (high - low) / count, decade = std::pow(10, std::floor(std::log10(raw)));
+    double step = 10 * decade;
+    for (const double nice : {1.0, 2.0, 5.0})
+        if (nice * decade >= raw) {
+            step = nice * decade;
+            break;
+        }
+    std::vector<double> ticks;
+    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) ticks.push_back(k * step);
+    return ticks;
+}
+
 namespace {
 
 constexpr double width = 420, height = 250, left = 70, right = 22, top = 12, bottom = 40;
@@ -36,25 +49,54 @@ Range range_of(const std::vector<const std::vector<double>*>& lists) {
     return {range.low - room, range.high + room};
 }
 
+std::string power_of_ten(const std::string& number) {
+    const std::size_t e = number.find('e');
+    if (e == std::string::npos) return number;
+    const int power = std::stoi(number.substr(e + 1));
+    return number.substr(0, e) + "·10<tspan class=\"power\" dy=\"-4\">" + std::to_string(power) + "</tspan>";
+}
+
 std::string tick_text(double value, double step) {
     if (std::abs(value) < 1e-9 * step) return "0";
-    if (std::abs(value) >= 1e5 || std::abs(value) < 1e-3) {
-        std::string text = fmt::format("{:.3g}", value);
-        if (const std::size_t e = text.find('e'); e != std::string::npos) {
-            const int power = std::stoi(text.substr(e + 1));
-            return text.substr(0, e) + "·10<tspan class=\"power\" dy=\"-4\">" + std::to_string(power) + "</tspan>";
-        }
-        return text;
-    }
+    if (std::abs(value) >= 1e5 || std::abs(value) < 1e-3) return power_of_ten(fmt::format("{:.3g}", value));
     const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-9)), 0, 6);
     return fmt::format("{:.{}f}", value, digits);
 }
 
-std::string axis_label(const std::string& name, const std::string& unit) {
-    const std::string in = name.empty() || unit.empty() ? "" : say(" in ");
+/// The numbers along an axis. Where they differ only after many digits, they count from a round number that the
+/// axis's name shows, as in "E + 3.6478 in J".
+struct Ticks {
+    std::vector<double> at;
+    double step = 1;
+    std::string base = "0";  ///< a decimal
+
+    Ticks(const Range& range, int count) : at(page_ticks(range.low, range.high, count)) {
+        if (at.size() > 1) step = at[1] - at[0];
+        const double size = std::max(std::abs(range.low), std::abs(range.high));
+        constexpr double readable = 1e-4;
+        if (step >= readable * size) return;
+        const double middle = (range.low + range.high) / 2;
+        const int digits = static_cast<int>(std::log10(size / (range.high - range.low)));
+        base = fmt::format("{:.{}g}", middle, digits + 1);
+    }
+
+    std::string text(double value) const {
+        const double part =
+            std::round((value - std::stod(base)) / step * 1e6) / 1e6;  // without rounding of the base
+        return tick_text(part * step, step);
+    }
+    /// "+ 3.6478" after the name of what is shown.
+    std::string shift() const {
+        if (base == "0") return "";
+        return base.starts_with("-") ? " + " + power_of_ten(base.substr(1)) : " − " + power_of_ten(base);
+    }
+};
+
+std::string axis_label(const std::string& name, const std::string& shift, const std::string& unit) {
+    const std::string in = (name.empty() && shift.empty()) || unit.empty() ? "" : say(" in ");
     return "<tspan class=\"letters\">" + svg_letters(name) + "</tspan>" + "<tspan" +
-           (name.find_first_of("_0123456789") == std::string::npos ? "" : " dy=\"-4\"") + ">" + in + html(unit) +
-           "</tspan>";
+           (name.find_first_of("_0123456789") == std::string::npos ? "" : " dy=\"-4\"") + ">" + shift + in +
+           html(unit) + "</tspan>";
 }
 
 std::string path(const std::vector<double>& x, const std::vector<double>& y, const Range& xs, const Range& ys,
@@ -76,19 +118,6 @@ std::string path(const std::vector<double>& x, const std::vector<double>& y, con
 }
 
 }  // namespace
-
-std::vector<double> page_ticks(double low, double high, int count) {
-    const double raw = (high - low) / count, decade = std::pow(10, std::floor(std::log10(raw)));
-    double step = 10 * decade;
-    for (const double nice : {1.0, 2.0, 5.0})
-        if (nice * decade >= raw) {
-            step = nice * decade;
-            break;
-        }
-    std::vector<double> ticks;
-    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) ticks.push_back(k * step);
-    return ticks;
-}
 
 std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x,
                       const std::vector<PagePlotLine>& lines, int x_column) {
@@ -116,29 +145,27 @@ std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x
     const auto to_y = [&](double v) {
         return height - bottom - (v - ys.low) / (ys.high - ys.low) * (height - top - bottom);
     };
-    const std::vector<double> x_ticks = page_ticks(xs.low, xs.high, 6), y_ticks = page_ticks(ys.low, ys.high, 5);
-    for (const double v : x_ticks)
+    const Ticks x_ticks(xs, 6), y_ticks(ys, 5);
+    for (const double v : x_ticks.at)
         put(page,
             "<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/><text class=\"tick\" x=\"{0:.1f}\" y=\"{3}\" "
             "text-anchor=\"middle\">{4}</text>\n",
-            to_x(v), top, height - bottom, height - bottom + 15,
-            tick_text(v, x_ticks.size() > 1 ? x_ticks[1] - x_ticks[0] : 1));
-    for (const double v : y_ticks)
+            to_x(v), top, height - bottom, height - bottom + 15, x_ticks.text(v));
+    for (const double v : y_ticks.at)
         put(page,
             "<path class=\"grid\" d=\"M{} {:.1f}H{}\"/><text class=\"tick\" x=\"{}\" y=\"{:.1f}\" "
             "text-anchor=\"end\">{}</text>\n",
-            left, to_y(v), width - right, left - 5, to_y(v) + 4,
-            tick_text(v, y_ticks.size() > 1 ? y_ticks[1] - y_ticks[0] : 1));
+            left, to_y(v), width - right, left - 5, to_y(v) + 4, y_ticks.text(v));
     if (labels.axes && xs.low < 0 && xs.high > 0)
         put(page, "<path class=\"frame\" d=\"M{:.1f} {}V{}\"/>\n", to_x(0), top, height - bottom);
     if (labels.axes && ys.low < 0 && ys.high > 0)
         put(page, "<path class=\"frame\" d=\"M{} {:.1f}H{}\"/>\n", left, to_y(0), width - right);
     put(page, "<path class=\"frame\" d=\"M{0} {1}V{2}H{3}\"/>\n", left, top, height - bottom, width - right);
     put(page, "<text class=\"axis-label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
-        (left + width - right) / 2, height - 6, axis_label(labels.x_name, labels.x_unit));
+        (left + width - right) / 2, height - 6, axis_label(labels.x_name, x_ticks.shift(), labels.x_unit));
     put(page,
         "<text class=\"axis-label\" transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-        (top + height - bottom) / 2, axis_label(labels.y_name, labels.y_unit));
+        (top + height - bottom) / 2, axis_label(labels.y_name, y_ticks.shift(), labels.y_unit));
     for (std::size_t k = 0; k < lines.size(); ++k)
         put(page, "<path class=\"line c{}{}\" d=\"{}\"/>\n", k % 7,
             labels.points ? lines[k].y.size() > 40 ? " points small" : " points"

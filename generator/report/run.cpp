@@ -279,6 +279,44 @@ std::string as_text(const Run& run, const Ink& ink) {
     return page;
 }
 
+Json as_json(const SectionOfRun& section, const Run& run) {
+    Json result{{"equation", section.equation}, {"crossings", Json::array()}};
+    const std::size_t n = run.coordinates.size();
+    const std::vector<std::string>& rates = run.speeds.empty() ? run.coordinates : run.speeds;
+    for (const EventRecord& e : section.crossings) {
+        const auto middle = e.state.begin() + static_cast<std::ptrdiff_t>(n);
+        result["crossings"].push_back(
+            {{"time", e.time},
+             {"coordinates", by_name(run.coordinates, std::vector<double>(e.state.begin(), middle))},
+             {run.speeds.empty() ? "rates" : "speeds",
+              by_name(rates, std::vector<double>(middle, middle + static_cast<std::ptrdiff_t>(rates.size())))}});
+    }
+    return result;
+}
+
+std::string as_text(const SectionOfRun& section, const Run& run) {
+    std::string page = say("\nsection of Poincare {}, from less to more: {}\n", section.equation,
+                           shown_count(static_cast<long>(section.crossings.size()), to_say("crossing")));
+    if (section.crossings.empty()) return page;
+    put(page, "{:>24}", "t");
+    for (const std::string& name : run.coordinates) put(page, "{:>24}", name);
+    for (const std::string& name : run.coordinates)
+        if (run.speeds.empty()) put(page, "{:>24}", name + "'");
+    for (const std::string& name : run.speeds) put(page, "{:>24}", name);
+    page += '\n';
+    for (std::size_t k = 0; k < std::min(section.crossings.size(), most_lines); ++k) {
+        const EventRecord& e = section.crossings[k];
+        put(page, "{:>24.15g}", e.time);
+        const std::size_t numbers =
+            run.coordinates.size() + (run.speeds.empty() ? run.coordinates : run.speeds).size();
+        for (std::size_t i = 0; i < std::min(numbers, e.state.size()); ++i) put(page, "{:>24.15g}", e.state[i]);
+        page += '\n';
+    }
+    if (section.crossings.size() > most_lines)
+        say_on(page, "… and {} more; --json gives all\n", section.crossings.size() - most_lines);
+    return page;
+}
+
 std::string as_csv(const MotionTable& table) {
     std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
     for (std::size_t row = 0; row < table.rows(); ++row)

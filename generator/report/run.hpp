@@ -10,6 +10,14 @@ namespace alembert {
 Json as_json(const Run& run);
 std::string as_text(const Run& run, const Ink& ink = {});
 
+/// A section of Poincaré: its equation, and the states at which the motion crossed it.
+struct SectionOfRun {
+    std::string equation;
+    std::vector<EventRecord> crossings;
+};
+Json as_json(const SectionOfRun& section, const Run& run);
+std::string as_text(const SectionOfRun& section, const Run& run);
+
 /// The rows, with 17 significant digits.
 std::string as_csv(const MotionTable& table);
 

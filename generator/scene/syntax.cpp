@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "language/libraries.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
 
@@ -103,7 +104,7 @@ Diagnostic syntax_mistake(const toml::parse_error& error, const Layout& layout, 
             return {source.place(value->begin), about_value(value->text, message)};
     for (const auto& [theirs, ours] : rewordings)
         if (says(theirs)) return {place, say("not valid TOML: {}", translated(ours))};
-    return {place, say("not valid TOML: {}", escaped(message, 200))};
+    return {place, say("not valid TOML: {}", escaped(translated_from_toml(message), 200))};
 }
 
 }  // namespace alembert

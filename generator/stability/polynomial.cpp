@@ -121,7 +121,8 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
     for (int i = 0; i < m.size(); ++i)
         if (m.q_is_guess[i] || m.qdot_is_guess[i]) return;
     const auto found = symbolic_matrices(m, local.equations, q0, u0);
-    if (!found) return;
+    // A state that is steady for these values of the parameters alone has no conditions in the parameters.
+    if (!found || !found->stays) return;
     const unsigned n = found->M.rows();
     GiNaC::matrix D(n, n), P(n, n);
     for (unsigned i = 0; i < n; ++i)

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Where letters stand: a letter stays at its usual place if that is free, otherwise it moves a little way.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "report/figure_screen.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Vector2d;
+using Kind = FigureShape::Kind;
+
+constexpr double step = 3;  // between points of a stroke, in units of the screen
+
+struct Box {
+    Vector2d low, high;
+    double area() const { return (high - low).cwiseMax(0).prod(); }
+    Box with(const Box& other) const { return {low.cwiseMax(other.low), high.cwiseMin(other.high)}; }
+    bool holds(const Vector2d& p, double room) const {
+        return p[0] > low[0] - room && p[0] < high[0] + room && p[1] > low[1] - room && p[1] < high[1] + room;
+    }
+};
+
+/// The number of letters that are seen of a text in SVG, an index as two thirds of a letter.
+double letters_in(const std::string& expression) {
+    const std::string svg = svg_letters(expression);
+    double count = 0;
+    bool is_tag = false, is_index = false;
+    for (std::size_t k = 0; k < svg.size(); ++k) {
+        if (svg[k] == '<') {
+            is_tag = true;
+            is_index = svg.compare(k, 19, "<tspan class=\"sub\" ") == 0;
+        } else if (svg[k] == '>') {
+            is_tag = false;
+        } else if (!is_tag && (static_cast<unsigned char>(svg[k]) & 0xc0) != 0x80) {
+            count += is_index ? 0.67 : 1;
+        }
+    }
+    return count;
+}
+
+struct Ink {
+    Vector2d at;
+    double room;    ///< half the width of the stroke
+    double weight;  ///< how much it disturbs a letter
+};
+
+double weight_of(const std::string& style) {
+    if (style == "reference" || style == "hatch" || style == "axis" || style == "great" || style == "curve")
+        return 0.4;
+    return 1;
+}
+
+std::vector<Ink> ink_of(const FigureShapes& figure, const FigureScreen& screen) {
+    std::vector<Ink> ink;
+    for (const FigureShape& shape : figure.shapes) {
+        if (is_text(shape) || screen.is_hidden(shape)) continue;
+        const double weight = weight_of(shape.style);
+        if (shape.kind == Kind::circle) {
+            const double r = screen.radius_of(shape);
+            const Vector2d c = screen.place(shape.vertices[0], shape);
+            const int count = std::clamp(static_cast<int>(2 * std::numbers::pi * r / step), 6, 400);
+            for (int k = 0; k < count; ++k) {
+                const double angle = 2 * std::numbers::pi * k / count;
+                ink.push_back({c + r * Vector2d(std::cos(angle), std::sin(angle)), 1, weight});
+            }
+            if (shape.style == "mass") ink.push_back({c, 0.7 * r, 4});
+            continue;
+        }
+        const double room = shape.style == "bar-edge" ? 4.5 : 0.8;
+        const bool is_closed = shape.closed || shape.kind == Kind::ring || shape.kind == Kind::box;
+        const std::vector<FigureScreen::Place> line = screen.outline(shape);
+        std::size_t first = 0;
+        const auto draw = [&](const Vector2d& a, const Vector2d& b) {
+            const int count = std::clamp(static_cast<int>((b - a).norm() / step), 1, 1000);
+            for (int k = 0; k <= count; ++k)
+                ink.push_back({a + static_cast<double>(k) / count * (b - a), room, weight});
+        };
+        for (std::size_t k = 0; k < line.size(); ++k) {
+            if (line[k].begins)
+                first = k;
+            else
+                draw(line[k - 1].at, line[k].at);
+            if (is_closed && (k + 1 == line.size() || line[k + 1].begins)) draw(line[k].at, line[first].at);
+        }
+    }
+    std::erase_if(ink, [](const Ink& dot) { return !dot.at.allFinite(); });
+    return ink;
+}
+
+class Letters {
+public:
+    Letters(FigureShapes& figure, const FigureScreen& screen)
+        : f_(figure), screen_(screen), ink_(ink_of(figure, screen)) {}
+
+    void place() {
+        // The letters that are bound most closely to a place come first.
+        for (const char* const style : {"angle-name", "dimension-name", "name", "", "axis-name"})
+            for (FigureShape& shape : f_.shapes) {
+                const bool is_other = shape.style != "angle-name" && shape.style != "dimension-name" &&
+                                      shape.style != "name" && shape.style != "axis-name";
+                if (!is_text(shape) || (*style == 0 ? !is_other : shape.style != style)) continue;
+                if (!screen_.is_hidden(shape)) place(shape);
+            }
+    }
+
+private:
+    double cost(const Box& box, double way) const {
+        double sum = 0.02 * way;
+        for (const Box& other : taken_) sum += 12 * box.with(other).area() / box.area();
+        for (const Ink& dot : ink_)
+            if (box.holds(dot.at, dot.room)) sum += 0.25 * dot.weight;
+        constexpr double edge = 4;
+        const Box picture{Vector2d(edge, edge), Vector2d(f_.width - edge, f_.height - edge)};
+        return sum + 40 * (1 - box.with(picture).area() / box.area());
+    }
+
+    void place(FigureShape& shape) {
+        const Vector2d middle = screen_.middle_of_text(shape);
+        if (!middle.allFinite()) return;
+        const Vector2d half(4.2 * letters_in(shape.text), 7);
+        const auto box_at = [&](const Vector2d& nudge) {
+            return Box{middle + nudge - half, middle + nudge + half};
+        };
+        Vector2d best(0, 0);
+        double least = cost(box_at(best), 0);
+        constexpr double good = 0.5;  // a letter that is touched by a thin line stays
+        static constexpr std::array ways{8.0, 14.0, 20.0, 27.0, 35.0};
+        for (const double way : ways) {
+            if (least <= good || (shape.style == "axis-name" && way > 15)) break;
+            for (int k = 0; k < 16; ++k) {
+                const double angle = std::numbers::pi * k / 8;
+                const Vector2d nudge = way * Vector2d(std::cos(angle), std::sin(angle));
+                const double here = cost(box_at(nudge), way);
+                if (here < least - 1e-9) least = here, best = nudge;
+            }
+        }
+        shape.nudge = best;
+        taken_.push_back(box_at(best));
+    }
+
+    FigureShapes& f_;
+    const FigureScreen& screen_;
+    std::vector<Ink> ink_;
+    std::vector<Box> taken_;
+};
+
+}  // namespace
+
+void place_letters(FigureShapes& figure, const Pose& pose, const std::vector<double>& q) {
+    const FigureScreen screen(figure, pose, q);
+    Letters(figure, screen).place();
+}
+
+}  // namespace alembert

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The strokes of a figure at one pose, as points of the screen. templates/page_script.js does the same
+/// arithmetic.
+///
+///     const FigureScreen screen(shapes, pose, q);
+///     screen.outline(shapes.shapes[0]);        // the points of its lines
+///     place_letters(shapes, pose, q);          // moves letters that cover each other or strokes
+
+#include <utility>
+
+#include "report/figure_shapes.hpp"
+
+namespace alembert {
+
+class FigureScreen {
+public:
+    /// The arguments must live as long as this.
+    FigureScreen(const FigureShapes& figure, const Pose& pose, const std::vector<double>& q);
+
+    struct Place {
+        bool begins;  ///< whether a new line begins here
+        Eigen::Vector2d at;
+    };
+
+    Eigen::Vector2d place(const FigureVertex& vertex, const FigureShape& shape) const;
+    /// The points of a path, ring, arc or box; nothing for circles and texts. Rings, boxes and closed paths are to
+    /// be closed.
+    std::vector<Place> outline(const FigureShape& shape) const;
+    /// The middle of a text, without its `nudge`.
+    Eigen::Vector2d middle_of_text(const FigureShape& shape) const;
+    double radius_of(const FigureShape& circle) const;
+    bool is_hidden(const FigureShape& shape) const;
+
+private:
+    Eigen::Vector2d direction(const Eigen::Vector3d& v) const;
+    Eigen::Vector2d place(int point) const;
+    Eigen::Vector2d arrow(const FigureShape& shape) const;
+    std::pair<double, double> arc(const FigureShape& shape) const;
+
+    const FigureShapes& f_;
+    const Pose& pose_;
+    const std::vector<double>& q_;
+    Eigen::Vector3d origin_;
+};
+
+bool is_text(const FigureShape& shape);
+
+/// Gives letters that would cover each other, a stroke or the edge of the picture at this pose a `nudge` to the
+/// nearest free place.
+void place_letters(FigureShapes& figure, const Pose& pose, const std::vector<double>& q);
+
+}  // namespace alembert
