@@ -16,6 +16,7 @@
 
 namespace check_functions {
 
+using alembert::test::contents;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -25,12 +26,6 @@ namespace {
 
 std::string scene(const std::string& name) {
     return source_path("scenes/functions/" + name + ".toml");
-}
-
-std::string contents(const std::string& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
 }
 
 Json claims_of(const std::string& file, const std::string& claims = "") {

@@ -58,11 +58,10 @@ TEST_CASE(
     }
     CHECK(last < 1e-8);
     CHECK(first > 1e3 * last);
-    std::ifstream picture(svg), table(csv);
-    std::stringstream text;
-    text << picture.rdbuf();
-    CHECK(text.str().find("dop853") != std::string::npos);
-    CHECK(text.str().ends_with("</svg>\n"));
+    const std::string picture = alembert::test::contents(svg);
+    CHECK(picture.find("dop853") != std::string::npos);
+    CHECK(picture.ends_with("</svg>\n"));
+    std::ifstream table(csv);
     int lines = 0;
     for (std::string line; std::getline(table, line);) ++lines;
     CHECK(lines == 13);

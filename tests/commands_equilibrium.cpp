@@ -225,14 +225,13 @@ TEST_CASE("equilibrium --follow: the hoop's pitchfork is where the angle begins"
             const bool leans = std::abs(std::sin(theta)) > 1e-6;
             CHECK(point["stable"] == (hangs || leans ? "yes" : "no"));
         }
-    std::ifstream table(csv), picture(svg);
+    std::ifstream table(csv);
     std::string first;
     std::getline(table, first);
     CHECK(first == "branch,Omega,theta,stable,kind");
-    std::stringstream text;
-    text << picture.rdbuf();
-    CHECK(text.str().starts_with("<svg"));
-    CHECK(text.str().find("stroke-dasharray") != std::string::npos);
+    const std::string picture = alembert::test::contents(svg);
+    CHECK(picture.starts_with("<svg"));
+    CHECK(picture.find("stroke-dasharray") != std::string::npos);
 }
 
 // P = 2 k y (L/ℓ − 1) with ℓ² = a² + y²; dP/dy = 0 at ℓ³ = L a².

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "contacts.hpp"
+#include "files.hpp"
 
 namespace commands_friction {
 
@@ -25,10 +26,7 @@ std::string scene_of(const std::string& name) {
 
 /// The scene with some text replaced.
 std::string changed(const std::string& name, const std::vector<std::pair<std::string, std::string>>& edits) {
-    std::ifstream in(scene_of(name));
-    std::stringstream text;
-    text << in.rdbuf();
-    std::string scene = text.str();
+    std::string scene = alembert::test::contents(scene_of(name));
     for (const auto& [from, to] : edits) {
         const std::size_t at = scene.find(from);
         REQUIRE(at != std::string::npos);

@@ -32,10 +32,7 @@ std::string path_of(const std::string& name) {
 
 /// The scene with one line replaced.
 std::string changed(const std::string& name, const std::string& line, const std::string& by) {
-    std::ifstream in(path_of(name));
-    std::stringstream text;
-    text << in.rdbuf();
-    std::string scene = text.str();
+    std::string scene = alembert::test::contents(path_of(name));
     const std::size_t at = scene.find(line);
     REQUIRE(at != std::string::npos);
     return temporary(name + ".toml", scene.replace(at, line.size(), by));

@@ -18,6 +18,7 @@
 
 namespace commands_import {
 
+using alembert::test::contents;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -26,13 +27,6 @@ using V3 = Eigen::Vector3d;
 using M3 = Eigen::Matrix3d;
 
 namespace {
-
-std::string contents(const std::string& path) {
-    std::ifstream stream(path);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
 
 V3 three(const std::string& text) {
     std::istringstream in(text);

@@ -16,6 +16,7 @@
 
 namespace commands_inverse {
 
+using alembert::test::contents;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -30,13 +31,6 @@ Json json_of(std::vector<std::string> args) {
     CAPTURE(result.err);
     REQUIRE(result.exit == 0);
     return Json::parse(result.out);
-}
-
-std::string contents(const std::string& path) {
-    std::ifstream stream(path);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
 }
 
 /// With these values of coordinates (prime "") or rates ("'") …

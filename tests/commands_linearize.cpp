@@ -90,10 +90,7 @@ TEST_CASE("bicycle: energy and constraints are kept, and the speed settles") {
 
 // x(t) = exp(A t) x(0) + O(kick²).
 TEST_CASE("bicycle: after a small kick it moves according to the eigenvalues") {
-    std::ifstream stream(bicycle);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    std::string scene = text.str();
+    std::string scene = alembert::test::contents(bicycle);
     const std::string kick = "kick = { value = 0.5,";
     REQUIRE(scene.find(kick) != std::string::npos);
     scene.replace(scene.find(kick), kick.size(), "kick = { value = 1e-5,");

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// A disc on a spring whose support turns: each quantity's name is a placeholder #1 … #6.
+/// A disc on a spring whose support turns: #1 … #6 stand where the names of its quantities come.
 std::string scene_with(const std::vector<std::string>& names) {
     std::string text = R"toml(
 [parameters]

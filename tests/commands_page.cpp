@@ -16,19 +16,13 @@
 
 namespace commands_page {
 
+using alembert::test::contents;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
 using Json = nlohmann::json;
 
 namespace {
-
-std::string contents(const std::string& file) {
-    std::ifstream in(file);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 std::string page_of(const std::string& scene, int code = 0, const std::vector<std::string>& more = {}) {
     const std::string file = temporary("page.html", "");
@@ -215,37 +209,16 @@ TEST_CASE("page: equilibria with their verdicts and eigenvalues, and a section o
 }
 
 TEST_CASE("page: a force that acts later is drawn pale until then") {
-    const std::string scene = temporary("push.toml", R"toml(
-[inputs]
-F = "2*(1 + sign(t - 1))"
-[coordinates]
-x = 0
-[[particle]]
-name = "block"
-mass = 1
-position = ["x", 0]
-[[force]]
-at = "block"
-vector = ["F", 0]
-[simulation]
-duration = 2
-)toml");
-    const std::string page = page_of(scene);
-    CHECK(page.find("class=\"waiting\"") != std::string::npos);
-    const std::string always = temporary("pull.toml", R"toml(
-[coordinates]
-x = 0
-[[particle]]
-name = "block"
-mass = 1
-position = ["x", 0]
-[[force]]
-at = "block"
-vector = [3, 0]
-[simulation]
-duration = 1
-)toml");
-    CHECK(page_of(always).find("class=\"waiting\"") == std::string::npos);
+    const auto pushed = [](const std::string& inputs, const std::string& force) {
+        return page_of(
+            temporary("pushed.toml", inputs +
+                                         "[coordinates]\nx = 0\n[[particle]]\nname = \"block\"\n"
+                                         "mass = 1\nposition = [\"x\", 0]\n[[force]]\nat = \"block\"\nvector = [" +
+                                         force + ", 0]\n[simulation]\nduration = 2\n"));
+    };
+    const std::string pale = "class=\"waiting\"";
+    CHECK(pushed("[inputs]\nF = \"2*(1 + sign(t - 1))\"\n", "\"F\"").find(pale) != std::string::npos);
+    CHECK(pushed("", "3").find(pale) == std::string::npos);
 }
 
 }  // namespace commands_page

@@ -19,6 +19,7 @@
 namespace commands_plots {
 
 using namespace alembert;
+using alembert::test::contents;
 using alembert::test::run;
 using alembert::test::temporary;
 
@@ -27,14 +28,6 @@ namespace {
 constexpr const char* oscillator =
     "title = \"An oscillator\"\n[parameters]\nk = 4\n[coordinates]\nx = { initial = 1, unit = \"m\" }\n[energy]\n"
     "kinetic = \"x'^2/2\"\npotential = \"k*x^2/2\"\n";
-
-std::string contents(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    REQUIRE_MESSAGE(file, path);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 /// The picture that a verb writes.
 std::string picture(std::vector<std::string> words, const std::string& option) {

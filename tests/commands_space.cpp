@@ -33,10 +33,7 @@ double number(const Json& object, const char* group, const std::string& name) {
 }
 
 std::string textbook(const std::string& name) {
-    std::ifstream stream(source_path("scenes/textbook/" + name + ".toml"));
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
+    return alembert::test::contents(source_path("scenes/textbook/" + name + ".toml"));
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

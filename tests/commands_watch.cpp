@@ -12,10 +12,12 @@
 #include <sstream>
 #include <thread>
 
+#include "files.hpp"
 #include "shell.hpp"
 
 namespace commands_watch {
 
+using alembert::test::contents;
 using alembert::test::run;
 using alembert::test::run_shell;
 using alembert::test::temporary;
@@ -25,13 +27,6 @@ namespace {
 constexpr const char* scene_text =
     "title = \"</title><script>alert(1)</script>\"\n[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n"
     "potential = \"x^2/2\"\n[simulation]\nduration = 0.1\n";
-
-std::string contents(const std::string& path) {
-    std::ifstream file(path);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 /// A `watch` in the background; ended with the test.
 struct Watching {

@@ -12,6 +12,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
+#include "files.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/keys.hpp"
 #include "scene/placing.hpp"
@@ -28,11 +29,9 @@ using Tables =
     std::map<std::string, std::set<std::string>>;  ///< "[[force]]", "[energy]", "body.inertia" or "" → keys
 
 std::string text_of(const std::string& relative) {
-    std::ifstream file(std::string(ALEMBERT_SOURCE_DIR "/") + relative, std::ios::binary);
-    REQUIRE_MESSAGE(file, relative);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
+    const std::string text = test::contents(test::source_path(relative));
+    REQUIRE_MESSAGE(!text.empty(), relative);
+    return text;
 }
 
 std::string title_of(const TableKeys& table) {

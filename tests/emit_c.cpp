@@ -58,6 +58,7 @@ using Defaults = void(double*);
 using Rhs = void(double, const double*, const double*, double*);
 
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
+    REQUIRE(a.size() == b.size());
     double worst = 0, size = 1e-300;
     for (std::size_t i = 0; i < a.size(); ++i) {
         worst = std::max(worst, std::abs(a[i] - b[i]));
@@ -83,10 +84,11 @@ void compare(const Library& library, const Emission& e) {
         std::vector<double> state = at.q;
         state.insert(state.end(), at.qdot.begin(), at.qdot.end());
         const std::vector<double> value = interpret(p, at);
-        std::vector<double> expected, rate(state.size());
+        std::vector<double> expected;
         for (const int node : p.nodes_of(Group::rate)) expected.push_back(value[node]);
         if (p.speeds.empty()) expected.assign(at.qdot.begin(), at.qdot.end());
         for (const int node : p.nodes_of(Group::acceleration)) expected.push_back(value[node]);
+        std::vector<double> rate(expected.size());
         rhs(at.t, state.data(), par.data(), rate.data());
         CHECK(difference(rate, expected) < 1e-11);
         std::vector<double> entries, found;

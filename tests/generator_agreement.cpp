@@ -217,15 +217,12 @@ TEST_CASE("generator: emitted function and interpreter agree on benchmark scenes
 TEST_CASE("generator: the potential of a stiff spring keeps its digits where the spring is hardly extended") {
     const double extension = std::ldexp(1, -30), expected = 0.5e10 * extension * extension;
     struct Given {
-        const char* text;
+        std::string text;
         std::vector<double> q;
     };
-    const Given scenes[] = {{R"s(
-[parameters]
-m = 1
-k = 1e10
-l = 1
-[coordinates]
+    const std::string constants = "[parameters]\nm = 1\nk = 1e10\nl = 1\n";
+    const std::string line = "[coordinates]\nx = 0.125\ny = 0.125\n";
+    const Given scenes[] = {{R"s([coordinates]
 r = 1
 theta = 0.5
 [[particle]]
@@ -238,26 +235,12 @@ stiffness = "k"
 length = "l"
 )s",
                              {1 + extension, 0.5}},
-                            {R"s(
-[parameters]
-m = 1
-k = 1e10
-[coordinates]
-x = 0.125
-y = 1.125
-[energy]
+                            {line + R"s([energy]
 kinetic = "m*(x'^2 + y'^2)/2"
 potential = "k*(y - x - 1)^2/2"
 )s",
                              {0.125, 1.125 + extension}},
-                            {R"s(
-[parameters]
-m = 1
-k = 1e10
-[coordinates]
-x = 0.125
-y = 0.125
-[[particle]]
+                            {line + R"s([[particle]]
 name = "P"
 position = ["x", "0"]
 mass = "m"
@@ -271,8 +254,8 @@ stiffness = "k"
 )s",
                              {0.125, 0.125 + extension}}};
     for (const Given& given : scenes) {
-        CAPTURE(std::string(given.text));
-        const Mechanism m = build(parse_scene(given.text, "stiff.toml"));
+        CAPTURE(given.text);
+        const Mechanism m = build(parse_scene(constants + given.text, "stiff.toml"));
         const Program program = choose(m, lagrange(m)).program;
         State<double> state = start_of(m).state();
         state.q = given.q;

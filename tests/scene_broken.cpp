@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 
+#include "files.hpp"
 #include "scene/scene.hpp"
 
 namespace scene_broken {
@@ -18,13 +19,6 @@ namespace scene_broken {
 using namespace alembert;
 
 namespace {
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
 
 struct Expected {
     Place place;
@@ -70,7 +64,7 @@ TEST_CASE("broken scenes: each is refused for the mistake that it announces, at 
     CHECK(paths.size() >= 40);
     for (const auto& path : paths) {
         CAPTURE(path.filename().string());
-        const std::vector<Expected> expected = expectations(text_of(path));
+        const std::vector<Expected> expected = expectations(test::contents(path));
         REQUIRE_FALSE(expected.empty());
         const auto start = std::chrono::steady_clock::now();
         std::string what;
@@ -201,7 +195,7 @@ TEST_CASE("broken scenes: more than a mebibyte is refused, and a mebibyte of any
 }
 
 TEST_CASE("broken scenes: every mutation of a scene is read or refused") {
-    std::string whole = text_of(ALEMBERT_SOURCE_DIR "/tests/whole.toml");
+    std::string whole = test::contents(ALEMBERT_SOURCE_DIR "/tests/whole.toml");
     REQUIRE(told(whole).empty());
     const std::vector<std::string> pieces{
         "\"",  "'",  "[",   "]",     "[[",   "]]",           "{",  "}",    "=", ".", ",", "\n",  "#",     "\"\"\"",

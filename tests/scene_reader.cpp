@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "files.hpp"
 #include "scene/scene.hpp"
 
 namespace scene_reader {
@@ -194,11 +195,9 @@ TEST_CASE("reader: every table is read in full") {
 }
 
 TEST_CASE("reader: a byte order mark and line ends with carriage returns change nothing") {
-    std::ifstream stream(ALEMBERT_SOURCE_DIR "/tests/whole.toml", std::ios::binary);
-    std::ostringstream whole;
-    whole << stream.rdbuf();
     std::string text = "\xEF\xBB\xBF";
-    for (const char c : whole.str()) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    for (const char c : test::contents(test::source_path("tests/whole.toml")))
+        text += c == '\n' ? std::string("\r\n") : std::string(1, c);
     const Scene scene = parse_scene(text, "p.toml");
     CHECK(scene.notes == "Not a machine\nof this world.");
     CHECK(scene.parameters[1].value.place(2) == Place{11, 19});

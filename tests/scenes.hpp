@@ -11,13 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "files.hpp"
 #include "lower/start.hpp"
 
 namespace alembert::test {
-
-inline std::string source_path(const std::string& relative) {
-    return std::string(ALEMBERT_SOURCE_DIR "/") + relative;
-}
 
 /// All .toml files of a folder of the repository, sorted.
 inline std::vector<std::string> scenes_in(const std::string& folder) {

@@ -9,6 +9,7 @@
 #include "check/any_motion.hpp"
 #include "check/claims.hpp"
 #include "check/completeness.hpp"
+#include "check/constants.hpp"
 #include "check/counterexample.hpp"
 #include "check/diagnosis.hpp"
 #include "check/first_order.hpp"
@@ -61,7 +62,7 @@ public:
                     settle(part, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
                 }
         }
-        withdraw();
+        constants_->withdraw(scene_, result_.claims);
         tell_kinematics();
         settle_apart();
         for (CheckedClaim& c : result_.claims)
@@ -79,47 +80,8 @@ private:
                 mistakes.push_back(mistake.diagnostic);
             }
         if (!mistakes.empty()) fail(scene_, mistakes);
-        define_constants();
+        constants_.emplace(scene_, claims_, forms_);
         if (sheets_) positive_ = sheets_->positive();
-    }
-
-    /// Constants of the motion in claims that are not linear in them, from claims that give such a constant alone.
-    void define_constants() {
-        std::map<int, std::size_t> by;  // open name → the claim that gives it
-        std::vector<std::size_t> nonlinear;
-        for (std::size_t k = 0; k < forms_.size(); ++k) {
-            if (forms_[k].linear || scene_.claims[k].at != "motion") continue;
-            nonlinear.push_back(k);
-            for (const int o : forms_[k].open)
-                for (std::size_t j = 0; j < forms_.size() && claims_.open()[static_cast<std::size_t>(o)].constant;
-                     ++j)
-                    if (forms_[j].linear && forms_[j].open == std::vector<int>{o} &&
-                        scene_.claims[j].at == "motion")
-                        by.emplace(o, j);
-        }
-        for (const auto& [o, j] : by) {
-            const GiNaC::symbol constant = claims_.open()[static_cast<std::size_t>(o)].symbol;
-            const ex slope = m_.z->pull_back({{forms_[j].residual, 1}}, {constant})[0];
-            const ex rest = substitute(*m_.z, {forms_[j].residual}, {{constant, 0}})[0];
-            claims_.define(constant, m_.z->name(-rest / slope));
-        }
-        for (const std::size_t k : nonlinear) {
-            for (const int o : forms_[k].open)
-                if (by.contains(o)) rests_on_[k].push_back(by.at(o));
-            if (!rests_on_[k].empty()) forms_[k] = claims_.read(scene_.claims[k]);
-        }
-    }
-
-    /// A claim into which constants were put says nothing if the claims that give them are not right.
-    void withdraw() {
-        for (const auto& [k, claims] : rests_on_)
-            for (const std::size_t j : claims)
-                if (result_.claims[j].verdict != Verdict::proved) {
-                    result_.claims[k] = {};
-                    result_.claims[k].reason =
-                        say("it is not linear in a constant that only '{}' gives, which is not proved",
-                            text_of(scene_.claims[j].equation));
-                }
     }
 
     /// Claims that need no states: motions in closed form, first approximations.
@@ -490,7 +452,7 @@ private:
     std::shared_ptr<RootSheets> sheets_;
     std::vector<ex> positive_;  // on the sheet of the scene and its claims, not of repairs that are tried
     std::vector<ClaimForm> forms_;
-    std::map<std::size_t, std::vector<std::size_t>> rests_on_;  // claim → claims that give constants in it
+    std::optional<GivenConstants> constants_;
     std::string when_;
     std::set<std::size_t> wrong_;  // the wrong claims of the current group
     Checked result_;

@@ -166,20 +166,26 @@ private:
         return usable == 2;
     }
 
-    /// Finds which factor of an equation of rest vanishes at a state where the claim does not hold.
+    /// Which factor of an equation of rest vanishes at states where the claim fails and not where it holds? Empty
+    /// if the claim holds nowhere.
     std::string name_branch() {
+        std::vector<std::size_t> right, wrong;  // positions of states
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {form_.residual})[0]};
-        for (std::size_t s = 0; states_.get(s) != nullptr && s < 64; ++s) {
-            const auto at = evaluate_mod(p, states_.get(s)->point, root);
-            if (!at || at->value[root[0]].is_zero()) continue;
-            for (const RestFactor& factor : rest_factors(m_, claims_.equations())) {
-                Program q;
-                const std::array<int, 1> node{claims_.lower(q, {factor.value})[0]};
-                const auto value = evaluate_mod(q, states_.get(s)->point, node);
-                if (value && value->value[node[0]].is_zero())
-                    return say("rest is possible with {} = 0 too, and there it fails", factor.text);
-            }
+        for (std::size_t s = 0; s < states_of_rest && states_.get(s) != nullptr; ++s)
+            if (const auto at = evaluate_mod(p, states_.get(s)->point, root))
+                (at->value[root[0]].is_zero() ? right : wrong).push_back(s);
+        if (right.empty()) return {};
+        for (const RestFactor& factor : rest_factors(m_, claims_.equations())) {
+            Program q;
+            const std::array<int, 1> node{claims_.lower(q, {factor.value})[0]};
+            const auto vanishes = [&](std::size_t state) {
+                const auto value = evaluate_mod(q, states_.get(state)->point, node);
+                return value && value->value[node[0]].is_zero();
+            };
+            if (std::any_of(wrong.begin(), wrong.end(), vanishes) &&
+                std::none_of(right.begin(), right.end(), vanishes))
+                return say("rest is possible with {} = 0 too, and there it fails", factor.text);
         }
         return say("it fails at some of the states of rest");
     }

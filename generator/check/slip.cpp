@@ -282,6 +282,20 @@ private:
         }
     }
 
+    /// The factor with the star before it or, if it is the first, after it. Nothing if it has neither.
+    std::optional<Stretch> with_its_star(const Stretch& factor) const {
+        const std::string& text = side(factor.left);
+        const auto begin = static_cast<std::size_t>(factor.offset),
+                   end = begin + static_cast<std::size_t>(factor.length);
+        const std::size_t before = text.find_last_not_of(' ', begin - 1), after = text.find_first_not_of(' ', end);
+        if (begin > 0 && before != std::string::npos && text[before] == '*')
+            return Stretch{factor.left, static_cast<int>(before), static_cast<int>(end - before)};
+        const bool divides = begin > 0 && before != std::string::npos && text[before] == '/';
+        if (!divides && after != std::string::npos && text[after] == '*')
+            return Stretch{factor.left, factor.offset, static_cast<int>(after + 1 - begin)};
+        return std::nullopt;
+    }
+
     /// Replaces a parameter by another, adds one or removes one, among the lengths or among the others.
     void parameters(bool lengths) {
         const std::string kind = lengths ? "wrong_arm" : "factor";
@@ -292,7 +306,8 @@ private:
                 if (other != leaf.tree->text && lengths_.contains(other) == lengths &&
                     try_change(leaf, other, kind))
                     return;
-            if (try_change(leaf, "1", kind)) return;
+            const std::optional<Stretch> removable = with_its_star(leaf.at);
+            if (removable ? try_change(leaf, *removable, "", kind) : try_change(leaf, "1", kind)) return;
             for (const char* exponent : {"2", "3", "-1"})
                 if (try_change(leaf, leaf.tree->text + "^" + exponent, kind)) return;
         }

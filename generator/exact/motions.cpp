@@ -8,6 +8,7 @@
 
 #include "alembert/error.hpp"
 #include "exact/least_shares.hpp"
+#include "exact/reduced_sums.hpp"
 #include "exact/solve_condition.hpp"
 #include "formalism/rest.hpp"
 #include "language/say.hpp"
@@ -18,6 +19,30 @@
 namespace alembert {
 
 using GiNaC::ex;
+
+namespace {
+
+/// f(q, 0) + Σ λ_k A_k, and the equations of the rates with q' = q'' = 0: all of them vanish at rest.
+std::vector<ex> balance_at_rest(const Mechanism& m, const Equations& e) {
+    GiNaC::exmap still;
+    for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
+    const auto at_rest = [&](const ex& value) {
+        return m.z->expand(value).subs(still, GiNaC::subs_options::no_pattern);
+    };
+    std::vector<ex> balance;
+    for (int i = 0; i < e.size(); ++i) {
+        GiNaC::exvector terms{at_rest(e.forcing(i))};
+        for (std::size_t k = 0; k < e.A.size(); ++k) terms.push_back(at_rest(e.A[k][i]) * e.lambda[k]);
+        balance.push_back(GiNaC::add(std::move(terms)));
+    }
+    for (std::size_t k = 0; k < e.A.size(); ++k) {
+        balance.push_back(at_rest(m.constraints[k].drift));
+        balance.push_back(at_rest(e.gamma[k]));
+    }
+    return balance;
+}
+
+}  // namespace
 
 Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halves, int halvings,
                  Positions positions)
@@ -70,45 +95,21 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     std::erase_if(conditions, [&](int node) { return program_.is_zero(node); });
     implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own), nodes.end());
 
-    std::set<int> irreducible;
     if (at == At::rest) {
-        // f(q, 0) + Σ λ_k A_k = 0, and the equations of the rates with q' = q'' = 0.
-        GiNaC::exmap still;
-        for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
-        std::vector<ex> balance;
         for (int k = 0; k < m_; ++k)
             given.emplace_back(e.lambda[k], program_.variable({Variable::Kind::unknown, k}));
-        const auto at_rest = [&](const ex& value) {
-            return m.z->expand(value).subs(still, GiNaC::subs_options::no_pattern);
-        };
-        for (int i = 0; i < n_; ++i) {
-            GiNaC::exvector terms{at_rest(e.forcing(i))};
-            for (int k = 0; k < m_; ++k) terms.push_back(at_rest(e.A[k][i]) * e.lambda[k]);
-            balance.push_back(GiNaC::add(std::move(terms)));
-        }
-        for (int k = 0; k < m_; ++k) {
-            balance.push_back(at_rest(m.constraints[k].drift));
-            balance.push_back(at_rest(e.gamma[k]));
-        }
-        const std::vector<int> balanced = lower_expressions(program_, m, balance, given);
-        for (std::size_t i = 0; i < balance.size(); ++i) {
-            if (program_.is_zero(balanced[i])) continue;
-            conditions.push_back(balanced[i]);
-            if (!holds_parameters_alone(program_, balanced[i])) continue;
-            const TrigonometricProduct product = product_of(balance[i].expand(), m);
-            if (product.bases.size() != 1) continue;
-            const ex factor = product.bases[0].subs(product.functions, GiNaC::subs_options::no_pattern);
-            conditions.back() = lower_expressions(program_, m, {factor}, given)[0];
-            irreducible.insert(conditions.back());
-        }
-    }
-    std::vector<int> all = nodes;
-    all.insert(all.end(), conditions.begin(), conditions.end());
-    finer_ = std::max(0, std::max(halvings, alembert::halvings(program_, all)) - halves);
-    if (positions == Positions::free)
-        loose_ = std::move(conditions);
+        order_rest(conditions, balance_at_rest(m, e), m, given);
+    } else if (positions == Positions::free)
+        loose_ = conditions;
     else
-        order(std::move(conditions), irreducible);
+        order(conditions);
+    std::vector<int> all = nodes;
+    for (const SolvingStep& step : steps_) {
+        all.push_back(step.node);
+        if (step.second) all.push_back(step.second->node);
+    }
+    all.insert(all.end(), loose_.begin(), loose_.end());
+    finer_ = std::max(0, std::max(halvings, alembert::halvings(program_, all)) - halves);
     std::set<SquarePoints::Key> solved;
     for (const SolvingStep& step : steps_) {
         solved.insert({step.variable.kind, step.variable.index});
@@ -118,14 +119,42 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     find_branches();
 }
 
-void Motions::order(std::vector<int> conditions, const std::set<int>& irreducible) {
-    SolvingOrder found = solving_order(program_, std::move(conditions), irreducible);
+void Motions::order(const std::vector<int>& conditions) {
+    SolvingOrder found = solving_order(program_, conditions);
     steps_ = std::move(found.steps);
-    if (found.left.empty()) return;
-    if (at_ == At::rest)
-        obstacle_ = say("the equations of rest cannot be solved one after the other");
-    else
-        loose_ = std::move(found.left);
+    loose_ = std::move(found.left);
+}
+
+void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex>& balance, const Mechanism& m,
+                         const std::vector<std::pair<GiNaC::symbol, int>>& given) {
+    const auto ordered = [&](const std::vector<ex>& sums) {
+        std::vector<int> conditions = positions;
+        std::set<int> irreducible;
+        const std::vector<int> nodes = lower_expressions(program_, m, sums, given);
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            if (program_.is_zero(nodes[i])) continue;
+            conditions.push_back(nodes[i]);
+            if (!holds_parameters_alone(program_, nodes[i])) continue;
+            const TrigonometricProduct product = product_of(sums[i].expand(), m);
+            if (product.bases.size() != 1) continue;
+            const ex factor = product.bases[0].subs(product.functions, GiNaC::subs_options::no_pattern);
+            conditions.back() = lower_expressions(program_, m, {factor}, given)[0];
+            irreducible.insert(conditions.back());
+        }
+        return solving_order(program_, conditions, irreducible);
+    };
+    const auto is_simple = [](const SolvingOrder& order) {
+        return order.left.empty() && std::none_of(order.steps.begin(), order.steps.end(),
+                                                  [](const SolvingStep& step) { return step.second.has_value(); });
+    };
+    SolvingOrder found = ordered(balance);
+    for (const Singled first : {Singled::plain_terms, Singled::turned_terms}) {
+        if (is_simple(found)) break;
+        SolvingOrder other = ordered(reduced_sums(balance, first));
+        if (is_simple(other) || (other.left.empty() && !found.left.empty())) found = std::move(other);
+    }
+    steps_ = std::move(found.steps);
+    if (!found.left.empty()) obstacle_ = say("the equations of rest cannot be solved one after the other");
 }
 
 void Motions::find_branches() {

@@ -32,7 +32,8 @@
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
 /// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met. An
 /// equation of rest in parameters alone, g·(m₂ sin β − m₁ sin α) = 0, is solved for one of them if it has one
-/// factor besides parameters, which do not vanish.
+/// factor besides parameters, which do not vanish. Equations that cannot be solved one after the other as they are
+/// may become so when they are combined (exact/reduced_sums.hpp).
 
 #include <set>
 
@@ -89,7 +90,10 @@ public:
     int multiplier(int k) const { return k < m_ ? k : k + gaps_; }
 
 private:
-    void order(std::vector<int> conditions, const std::set<int>& irreducible);
+    void order(const std::vector<int>& conditions);
+    /// Orders the conditions of rest: constraints, and sums that vanish.
+    void order_rest(const std::vector<int>& positions, const std::vector<GiNaC::ex>& balance, const Mechanism& m,
+                    const std::vector<std::pair<GiNaC::symbol, int>>& given);
     void find_branches();
     bool move(ExactState& state) const;
     bool share_out(ExactState& state) const;

@@ -30,14 +30,17 @@ bool is_number(const ex& e) {
     return GiNaC::is_a<GiNaC::numeric>(e);
 }
 
+enum class Poles { allowed, refused };  ///< whether a divisor may depend on the state
+
 class Elimination {
 public:
-    Elimination(matrix S, matrix right, const Mechanism& m, std::string message)
+    Elimination(matrix S, matrix right, const Mechanism& m, std::string message, Poles poles)
         : m_(m),
           z_(*m.z),
           S_(std::move(S)),
           right_(std::move(right)),
           message_(std::move(message)),
+          allowed_(poles),
           n_(S_.rows()),
           x_(n_, right_.cols()) {}
 
@@ -112,7 +115,10 @@ private:
         minors_.clear();
         const ex det = block.size() == columns.size() ? minor(block, columns) : ex(0);
         if (det.is_zero() || is_identically_zero(det, m_)) return message_;
-        if (const ex moving = moving_factors(det); z_.depends(moving, m_.moving())) poles_.push_back(moving);
+        if (const ex moving = moving_factors(det); z_.depends(moving, m_.moving())) {
+            if (allowed_ == Poles::refused) return message_;
+            poles_.push_back(moving);
+        }
         for (std::size_t c = 0; c < columns.size(); ++c)
             for (std::size_t r = 0; r < block.size(); ++r) {
                 std::vector<unsigned> other_rows = block, other_columns = columns;
@@ -168,6 +174,7 @@ private:
     Intermediates& z_;
     matrix S_, right_;
     std::string message_;
+    Poles allowed_;
     unsigned n_;
     matrix x_;
     std::vector<ex> poles_;
@@ -185,7 +192,8 @@ std::vector<int> nonholonomic(const Mechanism& m) {
 
 /// h for these speeds, from [W; A] q' = (u − w, −b); the right side has a column for each u and one for 1.
 Possible<Kinematics> solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Speed>& speeds,
-                                      const std::vector<int>& eliminated, const std::string& message) {
+                                      const std::vector<int>& eliminated, const std::string& message,
+                                      Poles poles = Poles::allowed) {
     const int n = m.size(), count = static_cast<int>(speeds.size());
     Kinematics k;
     k.eliminated = eliminated;
@@ -203,10 +211,10 @@ Possible<Kinematics> solved_for_rates(const Mechanism& m, const std::vector<Mech
         for (int i = 0; i < n; ++i) S(r, i) = constraint.row[i];
         right(r, count) = -constraint.drift;
     }
-    Possible<Solution> solved = solve_exactly(S, right, m, message);
+    Possible<Solution> solved = Elimination(S, right, m, message, poles).solve();
     if (const auto obstacle = solved.obstacle()) return Obstacle{*obstacle};
-    auto [x, poles] = std::move(solved).value();
-    k.poles = std::move(poles);
+    auto [x, found] = std::move(solved).value();
+    k.poles = std::move(found);
     for (int i = 0; i < n; ++i) {
         GiNaC::exvector terms{x(i, count)};
         for (int r = 0; r < count; ++r) terms.push_back(x(i, r) * k.u[r]);
@@ -370,8 +378,9 @@ std::optional<Kinematics> with_null_vectors(const Mechanism& m, const std::vecto
         speed.form = m.z->name(GiNaC::add(std::move(terms)));
         speeds.push_back(std::move(speed));
     }
-    Possible<Kinematics> result = solved_for_rates(m, speeds, constraints, translated(dependent_constraints));
-    if (!result.exists() || !result.value().poles.empty()) return std::nullopt;
+    Possible<Kinematics> result =
+        solved_for_rates(m, speeds, constraints, translated(dependent_constraints), Poles::refused);
+    if (!result.exists()) return std::nullopt;
     return std::move(result).value();
 }
 
@@ -403,7 +412,7 @@ std::vector<ex> accelerations(const Mechanism& m, const Equations& e) {
 
 Possible<Solution> solve_exactly(const matrix& S, const matrix& right, const Mechanism& m,
                                  const std::string& message) {
-    return Elimination(S, right, m, message).solve();
+    return Elimination(S, right, m, message, Poles::allowed).solve();
 }
 
 std::vector<int> allowed_speeds(const Mechanism& m) {

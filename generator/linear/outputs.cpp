@@ -41,7 +41,7 @@ template <typename Real>
 MatrixOf<Real> OutputProgram::by(const Residuals& r, const Instant<Real>& at, const Tangent<Real>& here) const {
     const std::size_t direct = at.q.size() + at.u.size() + 1 + r.inputs.size(), s = at.u.size(),
                       width = direct + s + static_cast<std::size_t>(here.lambda.size());
-    Varied<Real> varied(r, at, width, static_cast<std::size_t>(first_multiplier_ + here.lambda.size()));
+    Varied<Real> varied(r, at, static_cast<std::size_t>(first_multiplier_ + here.lambda.size()));
     State<Jet<Real>>& state = varied.state;
     for (Index i = 0; i < here.udot.size(); ++i) state.qddot.push_back(varied.next(here.udot[i]));
     for (Index k = 0; k < here.lambda.size(); ++k)

@@ -78,11 +78,13 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
         if (program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::unknown)
             inputs.push_back(program[id].variable.index);
     std::sort(inputs.begin(), inputs.end());
+    geometry = position;
+    geometry.insert(geometry.end(), velocity.begin(), velocity.end());
+    geometry = program.needed(geometry);
 }
 
 template <typename Real>
-Varied<Real>::Varied(const Residuals& r, const Instant<Real>& at, std::size_t width, std::size_t unknowns)
-    : width_(width) {
+Varied<Real>::Varied(const Residuals& r, const Instant<Real>& at, std::size_t unknowns) {
     for (const Real x : at.parameters) state.parameters.push_back(Jet<Real>(x));
     for (const Real x : at.q) state.q.push_back(next(x));
     for (const Real x : at.u) state.qdot.push_back(next(x));
@@ -94,8 +96,8 @@ Varied<Real>::Varied(const Residuals& r, const Instant<Real>& at, std::size_t wi
 
 template <typename Real>
 Jet<Real> Varied<Real>::next(Real value) {
-    std::vector<Real> d(width_, Real(0));
-    d[next_++] = Real(1);
+    std::vector<Real> d(++next_, Real(0));  // derivatives by later variables are zero
+    d.back() = Real(1);
     return Jet<Real>(value, std::move(d));
 }
 
@@ -107,13 +109,13 @@ namespace {
 /// Values and derivatives of all nodes; columns: q, u, t, inputs.
 template <typename Real>
 struct Values {
-    Values(const Residuals& r, const Instant<Real>& at, bool at_kink = false) : r_(r) {
-        const std::size_t width = at.q.size() + at.u.size() + 1 + r.inputs.size();
-        const std::size_t unknowns = r.inputs.empty() ? 0 : static_cast<std::size_t>(r.inputs.back()) + 1;
-        value_ = interpret(r.program, Varied<Real>(r, at, width, unknowns).state);
-        columns = static_cast<Index>(width);
+    Values(const Residuals& r, const Instant<Real>& at, bool at_kink = false)
+        : columns(columns_of(r, at)), r_(r), value_(interpret(r.program, varied(r, at))) {
         if (at_kink) repair(at);
     }
+    /// Only those of `nodes`, which hold all arguments of each.
+    Values(const Residuals& r, const Instant<Real>& at, const std::vector<int>& nodes)
+        : columns(columns_of(r, at)), r_(r), value_(interpret_nodes(r.program, varied(r, at), nodes)) {}
     VectorOf<Real> vector(const std::vector<int>& nodes) const {
         VectorOf<Real> result(static_cast<Index>(nodes.size()));
         for (std::size_t i = 0; i < nodes.size(); ++i) result[static_cast<Index>(i)] = value_[nodes[i]].value;
@@ -127,9 +129,17 @@ struct Values {
         return result;
     }
     const Jet<Real>& operator[](int node) const { return value_[node]; }
-    Index columns = 0;
+    const Index columns;
 
 private:
+    static Index columns_of(const Residuals& r, const Instant<Real>& at) {
+        return static_cast<Index>(at.q.size() + at.u.size() + 1 + r.inputs.size());
+    }
+    static State<Jet<Real>> varied(const Residuals& r, const Instant<Real>& at) {
+        const std::size_t unknowns = r.inputs.empty() ? 0 : static_cast<std::size_t>(r.inputs.back()) + 1;
+        return Varied<Real>(r, at, unknowns).state;
+    }
+
     /// If a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of
     /// sides. The derivatives are then those of the root itself, in each direction in which both of its sides
     /// agree.
@@ -221,11 +231,20 @@ MatrixOf<Real> spread(const MatrixOf<Real>& solution, const std::vector<int>& ro
     return result;
 }
 
+/// The step of the dependent variables, whose columns begin at `first`, that makes the nodes zero to first order.
+template <typename Real>
+VectorOf<Real> newton_step(const Values<Real>& value, const std::vector<int>& nodes,
+                           const std::vector<int>& dependent, Index first) {
+    if (dependent.empty()) return VectorOf<Real>(0);
+    const MatrixOf<Real> by = value.jacobian(nodes).rightCols(value.columns - first);
+    return solution<Real>(columns_of<Real>(by, dependent), -value.vector(nodes));
+}
+
 }  // namespace
 
 Split split_of(const Residuals& r, const Instant<long double>& at, const std::vector<bool>& preferred_q,
                const std::vector<bool>& preferred_u) {
-    const Values<long double> value(r, at);
+    const Values<long double> value(r, at, r.geometry);
     const auto refuse = [&](const char* which, std::size_t rank, int rows) {
         throw IntegrationError(
             say("the {} constraints depend on each other at this state: rank {} of {}; choose a state off the "
@@ -269,13 +288,10 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     for (Index j = 0; j < nr; ++j) along(split.q[j], j) = 1;
     for (Index j = 0; j < p; ++j) along(n + split.u[j], nr + j) = 1;
     along.bottomRightCorner(extra, extra).setIdentity();
-    result.position = value.vector(r.position);
     if (r.holonomic > 0) {
         const Matrix dependent = columns_of<Real>(phi.leftCols(n), split.q_dependent);
         along.topRows(n) += spread<Real>(solution<Real>(dependent, -phi * along), split.q_dependent, n);
-        result.to_position = solution<Real>(dependent, -result.position);
     }
-    result.velocity = value.vector(r.velocity);
     const Matrix A = nu.middleCols(n, s);
     const Matrix dependent = columns_of<Real>(A, split.u_dependent);
     const auto particular = [&](const Matrix& right) -> Matrix {  // A x = right, independent ones 0
@@ -283,7 +299,6 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
         return spread<Real>(solution<Real>(dependent, right), split.u_dependent, s);
     };
     along.middleRows(n, s) += particular(-nu * along);
-    result.to_velocity = r.kept > 0 ? Vector(solution<Real>(dependent, -result.velocity)) : Vector(0);
     const Matrix U = along.block(n, nr, s, p);
 
     // u' and λ of the undisturbed motion.
@@ -360,13 +375,15 @@ template <typename Real>
 bool settle(const Residuals& r, const Split& split, Instant<Real>& at) {
     const auto size = [](const auto& v) { return v.size() == 0 ? Real(0) : v.cwiseAbs().maxCoeff(); };
     for (int step = 0; step < 30; ++step) {
-        const Tangent<Real> here = tangent(r, split, at);
-        const Real move_q = size(here.to_position), move_u = size(here.to_velocity);
+        const Values<Real> value(r, at, r.geometry);
+        const VectorOf<Real> to_position = newton_step(value, r.position, split.q_dependent, 0),
+                             to_velocity = newton_step(value, r.velocity, split.u_dependent, r.n);
+        const Real move_q = size(to_position), move_u = size(to_velocity);
         if (!std::isfinite(move_q) || !std::isfinite(move_u)) return false;
         for (std::size_t k = 0; k < split.q_dependent.size(); ++k)
-            at.q[split.q_dependent[k]] += here.to_position[static_cast<Index>(k)];
+            at.q[split.q_dependent[k]] += to_position[static_cast<Index>(k)];
         for (std::size_t k = 0; k < split.u_dependent.size(); ++k)
-            at.u[split.u_dependent[k]] += here.to_velocity[static_cast<Index>(k)];
+            at.u[split.u_dependent[k]] += to_velocity[static_cast<Index>(k)];
         if (move_q < Real(1e-14) && move_u < Real(1e-14)) return true;
     }
     return split.q_dependent.empty() && split.u_dependent.empty();

@@ -28,6 +28,7 @@ struct Residuals {
     std::vector<int> mass, forcing, row, gamma, rate, position, velocity;
     std::vector<int> inputs;        ///< 3·index + order of the inputs that occur
     std::vector<int> input_values;  ///< nodes, in parameters and t
+    std::vector<int> geometry;      ///< all nodes that `position` and `velocity` need
     bool rates_are_speeds;
 };
 
@@ -41,19 +42,18 @@ struct Instant {
 template <typename Real>
 Instant<Real> instant_of(const Residuals& residuals, const State<double>& state);
 
-/// The state with a unit derivative for each of q, u, t and the inputs, in this order; `width` is the number of
-/// derivatives, so that a caller with more variables can append them. `unknowns` is the number of unknowns to
-/// provide for.
+/// The state with a unit derivative for each of q, u, t and the inputs, in this order; a caller with more
+/// variables can append them. `unknowns` is the number of unknowns to provide for.
 template <typename Real>
 struct Varied {
-    Varied(const Residuals& residuals, const Instant<Real>& at, std::size_t width, std::size_t unknowns);
+    Varied(const Residuals& residuals, const Instant<Real>& at, std::size_t unknowns);
     /// A value with a unit derivative with respect to the next variable.
     Jet<Real> next(Real value);
 
     State<Jet<Real>> state;
 
 private:
-    std::size_t width_, next_ = 0;
+    std::size_t next_ = 0;
 };
 
 /// The positions of independent and dependent coordinates and speeds.
@@ -69,17 +69,15 @@ using VectorOf = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 /// Columns: independent coordinates r, independent speeds w, then t and the inputs, which `tangent` calls x.
 template <typename Real>
 struct Tangent {
-    VectorOf<Real> position, velocity;        ///< φ, ν, which must be zero
-    VectorOf<Real> speed_rates;               ///< w'
-    VectorOf<Real> rates;                     ///< r'
-    VectorOf<Real> balance;                   ///< Uᵀ(f − M c), the unbalanced forces at w' = 0
-    MatrixOf<Real> mass, force;               ///< mass δw' + force δ = 0
-    MatrixOf<Real> speed_rates_by;            ///< δw' = −mass⁻¹ force δ
-    MatrixOf<Real> rates_by;                  ///< δr'
-    VectorOf<Real> to_position, to_velocity;  ///< Newton's step of the dependent coordinates, then speeds
-    MatrixOf<Real> along;                     ///< rows q, u, t, inputs: their change for a change of each column
-    VectorOf<Real> udot, lambda;              ///< u' and multipliers of the undisturbed motion
-    MatrixOf<Real> udot_by, lambda_by;        ///< their derivatives
+    VectorOf<Real> speed_rates;         ///< w'
+    VectorOf<Real> rates;               ///< r'
+    VectorOf<Real> balance;             ///< Uᵀ(f − M c), the unbalanced forces at w' = 0
+    MatrixOf<Real> mass, force;         ///< mass δw' + force δ = 0
+    MatrixOf<Real> speed_rates_by;      ///< δw' = −mass⁻¹ force δ
+    MatrixOf<Real> rates_by;            ///< δr'
+    MatrixOf<Real> along;               ///< rows q, u, t, inputs: their change for a change of each column
+    VectorOf<Real> udot, lambda;        ///< u' and multipliers of the undisturbed motion
+    MatrixOf<Real> udot_by, lambda_by;  ///< their derivatives
 };
 
 /// The dependent coordinates are chosen by the largest pivot of φ_q among `preferred_q`, or among all if none of

@@ -103,4 +103,31 @@ std::vector<Polynomial> powers_of_differences(const Polynomial& polynomial) {
     return result;
 }
 
+bool is_difference_of_waves(const Polynomial& polynomial) {
+    if (polynomial.size() != 2) return false;
+    const Term &a = polynomial.terms()[0], &b = polynomial.terms()[1];
+    const auto is_wave = [](const Monomial& monomial) {
+        return monomial.size() == 1 && monomial[0].atom->is_circular() && monomial[0].exponent == 1;
+    };
+    return is_wave(a.monomial) && is_wave(b.monomial) && a.monomial[0].atom->kind == b.monomial[0].atom->kind &&
+           cln::abs(a.coefficient) == 1 && a.coefficient == -b.coefficient;
+}
+
+std::vector<Polynomial> differences_of_waves(const Polynomial& polynomial) {
+    std::vector<Polynomial> result, terms;
+    for (const Term& term : polynomial.terms()) terms.push_back(Polynomial::collect({term}));
+    for (std::size_t i = 0; i < terms.size(); ++i)
+        for (std::size_t j = i + 1; j < terms.size(); ++j) {
+            const Polynomial pair = terms[i] + terms[j];
+            const Rational scale = cln::abs(terms[i].terms()[0].coefficient);
+            if (!is_difference_of_waves((1 / scale) * divide(pair, common_monomial(pair)))) continue;
+            result.push_back(pair);
+            terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(j));
+            terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(i--));
+            break;
+        }
+    if (!result.empty()) result.insert(result.end(), terms.begin(), terms.end());
+    return result;
+}
+
 }  // namespace alembert

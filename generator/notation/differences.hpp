@@ -5,6 +5,10 @@
 ///
 ///     x1² − 2·x1·x2 + x2² + y² − l²    ↦  (x1−x2)²,  y²,  −l²
 ///     u1³ − … − 3·u2·u3² …             ↦  (u1−u2)³,  (u2−u3)³
+///
+/// and differences of sines, as springs between two turning bodies give them, as products:
+///
+///     k·sin θ·cos θ − k·sin φ·cos θ + m·g·sin θ    ↦  k·cos θ·(sin θ−sin φ),  m·g·sin θ
 
 #include <vector>
 
@@ -16,5 +20,12 @@ namespace alembert {
 /// from 2 to 6 and s rational, and the remaining terms one by one. The list is empty if no power makes the sum
 /// shorter by a term. The powers are given multiplied out; the factorizer will find them.
 std::vector<Polynomial> powers_of_differences(const Polynomial& polynomial);
+
+/// Parts whose sum is `polynomial`: pairs of terms that differ in sign and in the argument of one sine or one
+/// cosine, and the remaining terms one by one. The list is empty if there is no such pair.
+std::vector<Polynomial> differences_of_waves(const Polynomial& polynomial);
+
+/// sin θ − sin φ or cos θ − cos φ, or the opposite.
+bool is_difference_of_waves(const Polynomial& polynomial);
 
 }  // namespace alembert

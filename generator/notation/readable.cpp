@@ -165,6 +165,7 @@ private:
             options.push_back(by_state(group));
             offer(partition(group, [](const AtomNode& atom) { return atom.steady; }));
             if (Lines powers = powers_of_differences(group); !powers.empty()) options.push_back(std::move(powers));
+            if (Lines waves = differences_of_waves(group); !waves.empty()) offer(std::move(waves));
         } else {
             options.push_back(partition(group, is_circular));
             options.push_back({group});
@@ -193,8 +194,8 @@ private:
         return result;
     }
 
-    /// Whether a group may stay one factored term: k·(r−l0), m·g·l·(1−cos θ), (x1−x2)² may, but not k·(2·x1−x2),
-    /// a·(sin θ+sin ψ) or (r·ω²·cos θ−g)·sin θ.
+    /// Whether a group may stay one factored term: k·(r−l0), m·g·l·(1−cos θ), (x1−x2)², k·cos θ·(sin θ−sin φ)
+    /// may, but not k·(2·x1−x2), a·(sin θ+sin ψ) or (r·ω²·cos θ−g)·sin θ.
     bool may_stand_as_one(const Polynomial& group) {
         if (group.size() == 1) return true;
         if (has_own_denominators(group)) return false;
@@ -203,6 +204,7 @@ private:
         const bool is_lone = factors.sums.size() == 1 && factors.sums[0].second == 1;
         if (is_lone && factors.monomial.empty()) return false;
         for (const auto& [sum, exponent] : factors.sums) {
+            if (is_difference_of_waves(sum)) continue;
             bool has_wave = false;
             bool has_number = false;
             for (const Term& term : sum.terms()) {

@@ -16,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <utility>
 
 #include "program/order.hpp"
 #include "program/program.hpp"
@@ -38,6 +40,8 @@ Real real_of(const Rational& r) {
 
 template <>
 inline long double real_of<long double>(const Rational& r) {
+    if (r == Rational(1)) return 1;  // most coefficients are 1 or −1
+    if (r == Rational(-1)) return -1;
     constexpr unsigned exact = 53;  // bits that a double holds
     const cln::cl_I above = cln::numerator(r), below = cln::denominator(r);
     if (cln::integer_length(above) < exact && cln::integer_length(below) < exact)
@@ -49,14 +53,20 @@ inline long double real_of<long double>(const Rational& r) {
            static_cast<long double>(cln::double_approx(r - cln::rational(cln::cl_DF(high))));
 }
 
-/// The values of all nodes, including those that are not needed. Divisions by zero and similar operations give
-/// infinities and NaN, never a trap.
+/// sum += factor·x, without an intermediate value where Real has one of its own.
 template <typename Real>
-std::vector<Real> interpret(const Program& program, const State<Real>& state) {
+void add_multiple(Real& sum, const Rational& factor, const Real& x) {
+    sum += real_of<Real>(factor) * x;
+}
+
+/// The values of the nodes `ids`, which are in ascending order and hold all arguments of each (Program::needed);
+/// the others stay empty. Divisions by zero and similar operations give infinities and NaN, never a trap.
+template <typename Real, typename Ids>
+std::vector<Real> interpret_nodes(const Program& program, const State<Real>& state, const Ids& ids) {
     using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log, std::pow,
         std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
     std::vector<Real> value(program.size());
-    for (int id = 0; id < program.size(); ++id) {
+    for (const int id : ids) {
         const Node& node = program[id];
         const auto arg = [&](std::size_t k) -> const Real& { return value[node.args[k]]; };
         switch (node.op) {
@@ -92,17 +102,26 @@ std::vector<Real> interpret(const Program& program, const State<Real>& state) {
             }
             case Op::sum: {
                 Real sum = real_of<Real>(node.number);
-                for (std::size_t k = 0; k < node.args.size(); ++k)
-                    sum += real_of<Real>(node.coefficients[k]) * arg(k);
-                value[id] = sum;
+                for (std::size_t k = 0; k < node.args.size(); ++k) add_multiple(sum, node.coefficients[k], arg(k));
+                value[id] = std::move(sum);
                 break;
             }
             case Op::product: {
                 Real numerator = 1, denominator = 1;
-                for (std::size_t k = 0; k < node.args.size(); ++k)
-                    for (int e = 0; e < std::abs(node.exponents[k]); ++e)
-                        (node.exponents[k] > 0 ? numerator : denominator) *= arg(k);
-                value[id] = numerator / denominator;
+                bool has_factor = false, has_divisor = false;
+                for (std::size_t k = 0; k < node.args.size(); ++k) {
+                    const bool above = node.exponents[k] > 0;
+                    Real& side = above ? numerator : denominator;
+                    bool& begun = above ? has_factor : has_divisor;
+                    for (int e = 0; e < std::abs(node.exponents[k]); ++e) {
+                        if (begun)
+                            side *= arg(k);
+                        else
+                            side = arg(k);
+                        begun = true;
+                    }
+                }
+                value[id] = has_divisor ? numerator / denominator : std::move(numerator);
                 break;
             }
             case Op::sin:
@@ -164,6 +183,12 @@ std::vector<Real> interpret(const Program& program, const State<Real>& state) {
         }
     }
     return value;
+}
+
+/// The values of all nodes, including those that are not needed.
+template <typename Real>
+std::vector<Real> interpret(const Program& program, const State<Real>& state) {
+    return interpret_nodes(program, state, std::views::iota(0, program.size()));
 }
 
 }  // namespace alembert

@@ -48,8 +48,8 @@ struct Jet {
         result.add(b, Real(-1));
         return result;
     }
-    friend Jet operator/(const Jet& a, const Jet& b) {
-        Jet result = a;
+    friend Jet operator/(Jet a, const Jet& b) {
+        Jet result = std::move(a);
         result.value /= b.value;
         for (Real& x : result.d) x /= b.value;
         result.add(b, -result.value / b.value);
@@ -89,11 +89,18 @@ struct Jet {
         return result;
     }
 
+    /// The value and the gradient of b times a number are added to these.
+    void add_multiple_of(const Jet& b, Real factor) {
+        value += factor * b.value;
+        add(b, factor);
+    }
+
 private:
     void add(const Jet& b, Real factor) {
-        if (b.d.empty()) return;
-        if (d.size() < b.d.size()) d.resize(b.d.size(), Real(0));
-        for (std::size_t k = 0; k < b.d.size(); ++k) d[k] += factor * b.d[k];
+        const std::size_t common = std::min(d.size(), b.d.size());
+        for (std::size_t k = 0; k < common; ++k) d[k] += factor * b.d[k];
+        d.reserve(b.d.size());
+        for (std::size_t k = common; k < b.d.size(); ++k) d.push_back(factor * b.d[k]);
     }
     static Jet through(const Jet& a, Real value, Real slope) {
         Jet result(value, a.d);
@@ -109,6 +116,11 @@ inline Jet<double> real_of<Jet<double>>(const Rational& r) {
 template <>
 inline Jet<long double> real_of<Jet<long double>>(const Rational& r) {
     return Jet<long double>(real_of<long double>(r));
+}
+
+template <typename Real>
+void add_multiple(Jet<Real>& sum, const Rational& factor, const Jet<Real>& x) {
+    sum.add_multiple_of(x, real_of<Real>(factor));
 }
 
 }  // namespace alembert

@@ -74,7 +74,7 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     if (!c.difference.empty()) line(say("the claim has beyond that: "), c.difference);
     if (c.likely) {
         line(say("likely "), words_of(*c.likely));
-        line(say("right is: "), c.likely->repair);
+        if (!c.likely->repair.empty()) line(say("right is: "), c.likely->repair);
     }
     if (!c.counterexample.empty()) {
         std::string state;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Verdicts on claims about a scene, and what a test expects of them.
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "check/check.hpp"
+#include "scene/claims_file.hpp"
+#include "scenes.hpp"
+#include "state/prepared.hpp"
+
+namespace alembert::test {
+
+inline Checked checked(Scene scene) {
+    const Mechanism m = prepared(scene).mechanism;
+    return check(scene, m);
+}
+
+/// A textbook scene with these claims in place of its own.
+inline Checked checked(const std::string& name, const std::string& claims) {
+    return checked(
+        with_claims(read_scene(source_path("scenes/textbook/" + name + ".toml")), claims, "claims.txt"));
+}
+
+inline void check_verdicts(const Checked& result, const std::vector<Verdict>& expected) {
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+}
+
+}  // namespace alembert::test
