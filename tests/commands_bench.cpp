@@ -67,6 +67,17 @@ TEST_CASE(
     CHECK(lines == 13);
 }
 
+TEST_CASE("bench: auto is measured too, with the method that it has chosen at each tolerance") {
+    const Json result = result_of({"bench", scene("kepler"), "--json", "--duration", "0.01", "--method", "auto"});
+    REQUIRE(result["runs"].size() == 12);
+    for (const Json& one : result["runs"]) {
+        CHECK(one["method"] == "auto");
+        const double tolerance = one["tolerance"];
+        CHECK(one["chosen"] == (tolerance > 3e-5 ? "dop853" : tolerance > 0.9e-9 ? "verner98" : "taylor"));
+        CHECK(one["error"].get<double>() <= tolerance);
+    }
+}
+
 TEST_CASE("bench: methods for separable systems are left out where the system is not") {
     const auto methods = [](const Json& result) {
         std::set<std::string> names;

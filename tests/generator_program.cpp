@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "emit/emit.hpp"
@@ -28,6 +30,35 @@ int parameter(Program& p, int index) {
 }
 
 }  // namespace
+
+// 2k − m g would be rounded to 1e-10 once for the whole run, 4e-12 of m g.
+TEST_CASE("program: a small constant is not swallowed by that of a stiff spring") {
+    Program p;
+    p.parameters = {{.name = "k", .unit = "", .value = 8e5}, {.name = "w", .unit = "", .value = 29.43}};
+    const int x = coordinate(p, 0), k = parameter(p, 0), w = parameter(p, 1);
+    p.coordinates = {{.name = "x", .unit = ""}};
+    const int force = p.sum(0, {{2, k}, {-1, w}, {-2, p.product(1, {{k, 1}, {x, 1}})}});
+    p.roots.push_back({.group = Group::acceleration, .name = "x''", .node = force});
+    const Program apart = without_swallowed_constants(p);
+    const auto has_gathered_constants = [](const Program& program) {
+        const Node& sum = program[program.roots[0].node];
+        return std::any_of(sum.args.begin(), sum.args.end(), [&](int arg) {
+            return program[arg].op == Op::sum && program[arg].is_constant() && program[arg].args.size() > 1;
+        });
+    };
+    CHECK(has_gathered_constants(p));
+    CHECK(!has_gathered_constants(apart));
+    const auto value = [](const Program& program, long double at) {
+        const State<long double> state{.parameters = {8e5L, 29.43L}, .t = 0, .q = {at}, .qdot = {0}, .qddot = {0}};
+        return interpret<long double>(program, state)[static_cast<std::size_t>(program.roots[0].node)];
+    };
+    for (const long double at : {-3.7L, 0.6L, 0.99998L, 12.0L})
+        CHECK(std::abs(static_cast<double>(value(p, at) - value(apart, at))) < 1e-11);
+    CHECK(apart.count(std::vector{apart.roots[0].node}).total() <= p.count(std::vector{force}).total() + 1);
+    // With a soft spring nothing changes.
+    p.parameters[0].value = 8;
+    CHECK(has_gathered_constants(without_swallowed_constants(p)));
+}
 
 TEST_CASE("program: equal values are one node, in whatever order they were made") {
     Program p;

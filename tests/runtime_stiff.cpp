@@ -314,6 +314,58 @@ TEST_CASE("stiff methods: a stiff spring with a damper follows what pushes it") 
     }
 }
 
+// A ball on a stiff, damped rod that swings: roundings of the force, 1e-10 of the weight, are larger than the
+// strictest tolerances allow for an error.
+TEST_CASE("radau: at tolerances beyond rounding a stiff run takes about as many steps as at the limit") {
+    const Rhs ball = make_rhs(4, [](double, const double* y, double* rate) {
+        const double length = std::hypot(y[0], y[1]);
+        const double speed = (y[0] * y[2] + y[1] * y[3]) / length;
+        const double pull = (8e5 * (length - 1) + 4e4 * speed) / length / 5;
+        rate[0] = y[2];
+        rate[1] = y[3];
+        rate[2] = -pull * y[0];
+        rate[3] = -pull * y[1] - 9.81;
+    });
+    const std::vector<double> start{0.8, -0.6, 0, 0};
+    const auto motion = [&](Method method, double tolerance) {
+        return integrate(ball, start, {.method = method, .duration = 2, .tolerance = tolerance});
+    };
+    const Trajectory exact = motion(Method::dop853, 1e-12), limit = motion(Method::radau, 1e-11);
+    for (const double tolerance : {1e-13, 1e-14, 1e-15}) {
+        const Trajectory strict = motion(Method::radau, tolerance);
+        INFO(tolerance << ": " << strict.statistics.steps << " steps, " << limit.statistics.steps << " at 1e-11");
+        REQUIRE(strict.ending == Ending::completed);
+        CHECK(strict.statistics.steps < 5 * limit.statistics.steps);
+        CHECK(distance(strict.final_state(), exact.final_state()) < 1e-10);
+    }
+}
+
+// λ is 1e5 until about t = 2 and again from about t = 28 on; x follows sin t.
+TEST_CASE(
+    "a run that was found stiff comes back to the explicit method where the motion is mild, and changes again") {
+    const Rhs rhs = make_rhs(2, [](double t, const double* y, double* rate) {
+        const double push = 1 / (1 + std::exp(4 * (t - 2))) + 1 / (1 + std::exp(-4 * (t - 28)));
+        rate[0] = -1e5 * push * (y[0] - std::sin(t)) + std::cos(t);
+        rate[1] = -y[0];
+    });
+    const Trajectory motion = integrate(
+        rhs, {0, 1}, {.method = Method::verner98, .duration = 30, .tolerance = 1e-9, .when_stiff = Method::radau});
+    REQUIRE(motion.ending == Ending::completed);
+    REQUIRE(motion.statistics.switched);
+    CHECK(motion.statistics.switched->method == "radau");
+    REQUIRE(!motion.statistics.later_switches.empty());
+    CHECK(motion.statistics.later_switches[0].method == "verner98");
+    CHECK(motion.statistics.later_switches[0].why == Switch::Why::mild);
+    CHECK(motion.statistics.later_switches.back().method == "radau");
+    CHECK(motion.statistics.later_switches.size() < 20);
+    CHECK(motion.statistics.evaluations <
+          20000);  // verner98 alone: 4 s of 1e5/s in steps of 16 within 4.5, 1 400 000
+    CHECK(std::abs(motion.final_state()[0] - std::sin(30)) < 1e-7);
+    CHECK(std::abs(motion.final_state()[1] - std::cos(30)) < 1e-7);
+    for (std::size_t row = 1; row < motion.rows(); ++row) CHECK(motion.times[row] > motion.times[row - 1]);
+    CHECK(motion.rows() == 201);
+}
+
 TEST_CASE(
     "multistep and implicit methods: a smaller tolerance gives a smaller error, and few steps are rejected") {
     const auto end = [](std::vector<double> start) {

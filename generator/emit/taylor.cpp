@@ -96,7 +96,25 @@ void describe(mustache::data& file, const Recurrences& r, std::size_t width) {
     file.set("parameter_values", values);
 }
 
+SeriesCost cost_of_orders(std::size_t operations, const SeriesLanes& lanes) {
+    return {.order = processor::operation_cost * static_cast<double>(operations),
+            .product = processor::product_cost * lanes.products_eight_wide()};
+}
+
 }  // namespace
+
+SeriesCost series_cost(const Program& program) {
+    const Recurrences recurred = recurrences(program);
+    const SeriesLanes lanes(recurred);
+    SeriesWriter writer(recurred, lanes);
+    writer.order_zero();
+    writer.schedule();
+    std::size_t operations = cost_of(writer.given());
+    writer.gathering();
+    operations += cost_of(writer.chain());
+    operations += cost_of(writer.storing(false));
+    return cost_of_orders(operations, lanes);
+}
 
 Source emit_taylor(const Program& program, bool with_work) {
     const Recurrences recurred = recurrences(program, with_work);
@@ -126,8 +144,9 @@ Source emit_taylor(const Program& program, bool with_work) {
     file.set("k", std::to_string(writer.constants().size()));
     file.set("has_straight", is_straight);
     file.set("straight", straight_calls());
-    file.set("order_cost", fmt::format("{:.3g}", processor::operation_cost * static_cast<double>(operations)));
-    file.set("product_cost", fmt::format("{:.3g}", processor::product_cost * lanes.products_eight_wide()));
+    const SeriesCost cost = cost_of_orders(operations, lanes);
+    file.set("order_cost", fmt::format("{:.3g}", cost.order));
+    file.set("product_cost", fmt::format("{:.3g}", cost.product));
     const std::set<Op> functions = elementary_functions(recurred, writer.constants());
     set_elementary(file, functions);
     add_elementary(file);

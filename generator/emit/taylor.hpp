@@ -22,4 +22,10 @@ namespace alembert {
 /// `with_work`: the power of loads is integrated as one more component.
 Source emit_taylor(const Program& program, bool with_work = false);
 
+/// What a series of order p costs, order·p + product·p², in units of the other work of a step (series.hpp).
+struct SeriesCost {
+    double order = 0, product = 0;
+};
+SeriesCost series_cost(const Program& program);
+
 }  // namespace alembert

@@ -237,7 +237,8 @@ Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equation
         return std::make_pair(programs[k].singular && !readable, costs[k].time() * (readable ? 1 : readability));
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-    Choice choice{.program = std::move(programs[order[0]]), .cost = costs[order[0]], .runner_up = {}};
+    Choice choice{
+        .program = without_swallowed_constants(programs[order[0]]), .cost = costs[order[0]], .runner_up = {}};
     if (order.size() > 1) choice.runner_up = RunnerUp{programs[order[1]].formulation, costs[order[1]]};
     return choice;
 }

@@ -30,6 +30,8 @@ Json json_of(const Measured& run) {
     if (run.work) one["work_balance"] = optional(run.energy_drift);
     one["constraint_error"] = optional(run.constraint_error);
     one["momentum_error"] = optional(run.momentum_error);
+    if (!run.chosen.empty()) one["chosen"] = run.chosen;
+    if (!run.went_on.empty()) one["went_on_with"] = run.went_on;
     if (!run.failure.empty()) one["failure"] = run.failure;
     return one;
 }
@@ -50,7 +52,7 @@ std::string csv_of(const std::vector<Measured>& runs) {
 std::vector<Curve> curves_of(const std::vector<Measured>& runs) {
     std::vector<Curve> list;
     for (const Measured& run : runs) {
-        if (!run.error) continue;
+        if (!run.error || !run.chosen.empty()) continue;
         const bool peer = run.who != "alembert";
         const std::string name = peer ? run.who + " " + run.method : run.method;
         if (list.empty() || list.back().name != name) list.push_back({.name = name, .points = {}});
@@ -65,7 +67,7 @@ void add_best(std::string& page, const std::vector<Measured>& runs) {
     for (int decade = 3; decade <= 13; ++decade) {
         std::map<bool, const Measured*> best;
         for (const Measured& run : runs) {
-            if (!run.error || *run.error > std::pow(10.0, -decade)) continue;
+            if (!run.error || *run.error > std::pow(10.0, -decade) || !run.chosen.empty()) continue;
             const Measured*& place = best[run.who == "alembert"];
             if (place == nullptr || run.seconds < place->seconds) place = &run;
         }
@@ -90,7 +92,10 @@ void add_runs(std::string& page, const std::vector<Measured>& runs) {
         return value ? fmt::format("{:.1e}", *value) : std::string("-");
     };
     for (const Measured& run : runs) {
-        const std::string name = run.who == "alembert" ? run.method : run.who + " " + run.method;
+        const std::string name = run.who != "alembert" ? run.who + " " + run.method
+                                 : run.chosen.empty()  ? run.method
+                                 : run.went_on.empty() ? run.method + ": " + run.chosen
+                                                       : run.method + ": " + run.chosen + ", " + run.went_on;
         const std::string given = run.step ? fmt::format("h {:.1e}", *run.step) : cell(run.tolerance);
         put(page, "{:<22}{:>11}{:>11}{:>13.1f}{:>12}{:>9}{:>11}{:>11}{:>11}\n", name, given,
             run.failure.empty() ? cell(run.error) : say("failed"), 1e6 * run.seconds, run.evaluations, run.steps,

@@ -105,10 +105,23 @@ std::string text_of(const std::vector<Run::FrictionChange>& changes, const Mecha
 
 /// A change of method in words: "radau from t = 0.31 on: …".
 std::string described(const Switch& s) {
+    if (s.why == Switch::Why::mild)
+        return say("{} again from t = {:.6g} on: the system is not stiff there", s.method, s.time);
+    if (s.why == Switch::Why::dear)
+        return say("{} again from t = {:.6g} on: its steps cost less there", s.method, s.time);
     return say(
         "{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} "
         "s)",
         s.method, s.time, s.largest_eigenvalue, s.step);
+}
+
+Json json_of(const Switch& s) {
+    const char* const why = s.why == Switch::Why::stiff ? "stiff" : s.why == Switch::Why::mild ? "mild" : "dear";
+    return {{"time", s.time},
+            {"method", s.method},
+            {"largest_eigenvalue", s.largest_eigenvalue},
+            {"step", s.step},
+            {"why", why}};
 }
 
 Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
@@ -180,6 +193,11 @@ void add_motion(std::string& page, const Run& run) {
            of_operations(run));
     if (!run.why_method.empty()) put(page, "{}: {}\n", s.method, run.why_method);
     if (s.switched) put(page, "{}\n", described(*s.switched));
+    constexpr std::size_t most_switches = 4;
+    const std::size_t later = s.later_switches.size();
+    for (std::size_t k = 0; k < std::min(later, most_switches); ++k)
+        put(page, "{}\n", described(s.later_switches[k]));
+    if (later > most_switches) say_on(page, "… and {} more changes of method\n", later - most_switches);
     if (run.solver.jacobian_operations)
         say_on(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
     page += text_of(run.motion.events, run.mechanism);
@@ -237,11 +255,8 @@ Json as_json(const Run& run) {
     if (!run.speeds.empty()) result["final"]["speeds"] = by_name(run.speeds, run.final_speeds);
     result["method"] = s.method;
     if (!run.why_method.empty()) result["method_why"] = run.why_method;
-    if (s.switched)
-        result["switched"] = {{"time", s.switched->time},
-                              {"method", s.switched->method},
-                              {"largest_eigenvalue", s.switched->largest_eigenvalue},
-                              {"step", s.switched->step}};
+    if (s.switched) result["switched"] = json_of(*s.switched);
+    for (const Switch& later : s.later_switches) result["switched_later"].push_back(json_of(later));
     if (run.solver.jacobian_operations) result["jacobian_operations"] = *run.solver.jacobian_operations;
     result["formulation"] = run.solver.formulation;
     result["steps"] = s.steps;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <tuple>
+#include <utility>
 
 #include "alembert/compile.hpp"
 #include "emit/emit.hpp"
@@ -87,7 +88,8 @@ std::vector<Measured> ladder(Workbench& bench, Options options, double each, lon
 
 /// Null if the motion has no power series, or if the method that needs it is not measured.
 SeriesModule series_of(const Program& program, bool with_work, const RunOptions& wishes) {
-    if (!wishes.method.empty() && wishes.method != name(Method::taylor)) return nullptr;
+    if (!wishes.method.empty() && wishes.method != name(Method::taylor) && wishes.method != automatic_method)
+        return nullptr;
     if (obstacle_to_recurrences(program, with_work)) return nullptr;
     return load_series(compile(emit_taylor(program, with_work).text, program.name + "_taylor",
                                {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}})
@@ -163,6 +165,7 @@ public:
                              .canonical = c.canonical,
                              .parameters = start_.parameters,
                              .initial = initial,
+                             .effort = effort_of(program),
                              .conserved = energy.conserved});
         const Options options{
             .start = start_.t,
@@ -173,6 +176,8 @@ public:
         find_reference(program, workbench, options, first);
         workbench.set_reference(result_.reference.final);
         measure(workbench, options, c);
+        if (wishes_.method.empty() || wishes_.method == automatic_method)
+            measure_automatic(workbench, options, program);
         if (options_.peers) measure_others(workbench, c, initial, duration);
     }
 
@@ -251,6 +256,24 @@ private:
         }
     }
 
+    /// What `auto` chooses, at each tolerance.
+    void measure_automatic(Workbench& workbench, Options options, const Program& program) {
+        RunOptions wishes = wishes_;
+        wishes.method = automatic_method;
+        wishes.step = 0;
+        for (int decade = first_decade; decade <= last_decade; ++decade) {
+            tell(say("measuring"), 1);
+            options.tolerance = wishes.tolerance = std::pow(10.0, -decade);
+            const MethodChoice choice = method_for(wishes, result_, program, start_);
+            options.method = choice.method;
+            options.when_stiff = choice.when_stiff;
+            Measured run = workbench.measure(options);
+            run.chosen = std::exchange(run.method, std::string(automatic_method));
+            result_.runs.push_back(std::move(run));
+            if (!result_.runs.back().failure.empty() || result_.runs.back().seconds > most_seconds / 2) return;
+        }
+    }
+
     void measure_others(const Workbench& workbench, const Compilation& c, const std::vector<double>& initial,
                         double duration) {
         std::vector<double> tolerances;
@@ -283,11 +306,11 @@ private:
 
 Bench bench(Scene scene, const BenchOptions& options) {
     const std::string& method = options.wishes.method;
-    if (!method.empty() && !method_named(method))
+    if (!method.empty() && method != automatic_method && !method_named(method))
         throw ModelError(
             say("method '{}' is none that bench measures; expected {} (those of SUNDIALS and others are "
                 "measured as peers)",
-                method, method_names()));
+                method, std::string(automatic_method) + ", " + method_names()));
     Bench result{derived(std::move(scene), {.by = options.wishes.by, .use = Use::run})};
     Benchmark(result, options).run();
     return result;

@@ -136,6 +136,7 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
             const Compiled compiled = compile(source.text, mode.program.name + "_jacobian", options_of_compiler());
             mode.when_stiff = make_rhs(load(compiled.object), start_.parameters, work_);
             mode.when_stiff->extra = mode.contact.rhs.extra;
+            mode.when_stiff->effort = mode.contact.rhs.effort;
             if (!mode.derived.mechanism.constraints.empty())
                 mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff));
             mode.jacobian_operations = derivatives->operations.total();
@@ -180,6 +181,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, const Switched& jumps, std::size_
         [this, self, series](const std::vector<double>& values) {
             Rhs rhs = make_rhs(self->module, values, work_);
             rhs.extra = self->contact.rhs.extra;
+            rhs.effort = self->contact.rhs.effort;
             if (needs_series(method_.method)) rhs.series = make_series(series, values);
             return self->derived.mechanism.constraints.empty() ? rhs : self->projection.guarded(std::move(rhs));
         });
@@ -277,6 +279,7 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
                    .contact = {.rhs = make_rhs(module, values, work_),
                                .events = make_events(module, values, stops, directions)},
                    .from_cache = compiled.from_cache});
+    if (method_.when_stiff) mode->contact.rhs.effort = effort_of(mode->program);
     if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
     mode->contact.rhs.canonical = canonical;

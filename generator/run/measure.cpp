@@ -36,6 +36,7 @@ Workbench::Workbench(Parts parts)
       projection_(parts_.module, parts_.parameters) {
     if (parts_.series) rhs_.series = make_series(parts_.series, parts_.parameters);
     if (parts_.series_with_work) with_work_.series = make_series(parts_.series_with_work, parts_.parameters);
+    rhs_.effort = with_work_.effort = parts_.effort;
     rhs_.canonical = with_work_.canonical = parts_.canonical;
     const Mechanism& m = parts_.derived.mechanism;
     if (!m.constraints.empty())
@@ -84,6 +85,9 @@ Measured Workbench::measure(Options options) {
     result.seconds = seconds[seconds.size() / 2];
     result.evaluations = motion.statistics.evaluations;
     result.steps = motion.statistics.steps;
+    const Statistics& done = motion.statistics;
+    if (done.switched)
+        result.went_on = (done.later_switches.empty() ? *done.switched : done.later_switches.back()).method;
     if (motion.failure) {
         result.failure = motion.failure->message;
         result.budget_used_up = motion.failure->kind == FailureKind::budget_used_up;

@@ -24,6 +24,8 @@ namespace alembert {
 
 struct Measured {
     std::string who = "alembert", method = {};
+    std::string chosen = {};   ///< the method that `auto` has chosen; empty for the others
+    std::string went_on = {};  ///< the method to which the run changed when it was found stiff; may be empty
     std::optional<double> tolerance = {}, step = {};  ///< one of the two is set
     std::optional<double> error = {};                 ///< nothing if the run failed or there is no reference
     double seconds = 0;
@@ -49,6 +51,7 @@ public:
         SeriesModule series = {}, series_with_work = {};  ///< null if methods that need them are not measured
         std::shared_ptr<const Canonical> canonical = {};  ///< likewise
         std::vector<double> parameters, initial;
+        double effort = 0;                   ///< Rhs::effort
         bool conserved = true;               ///< whether the energy is conserved
         std::vector<double> reference = {};  ///< coordinates, then rates, at the end; may be empty
     };

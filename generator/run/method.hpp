@@ -7,18 +7,21 @@
 ///     choice.why;      // "the tolerance is 1e-09; if the system turns out stiff, radau goes on"
 ///
 /// `auto` looks at the structure (is the energy separable? has the motion a power series?), the length of the run
-/// in steps, the tolerance, and the size of the equations:
+/// in steps, the tolerance, and what steps cost:
 ///
 /// | asked for | chosen |
 /// | --- | --- |
 /// | a step, energy separable, 10 000 steps or more | kahanli8: its energy does not drift |
 /// | a step | rk4 |
-/// | a tolerance above 1e-5 | dopri5 |
-/// | 1e-12 and above | dop853 |
-/// | below, the motion has a power series of at most 300 products an order | taylor |
-/// | below | verner98 |
+/// | a tolerance above 3e-5 | dop853 |
+/// | below 1e-9 (1e-12), with a power series that is not too long and predicted to be faster | taylor |
+/// | any other, without constraints | verner98 |
+/// | any other, with constraints | dop853 to 1e-12, verner98 below |
 ///
-/// Methods that choose their steps watch for stiffness while they run (stiffness.hpp) and then change to radau.
+/// The number in brackets is for constraints: dop853 passes through flat poses of linkages where others stop. At
+/// 1e-9, the default, and above no series is taken: its file takes 0.1 to 1 s to compile, and a run with the
+/// default budget of 10⁷ right-hand sides takes less. Methods that choose their steps watch for stiffness while
+/// they run (stiffness.hpp), change to radau, and come back.
 
 #include "alembert/integrate.hpp"
 #include "derive/derived.hpp"
@@ -40,6 +43,9 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& der
 /// The requested method, or the one that suits the scene. `program` is the program that will run.
 MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program,
                         const Start& start);
+
+/// The predicted time of one right-hand side, ns (pace.hpp).
+double effort_of(const Program& program);
 
 /// The longest allowed step in s; 0 means no bound.
 double longest_step(const RunOptions& wishes, const Start& start);

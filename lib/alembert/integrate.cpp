@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -82,29 +83,6 @@ Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options
     return StepLoop<AnyStep>(rhs, initial, options, events).go();
 }
 
-/// Integrates the rest of a run that was found to be stiff, with rows on the same grid.
-void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Events& events) {
-    const double end = options.start + options.duration, interval = sample_interval(options);
-    Options rest = options;
-    rest.method = *options.when_stiff;
-    rest.when_stiff = {};
-    rest.rhs_when_stiff = {};
-    rest.start = first.times.back();
-    rest.duration = end - rest.start;
-    rest.step = 0;
-    rest.sample = interval;
-    rest.grid = options.grid.value_or(options.start);
-    rest.budget = std::max(1L, options.budget - first.statistics.evaluations);
-    const std::vector<double> state(first.final_state().begin(), first.final_state().end());
-    Trajectory second = integrate(options.rhs_when_stiff ? options.rhs_when_stiff() : rhs, state, rest, events);
-    append(first, std::move(second), *rest.grid, interval);
-    if (first.failure && first.failure->kind == FailureKind::budget_used_up)
-        first.failure->message = fmt::format(
-            "{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen the "
-            "tolerance or shorten the duration",
-            options.budget, first.failure->time);
-}
-
 using Integration = Trajectory (*)(const Rhs&, const std::vector<double>&, const Options&, const Events&);
 
 struct Steps {
@@ -151,6 +129,46 @@ constexpr bool tables_agree() {
     return true;
 }
 static_assert(tables_agree());
+
+/// Integrates the rest of a run that was found to be stiff by turns of both methods, with rows on the same grid.
+/// The longer a run has come back in vain, the longer it does not look for stiffness.
+void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Events& events) {
+    constexpr long first_patience = 50;
+    const double end = options.start + options.duration, interval = sample_interval(options);
+    const Rhs implicit = options.rhs_when_stiff ? options.rhs_when_stiff() : rhs;
+    long patience = first_patience;
+    for (std::optional<Switch> next = whole.statistics.switched; next && whole.ending == Ending::completed;) {
+        const bool is_stiff = next->why == Switch::Why::stiff;
+        Options rest = options;
+        rest.start = whole.times.back();
+        rest.duration = end - rest.start;
+        rest.step = 0;
+        rest.sample = interval;
+        rest.grid = options.grid.value_or(options.start);
+        rest.budget = std::max(1L, options.budget - whole.statistics.evaluations);
+        if (is_stiff) {
+            rest.turns.effort_per_time = next->effort_per_time;
+            rest.method = *options.when_stiff;
+            rest.when_stiff = {};
+            rest.turns.back = options.method;
+            rest.step = next->step;
+        } else {
+            rest.turns.patience = patience;
+            patience *= 4;
+        }
+        const std::vector<double> state(whole.final_state().begin(), whole.final_state().end());
+        Trajectory piece =
+            by_method[static_cast<std::size_t>(rest.method)].run(is_stiff ? implicit : rhs, state, rest, events);
+        next = std::exchange(piece.statistics.switched, {});
+        if (next) whole.statistics.later_switches.push_back(*next);
+        append(whole, std::move(piece), *rest.grid, interval);
+    }
+    if (whole.failure && whole.failure->kind == FailureKind::budget_used_up)
+        whole.failure->message = fmt::format(
+            "{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen the "
+            "tolerance or shorten the duration",
+            options.budget, whole.failure->time);
+}
 
 }  // namespace
 

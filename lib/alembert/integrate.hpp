@@ -63,6 +63,13 @@ struct Options;
 using Integrator =
     std::function<Trajectory(const Rhs& rhs, const std::vector<double>& initial, const Options& options)>;
 
+/// What a piece of a run knows of the other method of the run. `integrate` sets it.
+struct Turns {
+    std::optional<Method> back = {};  ///< the explicit method to which a run that was found stiff may come back
+    double effort_per_time = 0;       ///< of the explicit method; 0: not known
+    long patience = 0;                ///< steps before which no stiffness is looked for
+};
+
 struct Options {
     Method method = Method::dop853;
     double start = 0;
@@ -78,10 +85,12 @@ struct Options {
     /// The most evaluations of the right-hand side; no step is begun that could exceed it.
     long budget = 10'000'000;
     /// If stiffness is found to limit the steps of an explicit method (stiffness.hpp), the run goes on with this
-    /// method.
+    /// method. It comes back where the explicit one would be stable with the same steps, or where the steps of the
+    /// other turn out to cost more (pace.hpp).
     std::optional<Method> when_stiff = {};
     std::function<Rhs()> rhs_when_stiff =
-        {};               ///< gives the same system with its Jacobian at that time; if empty, the same Rhs is used
+        {};  ///< gives the same system with its Jacobian at that time; if empty, the same Rhs is used
+    Turns turns = {};
     OnStep on_step = {};  ///< may be empty
     /// Moves the end of each step onto the constraints after its error was found small enough; may be empty.
     std::function<void(double t, double* state)> project = {};

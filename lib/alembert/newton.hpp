@@ -53,7 +53,9 @@ class Contraction {
 public:
     enum Verdict { more, done, hopeless };
 
-    Contraction(double enough, int most) : enough_(enough), most_(most) {}
+    /// `rounding`: if `enough` is not many times larger, neither are changes that may be rounding.
+    Contraction(double enough, int most, double rounding = 0)
+        : enough_(enough), rounding_(rounding), most_(most) {}
 
     Verdict after(double change) {
         ++round_;
@@ -61,6 +63,9 @@ public:
         if (change == 0) return done;
         if (round_ > 1) {
             ratio_ = change / before_;
+            const bool is_rounding = std::max(change, enough_) <= several * rounding_;
+            if (!is_rounding) known_ratio_ = ratio_;
+            if (is_rounding && ratio_ > 0.5) return done;  // it does not become more exact
             if (ratio_ >= 1) return change <= enough_ ? done : hopeless;
             const double left = ratio_ / (1 - ratio_) * change;
             if (left <= enough_) return done;
@@ -70,14 +75,16 @@ public:
         return round_ < most_ ? more : hopeless;
     }
 
-    double ratio() const { return ratio_; }
+    /// The last Θ of changes that are more than rounding; 0 if there were not two of these.
+    double ratio() const { return known_ratio_; }
     int rounds() const { return round_; }
 
 private:
-    double enough_;
+    static constexpr double several = 10;
+    double enough_, rounding_;
     int most_;
     int round_ = 0;
-    double before_ = 0, ratio_ = 0;
+    double before_ = 0, ratio_ = 0, known_ratio_ = 0;
 };
 
 }  // namespace alembert

@@ -251,7 +251,11 @@ private:
         sum.evaluations += s.evaluations;
         sum.seconds += s.seconds;
         sum.method = s.method;
-        if (!sum.switched) sum.switched = s.switched;
+        if (!sum.switched)
+            sum.switched = s.switched;
+        else if (s.switched)
+            sum.later_switches.push_back(*s.switched);
+        sum.later_switches.insert(sum.later_switches.end(), s.later_switches.begin(), s.later_switches.end());
     }
 
     /// The mode's events, prepared for a phase. The events of contacts are compared with their bounds and stop the

@@ -37,7 +37,7 @@ public:
 
     Radau(const Ends& ends, double tolerance)
         : n_(ends.size),
-          enough_(std::max(1e-2 * tolerance, 4e-16)),
+          enough_(std::max(1e-2 * tolerance, least_rounding)),
           jacobian_(n_),
           real_(n_),
           complex_((most - 1) / 2, Shifted<std::complex<double>>(n_)),
@@ -51,7 +51,13 @@ public:
         complex_solution_.assign(complex_.size(), Eigen::VectorXcd(n_));
         take(fewest);
         poly_ = Eigen::MatrixXd::Zero(n_, fewest);
+        power_ = Eigen::VectorXd::Ones(n_) / std::sqrt(static_cast<double>(n_));
     }
+
+    /// The estimate of the error may consist of rounding up to this size.
+    double rounding() const { return 20 * rounding_; }
+    /// The modulus of the largest eigenvalue of ∂f/∂y at its last evaluation, about.
+    double largest_eigenvalue() const { return largest_eigenvalue_; }
 
     int most_evaluations() const { return n_ + most * most_rounds + 1; }
     int stages() const { return s_; }
@@ -61,10 +67,14 @@ public:
         if (!has_jacobian_) {
             jacobian_.evaluate(ends);
             pairs_ = second_order(jacobian_.values);
+            find_largest_eigenvalue();
             has_jacobian_ = is_fresh_ = true;
             factored_for_ = 0;
         }
-        if (!(std::abs(h - factored_for_) <= 1e-9 * h)) factorize(h);
+        if (!(std::abs(h - factored_for_) <= 1e-9 * h)) {
+            factorize(h);
+            find_rounding(ends);
+        }
         forecast(h);
         if (!solve(ends, h)) {
             has_jacobian_ = has_jacobian_ && is_fresh_;
@@ -118,6 +128,7 @@ public:
 
 private:
     static constexpr int most_rounds = most + 7;
+    static constexpr double least_rounding = 4e-16;  ///< of a stage, in units of max(1, |y|)
     using Complex = std::complex<double>;
 
     void take(int stages) {
@@ -143,6 +154,41 @@ private:
         factored_for_ = h;
     }
 
+    /// The changes of a stage that roundings of f make: (λ/h − J)⁻¹ r with |r_i| = ½ ε Σ |J_ij y_j|, for two
+    /// choices of signs. Newton's iteration cannot become more exact than that, nor can the estimate of the error.
+    void find_rounding(const Ends& ends) {
+        constexpr double half_epsilon = 1.1102230246251565e-16;
+        rounding_ = 0;
+        for (const int period : {2, 3}) {
+            for (int i = 0; i < n_; ++i) {
+                double sum = 0;
+                for (int j = 0; j < n_; ++j)
+                    sum += std::abs(jacobian_.values(i, j) * ends.y[static_cast<std::size_t>(j)]);
+                real_side_[i] = (i % period == 0 ? half_epsilon : -half_epsilon) * sum;
+            }
+            real_.solve(real_side_, real_solution_);
+            rounding_ = std::max(rounding_, ends.norm(real_solution_.data()));
+        }
+        if (!std::isfinite(rounding_)) rounding_ = 0;
+    }
+
+    /// The fourth root of ‖J⁴v‖/‖v‖, v being what is left of the last vectors.
+    void find_largest_eigenvalue() {
+        double growth = 1;
+        for (int round = 0; round < 4; ++round) {
+            real_solution_.noalias() = jacobian_.values * power_;
+            const double size = real_solution_.norm();
+            if (!(size > 0) || !std::isfinite(size)) {
+                power_.setOnes();
+                power_ /= power_.norm();
+                break;
+            }
+            growth *= size;
+            power_ = real_solution_ / size;
+        }
+        largest_eigenvalue_ = std::sqrt(std::sqrt(growth));
+    }
+
     /// θ (p₀ + p₁θ + …)
     static double value(const Eigen::MatrixXd& polynomial, int i, double theta) {
         double sum = 0;
@@ -161,7 +207,7 @@ private:
     }
 
     bool solve(Ends& ends, double h) {
-        Contraction contraction(enough_, s_ + 7);
+        Contraction contraction(std::max(enough_, rounding_), s_ + 7, std::max(rounding_, least_rounding));
         for (;;) {
             for (int k = 0; k < s_; ++k) {
                 for (int i = 0; i < n_; ++i) {
@@ -172,7 +218,7 @@ private:
             }
             const double largest = correct(ends, h);
             const auto verdict = contraction.after(largest);
-            ratio_ = contraction.rounds() > 1 ? contraction.ratio() : 0;
+            ratio_ = contraction.ratio();
             if (verdict == Contraction::more) continue;
             return verdict == Contraction::done;
         }
@@ -231,6 +277,8 @@ private:
     std::vector<Eigen::VectorXcd> complex_solution_;
     std::vector<double> state_, rate_, delta_;
     StepSize control_;
+    Eigen::VectorXd power_;  ///< the direction that the last powers of ∂f/∂y have given
+    double rounding_ = 0, largest_eigenvalue_ = 0;
     double factored_for_ = 0, step_of_poly_ = 0, ratio_ = 0;
     int steps_of_order_ = 0;
     bool has_jacobian_ = false, is_fresh_ = false, was_rejected_ = false, is_first_ = true;

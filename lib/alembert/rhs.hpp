@@ -38,6 +38,7 @@ struct Rhs {
     std::shared_ptr<const void> context = {};
     Call call = nullptr;
     Call jacobian = nullptr;  ///< writes dimension² numbers
+    double effort = 0;        ///< about how many ns a call takes, predicted from counts (pace.hpp); 0: not known
     Series series = {};       ///< of the motion, for the method taylor; may be missing
     std::shared_ptr<const Canonical> canonical =
         {};  ///< momenta and constraints, for the method rattle (canonical.hpp); may be missing

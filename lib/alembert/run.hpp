@@ -24,6 +24,8 @@
 #include <fmt/format.h>
 
 #include "alembert/integrate.hpp"
+#include "alembert/pace.hpp"
+#include "alembert/rounding.hpp"
 #include "alembert/step.hpp"
 #include "alembert/step_size.hpp"
 #include "alembert/stiffness.hpp"
@@ -47,7 +49,8 @@ public:
           tolerance_(tolerance_within_rounding(options.tolerance)),
           step_(rhs, options.start, initial, tolerance_),
           watch_(events, rhs),
-          stiffness_(stable_interval()),
+          rounding_(tolerance_),
+          stiffness_(stable_interval(), dearer(), options.turns.patience),
           row_(initial.size()),
           event_rate_(initial.size()) {
         result_.dimension = rhs.dimension;
@@ -79,8 +82,25 @@ public:
     }
 
 private:
+    static constexpr double clearly = 1.3;  ///< how much more radau must cost before the other method takes over
+
     long evaluations() const {
-        return step_.evaluations() + watch_.evaluations() + stiffness_.evaluations() + further_evaluations_;
+        return step_.evaluations() + watch_.evaluations() + stiffness_.evaluations() + rounding_.evaluations() +
+               further_evaluations_;
+    }
+
+    /// The predicted effort of the steps so far (pace.hpp), without events.
+    double effort() const { return static_cast<double>(step_.evaluations()) * effort_of_call(); }
+    double effort_of_call() const {
+        if constexpr (requires { step_.effort(); }) return step_.effort();
+        return effort_of_evaluation(step_.rhs(), uses_jacobian(options_.method));
+    }
+
+    /// How many steps of this method cost as much as one of radau.
+    double dearer() const {
+        if (!options_.when_stiff) return 0;
+        return evaluations_of_radau * effort_of_evaluation(step_.rhs(), true) /
+               (step_.most_evaluations() * effort_of_call());
     }
     bool ended() const { return result_.ending != Ending::completed || result_.statistics.switched; }
 
@@ -143,16 +163,29 @@ private:
             const double reach = step_.time() + std::min(1.01 * h, longest * (1 + 1e-9));
             step_.attempt(reach < end_ ? step_.time() + h : end_);
             misfit = step_.misfit();
-            if (misfit <= tolerance_ && !finish()) misfit = HUGE_VAL;
-            const bool good = misfit <= tolerance_;
+            const double noise = rounding(), allowed = std::max(tolerance_, noise);
+            if (misfit <= allowed && !finish()) misfit = HUGE_VAL;
+            const bool good = misfit <= allowed;
             if (good)
                 accept();
             else
                 ++result_.statistics.rejected;
-            if (step_.time() < end_) h = next_length(control, good, misfit / tolerance_);
+            if (step_.time() < end_) h = next_length(control, good, misfit / allowed * certainty(misfit, noise));
             if constexpr (!requires { step_.next_length(good, misfit); })
                 if (is_held && good) h = std::max(h, wish);  // a step that was shortened on request is no forecast
         }
+    }
+
+    /// An estimate that is smaller than its rounding says nothing of the error but that it is not larger. A step
+    /// length that followed it would stay where rounding has brought it by chance.
+    double certainty(double misfit, double noise) const {
+        return misfit < noise && noise > 0.01 * tolerance_ ? misfit / noise : 1;
+    }
+
+    /// The part of the error estimate of the step that may be rounding.
+    double rounding() const {
+        if constexpr (requires { step_.rounding(); }) return step_.rounding();
+        return rounding_.level(step_.length());
     }
 
     /// h, or less where an input changes fast.
@@ -199,17 +232,58 @@ private:
         add_rows_before(step_.end_time());
         step_.advance();
         tell(step_.time(), step_.state(), step_.rate());
-        if (step_.time() == end_) {
-            add_row(end_, step_.state());
-        } else if (options_.when_stiff && evaluations() < options_.budget &&
-                   stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(),
-                                          step_.length())) {
-            result_.statistics.switched = Switch{.time = step_.time(),
-                                                 .method = std::string(name(*options_.when_stiff)),
-                                                 .largest_eigenvalue = stiffness_.largest_eigenvalue(),
-                                                 .step = step_.length()};
-            if (result_.times.back() < step_.time()) add_row(step_.time(), step_.state());
+        if (step_.time() == end_) return add_row(end_, step_.state());
+        look_at_cost();
+    }
+
+    /// Keeps account of what steps cost, and ends this piece of the run where the other method is likely to be
+    /// faster.
+    void look_at_cost() {
+        if constexpr (!AnyStep::has_fixed_step && !requires { step_.first_length(); })
+            if constexpr (!requires { step_.rounding(); })
+                rounding_.look(step_.rhs(), step_.time(), step_.state(), step_.rate());
+        if (!options_.when_stiff && !options_.turns.back) return;
+        pace_.add(step_.time(), effort());
+        if (evaluations() >= options_.budget) return;
+        if (options_.when_stiff) {
+            if (stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(), step_.length()))
+                change_to(*options_.when_stiff, Switch::Why::stiff, stiffness_.largest_eigenvalue());
+        } else if (const std::optional<Switch::Why> why = reason_to_come_back()) {
+            change_to(*options_.turns.back, *why, largest_eigenvalue());
         }
+    }
+
+    double largest_eigenvalue() const {
+        if constexpr (requires { step_.largest_eigenvalue(); }) return step_.largest_eigenvalue();
+        return 0;
+    }
+
+    /// Looks at the last steps, unless they have become longer: a run with radau begins with few stages and short
+    /// steps.
+    std::optional<Switch::Why> reason_to_come_back() {
+        constexpr double of_a_series = 8;  // of the usual orders
+        constexpr long window = Pace::window;
+        const double known = StiffnessWatch::stable_interval(*options_.turns.back);
+        const double border = (known > 0 ? known : of_a_series) / 2;
+        mild_steps_ = step_.length() * largest_eigenvalue() < border ? mild_steps_ + 1 : 0;
+        if (result_.statistics.steps % window != 0) return std::nullopt;
+        const double earlier = std::exchange(earlier_length_, step_.length());
+        if (!(step_.length() < 1.5 * earlier)) return std::nullopt;
+        if (mild_steps_ >= window) return Switch::Why::mild;
+        if (options_.turns.effort_per_time > 0 &&
+            pace_.effort_per_time() > clearly * options_.turns.effort_per_time)
+            return Switch::Why::dear;
+        return std::nullopt;
+    }
+
+    void change_to(Method method, Switch::Why why, double eigenvalue) {
+        result_.statistics.switched = Switch{.time = step_.time(),
+                                             .method = std::string(name(method)),
+                                             .largest_eigenvalue = eigenvalue,
+                                             .step = step_.length(),
+                                             .why = why,
+                                             .effort_per_time = pace_.effort_per_time()};
+        if (result_.times.back() < step_.time()) add_row(step_.time(), step_.state());
     }
 
     const Event& event_of(const Crossing& crossing) const {
@@ -332,7 +406,11 @@ private:
     const double tolerance_;
     AnyStep step_;
     EventWatch watch_;
+    RoundingWatch rounding_;
     StiffnessWatch stiffness_;
+    Pace pace_;
+    long mild_steps_ = 0;        ///< the last steps with which the other method would be stable
+    double earlier_length_ = 0;  ///< of the step before the last that was looked at
     Trajectory result_;
     std::vector<double> row_;
     std::vector<double> event_rate_;

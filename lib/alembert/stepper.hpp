@@ -116,6 +116,13 @@ public:
     double stable_interval() const requires requires(const Formula f) { f.stable_interval(); }
     { return formula_.stable_interval(); }
 
+    double rounding() const requires requires(const Formula f) { f.rounding(); }
+    { return formula_.rounding(); }
+    double largest_eigenvalue() const requires requires(const Formula f) { f.largest_eigenvalue(); }
+    { return formula_.largest_eigenvalue(); }
+    double effort() const requires requires(const Formula f) { f.effort(); }
+    { return formula_.effort(); }
+
     void attempt(double end) {
         ends_.end = end;
         ends_.h = end - ends_.t;

@@ -8,9 +8,15 @@
 ///
 /// At every fourth step one evaluation gives ρ = ‖f(t, y + δv) − f(t, y)‖/δ with ‖v‖ = 1. The difference is the
 /// next v, so that in the course of the run the power method finds the modulus of the largest eigenvalue of ∂f/∂y
-/// (as RKC does: Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88 (1998) 315-326, §3). A step that accuracy
-/// chose is well inside the region of stability. If hρ has been near the border of that region fifteen times in a
-/// row, with at most five exceptions, stability limits the step (Hairer & Wanner, Solving ODEs II, §IV.2).
+/// (as RKC does: Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88 (1998) 315-326, §3). There are two signs
+/// of stiffness; each must have been seen at many checks in a row, with at most five exceptions:
+///
+///  - hρ is near the border of the region of stability, while a step that accuracy chose is well inside (Hairer &
+///    Wanner, Solving ODEs II, §IV.2): fifteen times.
+///  - The largest eigenvalue is real and negative (v is an eigenvector), hρ is at least a seventh of the border,
+///    and the rate changes so little in a step that steps many times longer would follow the motion: then the mode
+///    that has died away long ago still makes the estimates of the error. Ten times. "Many times" means more than
+///    an implicit step costs in explicit ones, `dearer`; with 0 this sign is not looked for.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +29,9 @@ namespace alembert {
 class StiffnessWatch {
 public:
     explicit StiffnessWatch(Method method) : StiffnessWatch(stable_interval(method)) {}
-    explicit StiffnessWatch(double stable_interval) : border_(0.7 * stable_interval) {}
+    /// `patience`: the steps before which nothing is found.
+    explicit StiffnessWatch(double stable_interval, double dearer = 0, long patience = 0)
+        : border_(0.7 * stable_interval), damped_border_(stable_interval / 7), dearer_(dearer), step_(-patience) {}
 
     /// The value of −hλ up to which the method is stable; 0 if it is not known.
     static double stable_interval(Method method) {
@@ -44,8 +52,10 @@ public:
     }
 
     bool finds_stiff(const Rhs& rhs, double t, const double* y, const double* rate, double h) {
-        if (border_ == 0 || ++step_ % 4 != 0) return false;
+        if (border_ == 0 || ++step_ <= 0) return false;
         const auto n = static_cast<std::size_t>(rhs.dimension - rhs.extra);
+        if (step_ % 4 == 3 && dearer_ > 0) before_.assign(rate, rate + n);
+        if (step_ % 4 != 0) return false;
         if (direction_.empty()) direction_.assign(rate, rate + n);
         const double length = norm(direction_.data(), y, n);
         if (!(length > 0) || !std::isfinite(length)) {
@@ -58,21 +68,40 @@ public:
         rate_.resize(moved_.size());
         rhs(t, moved_.data(), rate_.data());
         ++evaluations_;
-        for (std::size_t i = 0; i < n; ++i) direction_[i] = rate_[i] - rate[i];
-        rho_ = norm(direction_.data(), y, n) / delta;
-        if (h * rho_ > border_ && h * rho_ < HUGE_VAL) {
-            above_ += 1;
-            if (above_ >= 15) return true;
-        } else if (++below_ > 5) {
-            above_ = below_ = 0;
+        double along = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double difference = rate_[i] - rate[i], scale = std::max(1.0, std::abs(y[i]));
+            along += difference / scale * (direction_[i] / scale);
+            direction_[i] = difference;
         }
-        return false;
+        const double now = norm(direction_.data(), y, n);
+        rho_ = now / delta;
+        const bool is_damped = along < -0.95 * length * now;
+        const bool is_quiet = dearer_ > 0 && is_damped && changes_little(rate, y, n);
+        return limit_.counts(h * rho_ > border_ && h * rho_ < HUGE_VAL, 15) ||
+               quiet_.counts(is_quiet && h * rho_ > damped_border_, 10);
     }
 
     double largest_eigenvalue() const { return rho_; }
     long evaluations() const { return evaluations_; }
 
 private:
+    /// How often something was seen, and not seen, since it was not seen six times.
+    struct Sightings {
+        int seen = 0, missed = 0;
+        bool counts(bool sighted, int enough) {
+            if (sighted) return ++seen >= enough;
+            if (++missed > 5) seen = missed = 0;
+            return false;
+        }
+    };
+
+    bool changes_little(const double* rate, const double* y, std::size_t n) {
+        if (before_.size() != n) return false;
+        for (std::size_t i = 0; i < n; ++i) before_[i] -= rate[i];
+        return norm(before_.data(), y, n) * 2 * dearer_ < norm(rate, y, n);
+    }
+
     static double norm(const double* v, const double* y, std::size_t n) {
         double sum = 0;
         for (std::size_t i = 0; i < n; ++i) {
@@ -82,10 +111,10 @@ private:
         return std::sqrt(sum);
     }
 
-    double border_, rho_ = 0;
+    double border_, damped_border_, dearer_, rho_ = 0;
     long step_ = 0, evaluations_ = 0;
-    int above_ = 0, below_ = 0;
-    std::vector<double> direction_, moved_, rate_;
+    Sightings limit_, quiet_;
+    std::vector<double> direction_, moved_, rate_, before_;
 };
 
 }  // namespace alembert

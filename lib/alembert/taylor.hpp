@@ -40,6 +40,12 @@ inline int taylor_order(double tolerance, double order_cost = 0, double product_
     return best;
 }
 
+/// The effort of a step of this order in ns (pace.hpp).
+inline double taylor_effort(double order_cost, double product_cost, int order) {
+    constexpr double other_work = 70;  ///< the unit of the two costs
+    return other_work * (1 + order_cost * order + product_cost * order * order);
+}
+
 class Taylor {
 public:
     static constexpr bool has_fixed_step = false;
@@ -54,6 +60,7 @@ public:
           coefficients_(static_cast<std::size_t>(order_ + 1) * size_),
           next_(coefficients_.size()),
           work_(static_cast<std::size_t>(ends.rhs.series.workspace) + 8) {
+        effort_ = taylor_effort(ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost, order_);
         void* start = work_.data();
         std::size_t room = work_.size() * sizeof(double);
         aligned_ = static_cast<double*>(std::align(64, room - 64, start, room));
@@ -63,6 +70,9 @@ public:
     /// The value of −hλ up to which the polynomial of this order is smaller than 1 (to 2 %, for orders from 4 to
     /// 30).
     double stable_interval() const { return 1.3 + 0.37 * order_; }
+
+    /// Of one series with its step (pace.hpp).
+    double effort() const { return effort_; }
 
     bool increment(Ends& ends, double h, double* change, double*) {
         if (!expanded_) expand(ends, ends.t, ends.y, coefficients_);
@@ -145,7 +155,7 @@ private:
         return std::exp(shortest);
     }
 
-    double log_tolerance_;
+    double log_tolerance_, effort_ = 0;
     int order_;
     std::size_t size_;
     std::vector<double> coefficients_, next_, work_;

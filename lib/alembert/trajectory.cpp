@@ -19,6 +19,12 @@ void append(Trajectory& first, Trajectory next, double grid, double sample) {
     first.statistics.steps += next.statistics.steps;
     first.statistics.rejected += next.statistics.rejected;
     first.statistics.evaluations += next.statistics.evaluations;
+    std::vector<Switch>& later = first.statistics.later_switches;
+    if (!first.statistics.switched)
+        first.statistics.switched = next.statistics.switched;
+    else if (next.statistics.switched)
+        later.push_back(*next.statistics.switched);
+    later.insert(later.end(), next.statistics.later_switches.begin(), next.statistics.later_switches.end());
     first.last_zeros = std::move(next.last_zeros);
     first.ending = next.ending;
     first.failure = std::move(next.failure);

@@ -58,21 +58,29 @@ struct LastZero {
     bool counts = false;  ///< whether that is the event's direction
 };
 
-/// The change from an explicit method to one for stiff systems.
+/// The change from an explicit method to one for stiff systems, or back.
 struct Switch {
+    enum class Why {
+        stiff,  ///< stability limits the steps
+        mild,   ///< it would not limit the steps of the explicit method any more
+        dear    ///< the steps of the method for stiff systems cost more than those of the other did
+    };
     double time = 0;
     std::string method;         ///< the method with which the run went on
     double largest_eigenvalue;  ///< the modulus of the largest eigenvalue of ∂f/∂y at that time, 1/s
-    double step;                ///< the step, in s, to which the first method was limited
+    double step;                ///< the step at that time, in s
+    Why why = Why::stiff;
+    double effort_per_time = 0;  ///< of the method until then (pace.hpp)
 };
 
 struct Statistics {
     long steps = 0;  ///< accepted steps
     long rejected = 0;
-    long evaluations = 0;  ///< of the right-hand side, those for dense output and events included
-    double seconds = 0;    ///< processor time of this thread, without setting up the system
-    std::string method;    ///< the method at the start
-    std::optional<Switch> switched = {};
+    long evaluations = 0;                 ///< of the right-hand side, those for dense output and events included
+    double seconds = 0;                   ///< processor time of this thread, without setting up the system
+    std::string method;                   ///< the method at the start
+    std::optional<Switch> switched = {};  ///< the first change of method
+    std::vector<Switch> later_switches = {};
 };
 
 struct Trajectory {

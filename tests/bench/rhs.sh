@@ -4,6 +4,7 @@
 # for chains of 2 to 32 rods with joint torques, two arms of seven joints, the double pendulum and the four-bar, beside those of
 # MuJoCo, KDL, Bullet, DART and Simbody from Debian's packages (--alone: without), and of two systems of one coordinate beside those
 # written by hand (by_hand.cpp); BUILD is the folder of the build (build/release).
+# Last come the rounding errors of right-hand sides at states along hard motions, against 50 digits (rounding.py).
 # Packages that are missing are installed where this runs as root, and left out otherwise.
 # --json writes a list of {system, floor_ns, ours_ns, ours_pack_ns, formulation, operations, error, compile_s, rivals: {name: ns}},
 # --svg a bar chart. rhs.cpp says how time is taken.
@@ -70,3 +71,4 @@ add "$root/scenes/textbook/four_bar.toml"
 [ -n "$file" ] || file=$folder/rows.json
 "$build/tests/$target" --json "$file" "$root/tests" "${systems[@]}"
 [ -z "$chart" ] || python3 -B "$root/tests/bench/chart.py" "$file" >"$chart"
+python3 -B "$root/tests/bench/rounding.py" "$alembert"

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// What steps cost, as it is predicted from counts, so that two methods can be compared during a run and the
+/// comparison is the same on every machine and in every run.
+///
+///     Pace pace;
+///     pace.add(t, evaluations * effort_of_evaluation(rhs, method));    // after each accepted step
+///     pace.effort_per_time();                                          // over the last steps; 0 at first
+///
+/// Efforts are nanoseconds of the processor on which they were fitted (by `bench`, on systems of 2 to 28
+/// components): a right-hand side takes Rhs::effort; an explicit method adds 4 + n for each evaluation of n
+/// components, and an implicit one 30 n, in which are its linear algebra and its Jacobians.
+
+#include <array>
+#include <cstddef>
+
+#include "alembert/methods.hpp"
+#include "alembert/rhs.hpp"
+
+namespace alembert {
+
+/// The effort of one evaluation within a step. `method` must not be a Taylor series, which has its own
+/// (taylor.hpp).
+inline double effort_of_evaluation(const Rhs& rhs, bool implicit) {
+    const double n = rhs.dimension, call = rhs.effort > 0 ? rhs.effort : 10 * n;
+    return call + (implicit ? 30 * n : 4 + n);
+}
+
+/// The evaluations of a usual step of radau.
+inline constexpr double evaluations_of_radau = 20;
+
+class Pace {
+public:
+    static constexpr std::size_t window = 16;  ///< steps
+
+    void add(double time, double effort) {
+        times_[count_ % times_.size()] = time;
+        efforts_[count_ % times_.size()] = effort;
+        ++count_;
+    }
+
+    bool is_known() const { return count_ > window; }
+
+    /// Over the last `window` steps; 0 before there are so many.
+    double effort_per_time() const {
+        if (!is_known()) return 0;
+        const std::size_t last = (count_ - 1) % times_.size(), first = count_ % times_.size();
+        return (efforts_[last] - efforts_[first]) / (times_[last] - times_[first]);
+    }
+
+private:
+    std::array<double, window + 1> times_ = {}, efforts_ = {};
+    std::size_t count_ = 0;
+};
+
+}  // namespace alembert
