@@ -73,7 +73,7 @@ TEST_CASE("bench: auto is measured too, with the method that it has chosen at ea
     for (const Json& one : result["runs"]) {
         CHECK(one["method"] == "auto");
         const double tolerance = one["tolerance"];
-        CHECK(one["chosen"] == (tolerance > 3e-5 ? "dop853" : tolerance > 0.9e-9 ? "verner98" : "taylor"));
+        CHECK(one["chosen"] == (tolerance > 3e-5 ? "dop853" : tolerance > 0.9e-10 ? "verner98" : "taylor"));
         CHECK(one["error"].get<double>() <= tolerance);
     }
 }

@@ -23,7 +23,7 @@ namespace {
 constexpr double many_steps = 1e4;
 constexpr double most_products = 300;  // the most products of a series that compiles in about a second
 /// The tolerances from which on another explicit method is faster; measured by tests/bench/regret.sh.
-constexpr double loose = 3e-5, strict = 0.99e-9;
+constexpr double loose = 3e-5, strict = 0.99e-10;
 /// With constraints: dop853 passes through flat poses of linkages at which the others stop.
 constexpr double strict_with_constraints = 1e-12;
 

@@ -14,12 +14,12 @@
 /// | a step, energy separable, 10 000 steps or more | kahanli8: its energy does not drift |
 /// | a step | rk4 |
 /// | a tolerance above 3e-5 | dop853 |
-/// | below 1e-9 (1e-12), with a power series that is not too long and predicted to be faster | taylor |
+/// | below 1e-10 (1e-12), with a power series that is not too long and predicted to be faster | taylor |
 /// | any other, without constraints | verner98 |
 /// | any other, with constraints | dop853 to 1e-12, verner98 below |
 ///
 /// The number in brackets is for constraints: dop853 passes through flat poses of linkages where others stop. At
-/// 1e-9, the default, and above no series is taken: its file takes 0.1 to 1 s to compile, and a run with the
+/// 1e-10 and above no series is taken: its file takes 0.1 to 1 s to compile, and a run with the
 /// default budget of 10⁷ right-hand sides takes less. Methods that choose their steps watch for stiffness while
 /// they run (stiffness.hpp), change to radau, and come back.
 
