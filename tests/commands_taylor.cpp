@@ -2,6 +2,7 @@
 // The method taylor in whole runs is compared with digits from other sources (Kepler's equation, 110-digit
 // series), closed forms, and the same pendulum in other coordinates.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <fstream>
@@ -69,6 +70,29 @@ TEST_CASE("taylor: Kepler's comet, the Pleiades and the outer planets end where 
     CHECK(std::abs(coordinate(planets, "xJupiter") - 2.6110795701128633600809602078737) < 1e-8);
     CHECK(std::abs(coordinate(planets, "ySun") + 0.48994382114427497636788620635032) < 1e-10);
     CHECK(std::abs(coordinate(planets, "zPluto") + 15.043469221823263493829179433668) < 1e-10);
+}
+
+// Let go horizontally, a pendulum has the powers t², t⁶, t¹⁰ … alone, and series of most orders end in terms that
+// are zero. After half of the period 4 K(sin(π/4)) √(l/g) it is at −π/2 and at rest.
+TEST_CASE("taylor: a series that lacks most of its powers takes steps that the others allow") {
+    const double half = 2 * std::comp_ellint_1(std::sqrt(0.5)) / std::sqrt(10.0);
+    const std::string scene = temporary("horizontal.toml", R"toml(
+gravity = [0, -10]
+[coordinates]
+q = "pi/2"
+[[particle]]
+name = "P"
+mass = 1
+position = ["sin(q)", "-cos(q)"]
+[simulation]
+method = "taylor"
+duration = )toml" + fmt::format("{:.17g}\n", half));
+    for (const char* tolerance : {"1e-6", "1e-9", "1e-11", "1e-13"}) {
+        const Json motion = simulated(scene, {"--tolerance", tolerance});
+        const double bound = 100 * std::stod(tolerance);
+        CHECK(std::abs(coordinate(motion, "q") + std::numbers::pi / 2) < bound);
+        CHECK(std::abs(rate(motion, "q")) < bound);
+    }
 }
 
 // These scenes have lanes of a pack that wait for the accelerations or have other equal arguments, and entries of

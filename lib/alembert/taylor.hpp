@@ -152,7 +152,21 @@ private:
             if (!(size < HUGE_VAL)) return 0;
             if (size > 0) shortest = std::min(shortest, (log_tolerance_ - std::log(size)) / k);
         }
-        return std::exp(shortest);
+        return std::exp(std::min(shortest, by_earlier_terms(ends, shortest)));
+    }
+
+    /// A series may lack most of its powers: a pendulum that is let go horizontally has t², t⁶, t¹⁰ … alone, and
+    /// its last two terms say nothing. The length, as a logarithm, by the six terms before them, |c_k|^(−1/k) for
+    /// the radius of convergence; infinite unless it is clearly shorter.
+    double by_earlier_terms(const Ends& ends, double shortest) const {
+        constexpr double clearly = 0.85;
+        const double share = log_tolerance_ / order_, radius = clearly * std::exp(shortest - share);
+        const int first = std::max(2, order_ - 7);
+        double power = std::pow(radius, first), result = HUGE_VAL;
+        for (int k = first; k < order_ - 1; ++k, power *= radius)
+            if (const double size = ends.norm(row(k)); size > 0 && size * power > 1)
+                result = std::min(result, share - std::log(size) / k);
+        return result;
     }
 
     double log_tolerance_, effort_ = 0;
