@@ -14,6 +14,7 @@
 
 #include "program.hpp"
 #include "report/html.hpp"
+#include "report/page_plot.hpp"
 #include "report/sha256.hpp"
 #include "scenes.hpp"
 
@@ -319,6 +320,17 @@ duration = 1e-3
          at = page.find("class=\"axis-label\"", at + 1))
         has_base = has_base || page.substr(at, page.find("</text>", at) - at).find(" − ") != std::string::npos;
     CHECK(has_base);
+}
+
+TEST_CASE(
+    "page: the number along an axis at its base is 0, even where values differ by little more than rounding") {
+    for (const double middle : {3.64779682149, 1.1, 2.6}) {
+        const std::string plot =
+            alembert::page_plot({"Energies", "t", "s", "E", "J"}, {0, 1, 2},
+                                {{.name = "E", .y = {middle, middle + 1e-11, middle + 2e-11}}});
+        CHECK(plot.find(">0</text>") != plot.rfind(">0</text>"));  // on both axes
+        CHECK(plot.find("-16<") == std::string::npos);
+    }
 }
 
 TEST_CASE("page: a force that acts later is drawn pale until then") {

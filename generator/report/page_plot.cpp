@@ -81,8 +81,8 @@ struct Ticks {
     }
 
     std::string text(double value) const {
-        const double part =
-            std::round((value - std::stod(base)) / step * 1e6) / 1e6;  // without rounding of the base
+        // The base is a multiple of a fifth of the step; what is less is rounding of values that are hardly apart.
+        const double part = std::round((value - std::stod(base)) / step * 100) / 100;
         return tick_text(part * step, step);
     }
     /// "+ 3.6478" after the name of what is shown.
