@@ -40,7 +40,7 @@ public:
           S_(std::move(S)),
           right_(std::move(right)),
           message_(std::move(message)),
-          allowed_(poles),
+          policy_(poles),
           n_(S_.rows()),
           x_(n_, right_.cols()) {}
 
@@ -116,7 +116,7 @@ private:
         const ex det = block.size() == columns.size() ? minor(block, columns) : ex(0);
         if (det.is_zero() || is_identically_zero(det, m_)) return message_;
         if (const ex moving = moving_factors(det); z_.depends(moving, m_.moving())) {
-            if (allowed_ == Poles::refused) return message_;
+            if (policy_ == Poles::refused) return message_;
             poles_.push_back(moving);
         }
         for (std::size_t c = 0; c < columns.size(); ++c)
@@ -174,7 +174,7 @@ private:
     Intermediates& z_;
     matrix S_, right_;
     std::string message_;
-    Poles allowed_;
+    Poles policy_;
     unsigned n_;
     matrix x_;
     std::vector<ex> poles_;

@@ -22,7 +22,9 @@ namespace {
 
 constexpr double many_steps = 1e4;
 constexpr double most_products = 300;  // the most products of a series that compiles in about a second
-/// The tolerances from which on another explicit method is faster; measured by tests/bench/regret.sh.
+/// The tolerances below which another method is taken. At 3e-5 verner98 becomes faster than dop853
+/// (tests/bench/regret.sh); to compile a series pays below 1e-10, itself excluded however its decimals are
+/// rounded.
 constexpr double loose = 3e-5, strict = 0.99e-10;
 /// With constraints: dop853 passes through flat poses of linkages at which the others stop.
 constexpr double strict_with_constraints = 1e-12;
