@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "archive/zip.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
@@ -13,6 +14,8 @@ constexpr std::uint64_t most_32 = std::numeric_limits<std::uint32_t>::max(),
                         most_16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t first_day = (1 << 5) + 1;      // 1 January 1980
 constexpr std::uint64_t stored = 10, with_zip64 = 45;  // the versions that are needed to extract: 1.0 and 4.5
+
+constexpr std::uint64_t utf_8 = 1U << 11U;  // the flag of names that are not ASCII
 
 using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
 
@@ -48,7 +51,10 @@ struct Entry {
 void put_description(std::string& out, const Entry& entry, std::uint64_t extra) {
     const std::uint64_t size = entry.is_large() ? most_32 : entry.file->bytes.size();
     put_number(out, entry.is_large() ? with_zip64 : stored, 2);
-    put_number(out, 0, 2);  // no flags
+    const std::string& name = entry.file->name;
+    const bool is_ascii =
+        std::all_of(name.begin(), name.end(), [](char c) { return static_cast<signed char>(c) >= 0; });
+    put_number(out, is_ascii ? 0 : utf_8, 2);
     put_number(out, 0, 2);  // stored
     put_number(out, 0, 2);  // midnight
     put_number(out, first_day, 2);

@@ -17,7 +17,7 @@
 namespace alembert {
 
 struct ArchivedFile {
-    std::string name;  ///< with '/' between folders, in ASCII
+    std::string name;  ///< with '/' between folders, in UTF-8
     std::string bytes;
 };
 
