@@ -141,4 +141,24 @@ potential = "scene^2/2 + θ^2"
     }
 }
 
+TEST_CASE("tables: simulate -o NAME.h5 has the numbers of NAME.npz, or says what to install") {
+    const std::string scene = source_path("scenes/textbook/cart_pole.toml"), h5 = temporary("run.h5", ""),
+                      npz = temporary("run.npz", "");
+    const auto made = run({"simulate", scene, "--duration", "1", "-o", h5});
+    if (made.exit != 0) {  // built without the library
+        CHECK(made.exit == 5);
+        CHECK_MESSAGE(made.err.find("libhdf5-dev") != std::string::npos, made.err);
+        return;
+    }
+    REQUIRE(run({"simulate", scene, "--duration", "1", "-o", npz}).exit == 0);
+    const std::string bytes = contents(h5);
+    CHECK(bytes.substr(0, 8) == "\x89HDF\r\n\x1a\n");
+    for (const auto& [name, file] : alembert::test::unzipped(contents(npz))) {
+        const Array array(file);
+        CAPTURE(name);
+        if (array.type == "<f8") CHECK(bytes.find(array.data) != std::string::npos);
+        if (array.type == "<f8") CHECK(bytes.find(name.substr(0, name.size() - 4)) != std::string::npos);
+    }
+}
+
 }  // namespace commands_tables

@@ -26,6 +26,7 @@ struct SimulateVerb : RunVerb {
 
 int run(const SimulateVerb& verb) {
     for (const std::string& file : {verb.output, verb.plot}) check_output(file, {verb.scene});
+    need_table_form(verb.output);
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);

@@ -27,6 +27,7 @@ struct SweepVerb : RunVerb {
 
 int run(const SweepVerb& verb) {
     for (const std::string& file : {verb.output, verb.svg}) check_output(file, {verb.scene});
+    need_table_form(verb.output);
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);

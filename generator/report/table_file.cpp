@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "archive/hdf5.hpp"
 #include "report/motion_plot.hpp"
 #include "report/run.hpp"
 #include "report/sweep.hpp"
@@ -10,6 +11,17 @@
 namespace alembert {
 
 namespace {
+
+enum class Form { csv, npz, hdf5 };
+
+Form form_of(const std::string& path) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    return ending == ".npz" ? Form::npz : ending == ".h5" || ending == ".hdf5" ? Form::hdf5 : Form::csv;
+}
+
+std::string in_form(Form form, const StoredTable& table) {
+    return form == Form::npz ? as_npz(table) : as_hdf5(table);
+}
 
 std::string unit_of_rate(const std::string& unit) {
     return unit.empty() ? "" : unit + "/s";
@@ -67,12 +79,18 @@ StoredTable stored(const Sweep& s) {
     return table;
 }
 
+void need_table_form(const std::string& path) {
+    if (form_of(path) == Form::hdf5) need_hdf5();
+}
+
 std::string table_file(const Run& run, const std::string& path) {
-    return std::filesystem::path(path).extension() == ".npz" ? as_npz(stored(run)) : as_csv(run.rows);
+    const Form form = form_of(path);
+    return form == Form::csv ? as_csv(run.rows) : in_form(form, stored(run));
 }
 
 std::string table_file(const Sweep& sweep, const std::string& path) {
-    return std::filesystem::path(path).extension() == ".npz" ? as_npz(stored(sweep)) : as_csv(sweep);
+    const Form form = form_of(path);
+    return form == Form::csv ? as_csv(sweep) : in_form(form, stored(sweep));
 }
 
 }  // namespace alembert

@@ -2,8 +2,9 @@
 #pragma once
 
 /// The table of a run or a sweep as the bytes of a file, in the form that the name of the file asks for: `.npz`
-/// for NumPy, else CSV.
+/// for NumPy, `.h5` or `.hdf5` for HDF5, else CSV.
 ///
+///     need_table_form("run.h5");                            // before the work begins
 ///     write_file("run.npz", table_file(run, "run.npz"), {});
 
 #include "archive/stored_table.hpp"
@@ -11,6 +12,9 @@
 #include "run/sweep.hpp"
 
 namespace alembert {
+
+/// Throws CompileError if the form is HDF5 and the program was built without it.
+void need_table_form(const std::string& path);
 
 std::string table_file(const Run& run, const std::string& path);
 std::string table_file(const Sweep& sweep, const std::string& path);
