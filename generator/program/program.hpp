@@ -134,7 +134,9 @@ enum class Group : unsigned char {
     input,   ///< prescribed motions and their derivatives
     jacobian,
     parameter_jacobian,
-    power_gradient,  ///< differentiate.hpp
+    power_gradient,
+    value_gradient,  ///< differentiate.hpp
+    event_impulse,   ///< the impulses of each event that has some, n for each
 };
 
 /// A value that the program computes for its users.
