@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "emit/layout.hpp"
+
 namespace alembert {
 
 namespace {
@@ -226,6 +228,18 @@ FunctionTask gamma_at(const Program& p) {
     const std::vector<int> kept = p.kept_constraints();
     for (std::size_t k = 0; k < kept.size(); ++k)
         task.results.push_back({"out", fmt::format("out[{}]", kept[k]), task.goals[k].node});
+    return task;
+}
+
+FunctionTask named_function(const Program&, const NamedFunction& function) {
+    FunctionTask task{.name = function.name,
+                      .about = fmt::format("{} {}.", function.about, described(function)),
+                      .arguments = {t, state, rate, par, to("out")},
+                      .goals = {},
+                      .results = {}};
+    for (std::size_t k = 0; k < function.nodes.size(); ++k)
+        task.results.push_back({"out", fmt::format("out[{}]", k), function.nodes[k]});
+    task.goals = unnamed("Values", task.results);
     return task;
 }
 

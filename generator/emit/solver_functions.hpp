@@ -5,6 +5,7 @@
 /// sections.
 
 #include "emit/function.hpp"
+#include "program/named_function.hpp"
 
 namespace alembert {
 
@@ -19,6 +20,9 @@ FunctionTask multipliers_at(const Program& program);
 /// One step of the projection to the constraints; it has no results if there is no such step.
 FunctionTask project(const Program& program);
 FunctionTask gamma_at(const Program& program);
+
+/// A function of its own, out = its values.
+FunctionTask named_function(const Program& program, const NamedFunction& function);
 
 /// The entries of a Jacobian that are not zero.
 struct SparseTask {

@@ -135,6 +135,7 @@ enum class Group : unsigned char {
     jacobian,
     parameter_jacobian,
     power_gradient,  ///< differentiate.hpp
+    function,        ///< results of functions of their own (named_function.hpp)
 };
 
 /// A value that the program computes for its users.
