@@ -14,8 +14,10 @@
 #include "formalism/schiehlen.hpp"
 #include "lower/frame_functions.hpp"
 #include "lower/lower.hpp"
+#include "lower/regressor.hpp"
 #include "lower/robot_functions.hpp"
 #include "program/interpret.hpp"
+#include "rigid/identify.hpp"
 #include "run/emission.hpp"
 #include "run/inverse.hpp"
 #include "scenes.hpp"
@@ -265,6 +267,103 @@ TEST_CASE("functions: the mass centre, its Jacobian and the momentum are sums ov
             CHECK(std::abs(mass * by_J - momentum[i]) < 1e-9);
         }
     }
+}
+
+TEST_CASE("identify: the regressor times the parameters is inverse dynamics without the scene's own loads") {
+    const unsigned seed = 73;
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    for (const char* file :
+         {"gallery/six_joint_arm", "benchmark/trees/arm7g", "textbook/double_pendulum_joints", "textbook/crane",
+          "gallery/gimballed_gyroscope", "textbook/cart_rod", "gallery/universal_double_pendulum"}) {
+        CAPTURE(file);
+        const Scene scene = read_scene(test::source_path(fmt::format("scenes/{}.toml", file)));
+        const Mechanism m = prepared(scene).mechanism;
+        const State<double> state = random_motion(m, random);
+        const Regressor y = regressor(scene, m, false);
+        const std::vector<double> Y = values(y.function, state);
+        Mechanism own = m;
+        own.z = y.z;
+        Program program;
+        const std::vector<int> nodes = lower_expressions(program, own, y.values);
+        const std::vector<double> pi = interpret(program, state);
+        const RobotFunctions functions(m, false);
+        const std::vector<double> tau = values(functions.dynamics("inverse"), state),
+                                  loads = values(functions.dynamics("loads"), state);
+        std::vector<double> by_Y(tau.size()), expected;
+        for (std::size_t i = 0; i < tau.size(); ++i) {
+            expected.push_back(tau[i] + loads[i]);
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                by_Y[i] += Y[i * nodes.size() + k] * pi[static_cast<std::size_t>(nodes[k])];
+        }
+        check_near(by_Y, expected);
+        // The base parameters alone give the same loads.
+        const Identification found = identify(scene);
+        REQUIRE(found.parameters.size() == nodes.size());
+        std::vector<double> by_base(tau.size());
+        for (const BaseParameter& base : found.base) {
+            const auto k = static_cast<std::size_t>(
+                std::find(found.parameters.begin(), found.parameters.end(), base.terms[0].parameter) -
+                found.parameters.begin());
+            for (std::size_t i = 0; i < tau.size(); ++i) by_base[i] += Y[i * nodes.size() + k] * base.value;
+        }
+        check_near(by_base, expected, 1e-8);
+    }
+}
+
+// Mayeda, Yoshida & Osuka, IEEE Trans. Robotics and Automation 6 (1990) 312: 7 n − 4 β − 2 base parameters of an
+// arm of n turning joints whose first β axes are parallel to each other and to gravity, with neighbouring axes
+// beyond them parallel or at right angles.
+TEST_CASE("identify: base parameters of arms are as many as published, and their sums those of the textbook") {
+    const auto scene_with = [](const char* gravity, int joints) {
+        // Turning axes as those of the PUMA 560: z, then y y, then wrist axes z y z, with offsets.
+        const char* const axes[] = {"z", "y", "y", "z", "y", "z"};
+        const char* const points[] = {"[0, 0, 0.6]",      "[0, 0.24, 0]", "[0.43, -0.09, 0]",
+                                      "[-0.02, 0, 0.43]", "[0, 0, 0]",    "[0, 0, 0]"};
+        std::string text = fmt::format("gravity = {}\n", gravity);
+        for (int k = 1; k <= joints; ++k)
+            text += fmt::format(
+                "[[body]]\nname = \"B{0}\"\nmass = 2\ninertia = [0.1, 0.12, 0.15]\n[[joint]]\nname = "
+                "\"J{0}\"\ntype = "
+                "\"revolute\"\nparent = \"{1}\"\nchild = \"B{0}\"\nparent_point = {2}\naxis = "
+                "\"{3}\"\ncoordinates = "
+                "{{ q{0} = {{ initial = 0 }} }}\n",
+                k, k == 1 ? "N" : fmt::format("B{}", k - 1), points[k - 1], axes[k - 1]);
+        return parse_scene(text, "arm.toml");
+    };
+    CHECK(identify(scene_with("[0, 0, -9.81]", 6)).base.size() == 36);
+    CHECK(identify(scene_with("[0, 0, -9.81]", 6)).parameters.size() == 60);
+    CHECK(identify(scene_with("[0, 0, -9.81]", 3)).base.size() == 15);
+    CHECK(identify(scene_with("[3, 0, -9.81]", 6)).base.size() == 38);  // gravity is not along the first axis
+    CHECK(identify(scene_with("[0, 0, 0]", 1)).base.size() == 1);
+    // A planar arm of two links: z I + m l², m x + m l.
+    const Identification two = identify(parse_scene(R"(
+gravity = [0, "-g"]
+parameters = { l = 0.5, g = 9.81 }
+body = [{ name = "upper", mass = 3, inertia = 0.06 }, { name = "lower", mass = 2, inertia = 0.03 }]
+[[joint]]
+name = "shoulder"
+type = "revolute"
+parent = "N"
+child = "upper"
+child_point = ["-l/2", 0]
+coordinates = { q1 = { initial = 0 } }
+[[joint]]
+name = "elbow"
+type = "revolute"
+parent = "upper"
+child = "lower"
+parent_point = ["l/2", 0]
+child_point = [-0.2, 0]
+coordinates = { q2 = { initial = 0 } }
+)",
+                                                    "two.toml"));
+    REQUIRE(two.base.size() == 6);
+    std::map<std::string, std::string> coefficient;
+    for (const BaseTerm& term : two.base[0].terms) coefficient[term.parameter] = term.coefficient;
+    CHECK(coefficient == std::map<std::string, std::string>{{"zz(upper)", "1"}, {"m(lower)", "l^2"}});
+    CHECK_THROWS_WITH_AS(identify(read_scene(test::source_path("scenes/textbook/four_bar.toml"))),
+                         doctest::Contains("bears loads that are not measured"), ModelError);
 }
 
 TEST_CASE("functions: those in the compiled file are those of the verb inverse, for eight systems at once too") {

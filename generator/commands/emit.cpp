@@ -71,7 +71,7 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                           say("also the derivatives of the right-hand side"));
             verb.add_option("--functions", options.functions,
                             say("functions of their own: inverse, mass, bias, gravity, loads, com, com_jacobian, "
-                                "momentum"))
+                                "momentum, regressor"))
                 .type_name(values::names);
             verb.add_option(
                     "--frame", options.frames,

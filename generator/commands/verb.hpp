@@ -50,6 +50,7 @@ void add_equilibrium(CLI::App& app, Chosen& chosen);
 void add_eval(CLI::App& app, Chosen& chosen);
 void add_impact(CLI::App& app, Chosen& chosen);
 void add_import(CLI::App& app, Chosen& chosen);
+void add_identify(CLI::App& app, Chosen& chosen);
 void add_inertia(CLI::App& app, Chosen& chosen);
 void add_inverse(CLI::App& app, Chosen& chosen);
 void add_kinematics(CLI::App& app, Chosen& chosen);

@@ -92,6 +92,33 @@ SceneMotion::Spot SceneMotion::spot_of(const MassElement& mass) {
     return {.point = places().point(name), .frame = mass.rotation ? places().orientation(name).frame : 0};
 }
 
+SceneMotion::Origin SceneMotion::origin_of(const MassElement& mass) {
+    Origin origin{.spot = spot_of(mass)};
+    const std::vector<GiNaC::symbol> moving = m_.moving();
+    const auto is_fixed = [&](const Skeleton::Step& step) {
+        return step.frame == origin.spot.frame &&
+               std::none_of(step.offset.begin(), step.offset.end(),
+                            [&](const ex& e) { return m_.z->depends(e, moving); });
+    };
+    while (mass.rotation && origin.spot.point != 0 && is_fixed(step_of(origin.spot.point))) {
+        for (std::size_t k = 0; k < 3; ++k) origin.centre[k] += step_of(origin.spot.point).offset[k];
+        origin.spot.point = step_of(origin.spot.point).from;
+    }
+    return origin;
+}
+
+LinearAngular SceneMotion::turning(int frame) {
+    LinearAngular result;
+    if (frame == 0) return result;
+    const Vector3& w = places().attitude(frame).w_NF_F;
+    const std::vector<ex> rate = m_.time_derivative({w[0], w[1], w[2]});
+    for (std::size_t k = 0; k < 3; ++k) {
+        result.linear[k] = symbolic_(w[k]);
+        result.angular[k] = symbolic_(rate[k]);
+    }
+    return result;
+}
+
 Matrix<Symbolic> SceneMotion::rotation(int frame) {
     const auto [place, is_new] = rotations_.try_emplace(frame);
     for (std::size_t i = 0; is_new && i < 3; ++i)

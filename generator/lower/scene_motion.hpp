@@ -49,6 +49,13 @@ public:
     Spot spot(const std::string& name);
     /// The mass centre of a body or particle, and the body's own frame.
     Spot spot_of(const MassElement& mass);
+    /// The farthest point towards the ground that is fixed to the body's frame, and the mass centre from there
+    /// along this frame. A particle is its own origin.
+    struct Origin {
+        Spot spot;
+        std::array<GiNaC::ex, 3> centre{0, 0, 0};
+    };
+    Origin origin_of(const MassElement& mass);
 
     /// Lowers expressions with the rates, or accelerations, as symbols or as numbers.
     class Rates {
@@ -73,6 +80,12 @@ public:
     LinearAngular column(const Spot& spot, int k);
     /// With `accelerated`, in q'' too; otherwise at q'' = 0.
     LinearAngular acceleration(const Spot& spot, bool accelerated);
+
+    /// ω and α of a frame along its own axes, as linear and angular part.
+    LinearAngular turning(int frame);
+    SymbolicVector gravity() {
+        return {symbolic_(m_.gravity[0]), symbolic_(m_.gravity[1]), symbolic_(m_.gravity[2])};
+    }
 
     Symbolic whole_mass() const { return total_; }
     SymbolicVector mass_centre() { return Symbolic(1) / total_ * moment_; }

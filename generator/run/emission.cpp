@@ -9,6 +9,7 @@
 #include "emit/standalone.hpp"
 #include "language/say.hpp"
 #include "lower/frame_functions.hpp"
+#include "lower/regressor.hpp"
 #include "lower/robot_functions.hpp"
 #include "scene/text.hpp"
 #include "state/assemble.hpp"
@@ -44,6 +45,7 @@ void check_functions(const Emission& e, const EmissionOptions& options) {
             "leave out the table [speeds], and choose no formalism that has speeds of its own"));
     std::vector<std::string> known = RobotFunctions::of_dynamics();
     known.insert(known.end(), functions_of_masses().begin(), functions_of_masses().end());
+    known.emplace_back("regressor");
     for (const std::string& name : options.functions)
         if (!holds(known, name))
             throw ModelError(say("there is no function {} to emit; expected some of: {}", in_quotes(name),
@@ -61,9 +63,11 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
     const RobotFunctions dynamics(e.mechanism, options.fold);
     for (const std::string& name : options.functions) {
         if (is_there(name)) continue;
-        result.push_back(absorbed(program, holds(functions_of_masses(), name)
-                                               ? mass_function(e.scene, e.mechanism, name, options.fold)
-                                               : dynamics.dynamics(name)));
+        const FunctionProgram function =
+            name == "regressor"                  ? regressor(e.scene, e.mechanism, options.fold).function
+            : holds(functions_of_masses(), name) ? mass_function(e.scene, e.mechanism, name, options.fold)
+                                                 : dynamics.dynamics(name);
+        result.push_back(absorbed(program, function));
     }
     for (const std::string& frame : options.frames) {
         const std::string prefix = ascii_identifier(frame);
