@@ -137,6 +137,7 @@ enum class Group : unsigned char {
     power_gradient,
     value_gradient,  ///< differentiate.hpp
     event_impulse,   ///< the impulses of each event that has some, n for each
+    function,        ///< results of functions of their own (named_function.hpp)
 };
 
 /// A value that the program computes for its users.
