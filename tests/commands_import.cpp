@@ -404,6 +404,24 @@ TEST_CASE("import: omitted and merged parts are reported, and the scene has limi
         CHECK(result.err.find(line) != std::string::npos);
     CHECK(result.out.find("welding_torch is fixed to tool0") != std::string::npos);
     CHECK(contents(scene).find("about = \"limits 0.2 to 2.6\"") != std::string::npos);
+    // The torch stands at (0, 0, 0.04) turned by roll 0.1, pitch 0.2, yaw 0.3, then at (0.01, 0, 0.02) from the
+    // flange.
+    const auto motion = [&](const std::vector<std::string>& args) {
+        std::vector<std::string> all{"kinematics", scene, "--of", "flange,tool0,welding_torch", "--json"};
+        all.insert(all.end(), args.begin(), args.end());
+        return Json::parse(run(all).out);
+    };
+    const Json k = motion({"--at", "j1=0.3", "--at", "j4=0.7"});
+    const auto axes = [&](const char* name) { return k["frames"][name]["values"]["direction_cosines"]; };
+    const auto at = [&](const char* name) { return k["points"][name]["values"]["position"]; };
+    double tool_to_torch = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double along_tool =
+            0.01 * axes("tool0")[i][0].get<double>() + 0.02 * axes("tool0")[i][2].get<double>();
+        CHECK(std::abs(at("welding_torch")[i].get<double>() - at("tool0")[i].get<double>() - along_tool) < 1e-12);
+        tool_to_torch += axes("tool0")[i][0].get<double>() * axes("welding_torch")[i][0].get<double>();
+    }
+    CHECK(std::abs(tool_to_torch - std::cos(M_PI / 4)) < 1e-12);
     const auto torso = run({"import", source_path("tests/robots/torso.urdf"), "-o", scene});
     CHECK(torso.err.find("dropped: joints that move no mass: antenna\n") != std::string::npos);
 }

@@ -54,6 +54,7 @@ int run(const ImportOptions& options) {
         if (options.drives) result["drives"] = scene.drives;
         result["right_angles"] = {{"rounded", rounded}, {"made_exact", options.right_angles}};
         result["merged"] = scene.merged;
+        result["frames"] = scene.frames;
         result["dropped"] = Json::object();
         for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
         result["warnings"] = Json::array();

@@ -60,6 +60,7 @@ public:
                 "this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or "
                 "floating one, or a root that floats"));
         result_.text += joints_ + dampers_;
+        for (const Group& group : groups_) mounted(group);
         if (!result_.drives.empty()) result_.text += fmt::format("\n[inputs]\n{}\n[forces]\n{}", inputs_, forces_);
         result_.dropped.insert(result_.dropped.begin(), robot_.dropped.begin(), robot_.dropped.end());
         return std::move(result_);
@@ -90,6 +91,11 @@ private:
             if (!joint.mimic && joint.type != Robot::Type::floating && joint.type != Robot::Type::planar)
                 values_of_[static_cast<std::size_t>(above)] = values_.given(joint.name);
         }
+        link_names_.resize(robot_.links.size());
+        for (const Group& group : groups_)
+            for (const int i : group.links)
+                if (!group.ground && group.kept && i != group.top)
+                    link_names_[static_cast<std::size_t>(i)] = named(places_, link(i).name);
     }
 
     void head() {
@@ -110,6 +116,32 @@ private:
         ++result_.bodies;
     }
 
+    /// Adds a frame and a point of the same name for each link that is fixed to the body's own.
+    void mounted(const Group& group) {
+        if (group.ground || !group.kept) return;
+        for (const int i : group.links) {
+            if (i == group.top) continue;
+            const std::string& name = link_names_[static_cast<std::size_t>(i)];
+            std::vector<std::string> rotate = turns_of(seat(i));
+            if (rotate.empty()) rotate.emplace_back("[\"z\", 0]");
+            result_.text += fmt::format(
+                "\n[[frame]]\nname = \"{0}\"\nparent = \"{1}\"\nrotate = {2}\n\n[[point]]\nname = \"{0}\"\nfrom = "
+                "\"{3}\"\noffset = {4}\naxes = \"{1}\"\n",
+                name, group.frame, rotations(rotate), group.name, scene_vector(seat(i).shift - group.centre));
+            result_.frames.push_back(name);
+        }
+    }
+    /// The rotations of the fixed joints that lead to a link.
+    static std::vector<std::string> turns_of(const Seat& at) {
+        std::vector<std::string> result;
+        for (const Real3& rpy : at.turns) add_turns(result, rpy);
+        return result;
+    }
+    static void add_turns(std::vector<std::string>& list, const Real3& rpy) {
+        for (int k = 2; k >= 0; --k)
+            if (rpy[k] != 0) list.push_back(fmt::format("[\"{}\", {}]", "xyz"[k], scene_angle(rpy[k])));
+    }
+
     /// The pose of the joint in the group of its parent, relative to the mass centre of that group.
     struct Stand {
         const Group* parent;
@@ -120,15 +152,9 @@ private:
         const Seat& at = seat(joint.parent);
         Stand result{.parent = &groups_[static_cast<std::size_t>(at.group)],
                      .point = at.shift + at.R * joint.at.shift,
-                     .rotate = {}};
+                     .rotate = turns_of(at)};
         if (!result.parent->ground) result.point -= result.parent->centre;
-        const auto add = [&](const Real3& rpy) {
-            for (int k = 2; k >= 0; --k)
-                if (rpy[k] != 0)
-                    result.rotate.push_back(fmt::format("[\"{}\", {}]", "xyz"[k], scene_angle(rpy[k])));
-        };
-        for (const Real3& rpy : at.turns) add(rpy);
-        add(joint.at.rpy);
+        add_turns(result.rotate, joint.at.rpy);
         return result;
     }
     static std::string rotations(const std::vector<std::string>& list) {
@@ -287,6 +313,7 @@ private:
     std::vector<Seat> seats_;
     SceneNames places_, values_, joints_taken_;
     std::vector<std::string> joint_names_, values_of_;  // for each joint of the robot
+    std::vector<std::string> link_names_;               // of links that are fixed to others
     std::string joints_, dampers_, inputs_, forces_;
     RobotScene result_;
 };
