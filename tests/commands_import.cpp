@@ -426,6 +426,33 @@ TEST_CASE("import: omitted and merged parts are reported, and the scene has limi
     CHECK(torso.err.find("dropped: joints that move no mass: antenna\n") != std::string::npos);
 }
 
+// A hinge without gravity's moment, at rest 0.25 from its stop: friction 0.3 against a torque M gives q'' = (M -
+// 0.3)/I.
+TEST_CASE("import: friction slows a joint as its file says, and a stop ends its range") {
+    const std::string file = temporary(
+        "stopped.urdf", robot_of(link_of("a") + link_of("b", heavy) +
+                                 hinge_of("j", "revolute", "a", "b",
+                                          "<axis xyz=\"0 0 1\"/><limit lower=\"0.25\" upper=\"0.75\" effort=\"1\" "
+                                          "velocity=\"1\"/><dynamics friction=\"0.3\"/>")));
+    const std::string scene = temporary("stopped.toml", "");
+    const auto plain = run({"import", file, "-o", scene});
+    CHECK(plain.err.find("dropped: Coulomb friction, <dynamics friction=…>: j\n") != std::string::npos);
+    const auto whole = run({"import", file, "-o", scene, "--friction", "--stops", "--drives"});
+    REQUIRE(whole.exit == 0);
+    CHECK(whole.err.find("Coulomb") == std::string::npos);
+    CHECK(whole.err.find("note: j starts at 0.5, between its stops") != std::string::npos);
+    std::string text = contents(scene);
+    const std::string zero = "drive_j = { value = 0,";
+    REQUIRE(text.find(zero) != std::string::npos);
+    text.replace(text.find(zero), zero.size(), "drive_j = { value = 1.3,");
+    const Json moving = Json::parse(
+        run({"simulate", temporary("driven.toml", text), "--duration", "0.3", "--json", "--no-estimate"}).out);
+    CHECK(std::abs(moving["final"]["coordinates"]["j"].get<double>() - (0.5 + 0.5 * 1 * 0.09)) < 1e-8);
+    const Json stopped = Json::parse(
+        run({"simulate", temporary("driven.toml", text), "--duration", "2", "--json", "--no-estimate"}).out);
+    CHECK(std::abs(stopped["final"]["coordinates"]["j"].get<double>() - 0.75) < 1e-8);
+}
+
 // Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and keeps its rotation, however that is described;
 // and a body on a planar joint normal to x does not fall along x.
 TEST_CASE("import: a root that floats falls, by angles and by a quaternion; a planar joint keeps its plane") {

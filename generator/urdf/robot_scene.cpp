@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "language/say.hpp"
 #include "scene/text.hpp"
@@ -59,10 +60,16 @@ public:
             throw ModelError(say(
                 "this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or "
                 "floating one, or a root that floats"));
-        result_.text += joints_ + dampers_;
+        result_.text += joints_ + dampers_ + frictions_ + stops_;
         for (const Group& group : groups_) mounted(group);
         if (!result_.drives.empty()) result_.text += fmt::format("\n[inputs]\n{}\n[forces]\n{}", inputs_, forces_);
         result_.dropped.insert(result_.dropped.begin(), robot_.dropped.begin(), robot_.dropped.end());
+        std::vector<std::string> without_friction;
+        for (const Robot::Joint& joint : robot_.joints)
+            if (joint.friction != 0 && !with_friction_.contains(joint.name))
+                without_friction.push_back(joint.name);
+        if (!without_friction.empty())
+            result_.dropped.push_back({say("Coulomb friction, <dynamics friction=…>"), without_friction});
         return std::move(result_);
     }
 
@@ -207,15 +214,22 @@ private:
         if (joint.limits)
             about =
                 fmt::format("limits {} to {}", scene_number((*joint.limits)[0]), scene_number((*joint.limits)[1]));
-        if (joint.limits && (*joint.limits)[0] <= (*joint.limits)[1] &&
-            ((*joint.limits)[0] > 0 || (*joint.limits)[1] < 0))
-            result_.notes.push_back(say("{} starts at 0, outside its limits", q));
+        const bool has_limits = joint.limits && (*joint.limits)[0] <= (*joint.limits)[1];
+        double initial = 0;
+        if (has_limits && ((*joint.limits)[0] > 0 || (*joint.limits)[1] < 0)) {
+            if (options_.stops) initial = ((*joint.limits)[0] + (*joint.limits)[1]) / 2;
+            result_.notes.push_back(options_.stops
+                                        ? say("{} starts at {}, between its stops", q, scene_number(initial))
+                                        : say("{} starts at 0, outside its limits", q));
+        }
         const std::string rotate =
             at.rotate.empty() ? "" : fmt::format("parent_rotate = {}\n", rotations(at.rotate));
         joint_table(name, slides ? "prismatic" : "revolute", at.parent->name, child, at.point,
                     fmt::format("{}axis = {}\ncoordinates = {{ {} }}\n", rotate, scene_axis(joint.axis),
-                                coordinate(q, slides ? "m" : "rad", about)));
+                                coordinate(q, slides ? "m" : "rad", about, initial)));
         damper(joint, q);
+        friction(joint, q);
+        if (has_limits) stops(joint, q);
         if (options_.drives) drive(joint, q, slides);
     }
 
@@ -303,6 +317,29 @@ private:
                 fmt::format("\n[[damper]]\nalong = \"{}\"\ndamping = {}\n", along, scene_number(joint.damping));
     }
 
+    /// Adds a torque or force of constant size against the motion along q.
+    void friction(const Robot::Joint& joint, const std::string& q) {
+        if (!options_.friction || joint.friction == 0) return;
+        if (joint.friction < 0)
+            throw ModelError(say("the friction of joint {} is {}; expected zero or more", in_quotes(joint.name),
+                                 scene_number(joint.friction)));
+        with_friction_.insert(joint.name);
+        frictions_ += fmt::format("\n[[friction]]\nname = \"{}\"\ncoefficient = {}\nslip = \"{}'\"\nnormal = 1\n",
+                                  values_.given(joint.name + "_friction"), scene_number(joint.friction), q);
+    }
+
+    /// Adds a contact at each end of the range of q, without rebound.
+    void stops(const Robot::Joint& joint, const std::string& q) {
+        if (!options_.stops) return;
+        const auto [low, high] = *joint.limits;
+        const auto stop = [&](const char* end, const std::string& gap) {
+            stops_ += fmt::format("\n[[unilateral]]\nname = \"{}\"\ngap = \"{}\"\n",
+                                  values_.given(fmt::format("{}_{}", joint.name, end)), gap);
+        };
+        stop("low", fmt::format("{} {} {}", q, low < 0 ? '+' : '-', scene_number(std::abs(low))));
+        stop("high", fmt::format("{} - {}", scene_number(high), q));
+    }
+
     std::size_t index(const Robot::Joint& joint) const {
         return static_cast<std::size_t>(&joint - robot_.joints.data());
     }
@@ -314,7 +351,8 @@ private:
     SceneNames places_, values_, joints_taken_;
     std::vector<std::string> joint_names_, values_of_;  // for each joint of the robot
     std::vector<std::string> link_names_;               // of links that are fixed to others
-    std::string joints_, dampers_, inputs_, forces_;
+    std::string joints_, dampers_, frictions_, stops_, inputs_, forces_;
+    std::set<std::string> with_friction_;  // joints
     RobotScene result_;
 };
 

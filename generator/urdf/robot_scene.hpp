@@ -25,6 +25,8 @@ struct RobotSceneOptions {
     bool quaternion = false;  ///< whether floating joints turn by quaternions
     /// Whether to add an input, a torque or a force, for each independent joint that turns or slides.
     bool drives = false;
+    bool friction = false;  ///< whether to add the Coulomb friction of joints that turn or slide
+    bool stops = false;     ///< whether to add contacts at the limits of joints that turn or slide
 };
 
 struct RobotScene {
