@@ -48,6 +48,7 @@ void add_derive(CLI::App& app, Chosen& chosen);
 void add_emit(CLI::App& app, Chosen& chosen);
 void add_equilibrium(CLI::App& app, Chosen& chosen);
 void add_eval(CLI::App& app, Chosen& chosen);
+void add_fmu(CLI::App& app, Chosen& chosen);
 void add_impact(CLI::App& app, Chosen& chosen);
 void add_import(CLI::App& app, Chosen& chosen);
 void add_identify(CLI::App& app, Chosen& chosen);

@@ -112,6 +112,7 @@ private:
         const bool has_gamma = !p_.nodes_of(Group::gamma).empty(), moves = !p_.nodes_of(Group::projected).empty();
         const bool is_needed = has_gamma || std::any_of(position.begin(), position.end(),
                                                         [&](int node) { return !p_.is_zero(node); });
+        add(impulses_at(p_));
         add(project(p_));
         add(moves ? gamma_at(p_)
                   : FunctionTask{.name = "gamma_at", .about = {}, .arguments = {}, .goals = {}, .results = {}});
@@ -120,15 +121,18 @@ private:
 
     void add_derivatives() {
         const std::vector<int> nodes = p_.nodes_of(Group::jacobian);
-        const SparseTask by_state = jacobian(p_), by_parameters = parameter_jacobian(p_);
-        add(by_state.task);
-        add(by_parameters.task);
+        const SparseTask by_state = jacobian(p_), by_parameters = parameter_jacobian(p_),
+                         of_values = value_gradient(p_);
+        for (const SparseTask* part : {&by_state, &by_parameters, &of_values}) add(part->task);
         file_.set("has_derivatives", !nodes.empty());
         file_.set("has_parameter_derivatives", !p_.nodes_of(Group::parameter_jacobian).empty());
         file_.set("rows", wrapped_list(by_state.rows));
         file_.set("columns", wrapped_list(by_state.columns));
         file_.set("parameter_rows", wrapped_list(by_parameters.rows));
         file_.set("parameter_columns", wrapped_list(by_parameters.columns));
+        file_.set("value_rows", wrapped_list(of_values.rows));
+        file_.set("value_columns", wrapped_list(of_values.columns));
+        number("value_entries", of_values.rows.size());
         number("entries", by_state.rows.size());
         number("parameter_entries", by_parameters.rows.size());
         number("derivative_operations", static_cast<std::size_t>(p_.count(nodes).total()));

@@ -231,6 +231,17 @@ FunctionTask gamma_at(const Program& p) {
     return task;
 }
 
+FunctionTask impulses_at(const Program& p) {
+    FunctionTask task{.name = "impulses_at",
+                      .about = "The generalized impulses of each event that has some, of the rates before.",
+                      .arguments = {t, state, par, to("out")},
+                      .goals = {},
+                      .results = {}};
+    add_results(task.results, p, Group::event_impulse, "out");
+    task.goals = unnamed("Impulses", task.results);
+    return task;
+}
+
 FunctionTask named_function(const Program&, const NamedFunction& function) {
     FunctionTask task{.name = function.name,
                       .about = fmt::format("{} {}.", function.about, described(function)),
@@ -260,6 +271,15 @@ SparseTask parameter_jacobian(const Program& p) {
                    .goals = {},
                    .results = {}},
                   p, {{Group::parameter_jacobian, 0}}, p.parameters.size());
+}
+
+SparseTask value_gradient(const Program& p) {
+    return sparse({.name = "value_gradient",
+                   .about = "Derivatives of T, V, E, the power and the outputs by state, u' and parameters.",
+                   .arguments = {t, state, rate, par, to("values")},
+                   .goals = {},
+                   .results = {}},
+                  p, {{Group::value_gradient, 0}}, p.coordinates.size() + 2 * speeds_of(p) + p.parameters.size());
 }
 
 }  // namespace alembert

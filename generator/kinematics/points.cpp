@@ -93,14 +93,14 @@ PointKinematics PointWriter::operator()(const std::string& name, bool steps) {
     }
     const Moving fixed = along_N(name);
     p.position.along_N = write_(fixed.r);
-    p.velocity.along_N = write_(fixed.v);
-    p.acceleration.along_N = write_(fixed.a);
+    p.velocity.along_N = write_.derivative(fixed.v, p.position.along_N);
+    p.acceleration.along_N = write_.derivative(fixed.a, p.velocity.along_N);
     if (const std::string frame = places_.frame_of(name); frame != "N") {
         const Moving moving = along(name, frame);
         p.along = frame;
         p.position.own = write_(moving.r);
         p.velocity.own = write_(moving.v);
-        p.acceleration.own = write_(moving.a);
+        p.acceleration.own = write_.derivative(moving.a, p.velocity.own);
     }
     if (!steps) return p;
     const int begin = places_.point(p.from);
