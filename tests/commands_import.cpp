@@ -404,8 +404,53 @@ TEST_CASE("import: omitted and merged parts are reported, and the scene has limi
         CHECK(result.err.find(line) != std::string::npos);
     CHECK(result.out.find("welding_torch is fixed to tool0") != std::string::npos);
     CHECK(contents(scene).find("about = \"limits 0.2 to 2.6\"") != std::string::npos);
+    // The torch stands at (0, 0, 0.04) turned by roll 0.1, pitch 0.2, yaw 0.3, then at (0.01, 0, 0.02) from the
+    // flange.
+    const auto motion = [&](const std::vector<std::string>& args) {
+        std::vector<std::string> all{"kinematics", scene, "--of", "flange,tool0,welding_torch", "--json"};
+        all.insert(all.end(), args.begin(), args.end());
+        return Json::parse(run(all).out);
+    };
+    const Json k = motion({"--at", "j1=0.3", "--at", "j4=0.7"});
+    const auto axes = [&](const char* name) { return k["frames"][name]["values"]["direction_cosines"]; };
+    const auto at = [&](const char* name) { return k["points"][name]["values"]["position"]; };
+    double tool_to_torch = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double along_tool =
+            0.01 * axes("tool0")[i][0].get<double>() + 0.02 * axes("tool0")[i][2].get<double>();
+        CHECK(std::abs(at("welding_torch")[i].get<double>() - at("tool0")[i].get<double>() - along_tool) < 1e-12);
+        tool_to_torch += axes("tool0")[i][0].get<double>() * axes("welding_torch")[i][0].get<double>();
+    }
+    CHECK(std::abs(tool_to_torch - std::cos(M_PI / 4)) < 1e-12);
     const auto torso = run({"import", source_path("tests/robots/torso.urdf"), "-o", scene});
     CHECK(torso.err.find("dropped: joints that move no mass: antenna\n") != std::string::npos);
+}
+
+// A hinge without gravity's moment, at rest 0.25 from its stop: friction 0.3 against a torque M gives q'' = (M -
+// 0.3)/I.
+TEST_CASE("import: friction slows a joint as its file says, and a stop ends its range") {
+    const std::string file = temporary(
+        "stopped.urdf", robot_of(link_of("a") + link_of("b", heavy) +
+                                 hinge_of("j", "revolute", "a", "b",
+                                          "<axis xyz=\"0 0 1\"/><limit lower=\"0.25\" upper=\"0.75\" effort=\"1\" "
+                                          "velocity=\"1\"/><dynamics friction=\"0.3\"/>")));
+    const std::string scene = temporary("stopped.toml", "");
+    const auto plain = run({"import", file, "-o", scene});
+    CHECK(plain.err.find("dropped: Coulomb friction, <dynamics friction=…>: j\n") != std::string::npos);
+    const auto whole = run({"import", file, "-o", scene, "--friction", "--stops", "--drives"});
+    REQUIRE(whole.exit == 0);
+    CHECK(whole.err.find("Coulomb") == std::string::npos);
+    CHECK(whole.err.find("note: j starts at 0.5, between its stops") != std::string::npos);
+    std::string text = contents(scene);
+    const std::string zero = "drive_j = { value = 0,";
+    REQUIRE(text.find(zero) != std::string::npos);
+    text.replace(text.find(zero), zero.size(), "drive_j = { value = 1.3,");
+    const Json moving = Json::parse(
+        run({"simulate", temporary("driven.toml", text), "--duration", "0.3", "--json", "--no-estimate"}).out);
+    CHECK(std::abs(moving["final"]["coordinates"]["j"].get<double>() - (0.5 + 0.5 * 1 * 0.09)) < 1e-8);
+    const Json stopped = Json::parse(
+        run({"simulate", temporary("driven.toml", text), "--duration", "2", "--json", "--no-estimate"}).out);
+    CHECK(std::abs(stopped["final"]["coordinates"]["j"].get<double>() - 0.75) < 1e-8);
 }
 
 // Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and keeps its rotation, however that is described;

@@ -12,11 +12,13 @@
 #include <functional>
 #include <sstream>
 
+#include "files.hpp"
 #include "program.hpp"
 
 namespace commands_kinematics {
 
 using alembert::test::run;
+using alembert::test::source_path;
 using alembert::test::temporary;
 using Json = nlohmann::json;
 using Real = long double;
@@ -481,6 +483,27 @@ TEST_CASE("kinematics: wrong claims on the scenes of chapters 2 and 3 are refute
             CHECK_FALSE(claim["counterexample"].empty());
         }
     }
+}
+
+TEST_CASE("kinematics: the Jacobian times the rates is the velocity, and J' q' with J q'' the acceleration") {
+    const Json k = Json::parse(run({"kinematics", source_path("scenes/gallery/six_joint_arm.toml"), "--of",
+                                    "flange", "--jacobian", "--json"})
+                                   .out);
+    const Json &point = k["points"]["flange"], &turning = k["frames"]["flange"]["values"];
+    std::vector<std::string> names;
+    for (int i = 1; i <= 6; ++i) names.push_back("q" + std::to_string(i));
+    for (int i = 0; i < 6; ++i) {
+        double v = 0, a = point["drift"][i].get<double>();
+        for (int j = 0; j < 6; ++j) {
+            const double entry = point["jacobian"][i][j].get<double>();
+            v += entry * k["rates"][names[static_cast<std::size_t>(j)]].get<double>();
+            a += entry * k["accelerations"][names[static_cast<std::size_t>(j)]].get<double>();
+        }
+        const Json& linear = point["values"];
+        CHECK(std::abs(v - (i < 3 ? linear["velocity"][i] : turning["omega"][i - 3]).get<double>()) < 1e-10);
+        CHECK(std::abs(a - (i < 3 ? linear["acceleration"][i] : turning["alpha"][i - 3]).get<double>()) < 1e-9);
+    }
+    CHECK(k["mass_centre"]["jacobian"].size() == 3);
 }
 
 }  // namespace commands_kinematics

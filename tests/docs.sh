@@ -196,7 +196,7 @@ fields agree scenes/textbook/sled.toml
 fields audit scenes/textbook/sled.toml
 fields check scenes/textbook/double_pendulum.toml
 fields eval scenes/gallery/four_bar_joints.toml --reactions
-fields kinematics scenes/gallery/four_bar_joints.toml --steps
+fields kinematics scenes/gallery/four_bar_joints.toml --steps --jacobian
 fields equilibrium scenes/textbook/rotating_hoop.toml
 fields equilibrium scenes/textbook/rotating_hoop.toml --follow Omega=0:10
 fields linearize scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0

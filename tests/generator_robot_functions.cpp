@@ -366,6 +366,49 @@ coordinates = { q2 = { initial = 0 } }
                          doctest::Contains("bears loads that are not measured"), ModelError);
 }
 
+TEST_CASE("functions: the derivatives of inverse dynamics are those of differences, and the inverse of M is one") {
+    const unsigned seed = 74;
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    for (const char* file : {"gallery/six_joint_arm", "textbook/double_pendulum", "textbook/elastic_pendulum"}) {
+        CAPTURE(file);
+        const Mechanism m = prepared(read_scene(test::source_path(fmt::format("scenes/{}.toml", file)))).mechanism;
+        const State<double> state = random_motion(m, random);
+        const auto n = static_cast<std::size_t>(m.size());
+        const RobotFunctions functions(m, false);
+        const FunctionProgram inverse = functions.dynamics("inverse");
+        const std::vector<double> D = values(functions.dynamics("inverse_jacobian"), state);
+        std::vector<double> by_rates(n * n), by_coordinates;
+        for (const auto& row : slopes(inverse.program.nodes_of(Group::function), inverse.program, state))
+            by_coordinates.insert(by_coordinates.end(), row.begin(), row.end());
+        for (std::size_t k = 0; k < n;
+             ++k) {  // τ is quadratic in the rates, so that central differences are exact
+            State<double> up = state, down = state;
+            up.qdot[k] += 0.5;
+            down.qdot[k] -= 0.5;
+            const std::vector<double> above = values(inverse, up), below = values(inverse, down);
+            for (std::size_t i = 0; i < n; ++i) by_rates[i * n + k] = above[i] - below[i];
+        }
+        std::vector<double> left, right;
+        for (std::size_t i = 0; i < n; ++i) {
+            left.insert(left.end(), D.begin() + static_cast<std::ptrdiff_t>(2 * n * i),
+                        D.begin() + static_cast<std::ptrdiff_t>(2 * n * i + n));
+            right.insert(right.end(), D.begin() + static_cast<std::ptrdiff_t>(2 * n * i + n),
+                         D.begin() + static_cast<std::ptrdiff_t>(2 * n * (i + 1)));
+        }
+        check_near(left, by_coordinates);
+        check_near(right, by_rates);
+        const std::vector<double> M = values(functions.dynamics("mass"), state),
+                                  W = values(functions.dynamics("mass_inverse"), state);
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t k = 0; k < n; ++k) {
+                double sum = 0;
+                for (std::size_t j = 0; j < n; ++j) sum += M[i * n + j] * W[j * n + k];
+                CHECK(std::abs(sum - (i == k ? 1 : 0)) < 1e-9);
+            }
+    }
+}
+
 TEST_CASE("functions: those in the compiled file are those of the verb inverse, for eight systems at once too") {
     const Scene scene = read_scene(test::source_path("scenes/gallery/six_joint_arm.toml"));
     const Emission e =

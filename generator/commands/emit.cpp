@@ -70,7 +70,8 @@ void add_emit(CLI::App& app, Chosen& chosen) {
             verb.add_flag("--jacobian", options.emission.jacobian,
                           say("also the derivatives of the right-hand side"));
             verb.add_option("--functions", options.functions,
-                            say("functions of their own: inverse, mass, bias, gravity, loads, com, com_jacobian, "
+                            say("functions of their own: inverse, mass, bias, gravity, loads, inverse_jacobian, "
+                                "mass_inverse, com, com_jacobian, "
                                 "momentum, regressor"))
                 .type_name(values::names);
             verb.add_option(

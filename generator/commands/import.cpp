@@ -18,7 +18,8 @@ namespace {
 
 struct ImportOptions {
     std::string robot, output;
-    bool floating = false, quaternion = false, drives = false, right_angles = false, json = false;
+    bool floating = false, quaternion = false, drives = false, friction = false, stops = false,
+         right_angles = false, json = false;
 };
 
 int run(const ImportOptions& options) {
@@ -28,7 +29,9 @@ int run(const ImportOptions& options) {
     RobotScene scene = robot_scene(robot, {.source = file,
                                            .floating = options.floating,
                                            .quaternion = options.quaternion,
-                                           .drives = options.drives});
+                                           .drives = options.drives,
+                                           .friction = options.friction,
+                                           .stops = options.stops});
     if (rounded > 0 && !options.right_angles)
         scene.notes.push_back(
             say("{} angle{} a right angle written with few digits, as 1.5708; with --right-angles {} exact, "
@@ -54,6 +57,7 @@ int run(const ImportOptions& options) {
         if (options.drives) result["drives"] = scene.drives;
         result["right_angles"] = {{"rounded", rounded}, {"made_exact", options.right_angles}};
         result["merged"] = scene.merged;
+        result["frames"] = scene.frames;
         result["dropped"] = Json::object();
         for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
         result["warnings"] = Json::array();
@@ -81,6 +85,8 @@ void add_import(CLI::App& app, Chosen& chosen) {
         .required();
     verb.add_flag("--floating", options->floating, say("the root link moves freely; default: it is the ground"));
     verb.add_flag("--quaternion", options->quaternion, say("what floats turns by a quaternion"));
+    verb.add_flag("--friction", options->friction, say("the Coulomb friction of the joints"));
+    verb.add_flag("--stops", options->stops, say("contacts at the limits of the joints"));
     verb.add_flag("--drives", options->drives, say("an input for the torque or force of each joint"));
     verb.add_flag("--right-angles", options->right_angles, say("1.5708 and the like become right angles"));
     verb.add_flag("--json", options->json, say("print one JSON object"));

@@ -12,18 +12,20 @@ namespace {
 struct KinematicsVerb : SceneOptions {
     std::string of, format = "text";
     std::vector<std::string> at;
-    bool steps = false;
+    bool steps = false, jacobian = false;
 };
 
 int run(const KinematicsVerb& verb) {
     const SceneKinematics found = kinematics(
-        scene_of(verb.scene), {.of = names_of(verb.of), .at = overrides_of(verb.at), .steps = verb.steps});
+        scene_of(verb.scene),
+        {.of = names_of(verb.of), .at = overrides_of(verb.at), .steps = verb.steps, .jacobian = verb.jacobian});
     warn(found.warnings);
     if (verb.json)
         show(as_json(found, verb.steps));
-    else if (verb.format == "text")
+    else if (verb.format == "text") {
         show_formulas(as_page(found, verb.format, verb.steps));
-    else
+        show(jacobian_page(found));
+    } else
         show(as_page(found, verb.format, verb.steps));
     return 0;
 }
@@ -43,6 +45,8 @@ void add_kinematics(CLI::App& app, Chosen& chosen) {
             verb.add_option("--format", options.format, say("text (default), latex or mathml"))
                 .type_name(values::format)
                 .one_of({"text", "latex", "mathml"});
+            verb.add_flag("--jacobian", options.jacobian,
+                          say("also the Jacobians of points and of the mass centre, as numbers"));
             verb.add_flag("--steps", options.steps, say("also how velocities and accelerations are composed"));
         });
 }

@@ -11,9 +11,11 @@
 #include "alembert/dense.hpp"
 #include "alembert/error.hpp"
 #include "alembert/tolerances.hpp"
+#include "formalism/elements.hpp"
 #include "kinematics/frames.hpp"
 #include "kinematics/points.hpp"
 #include "language/say.hpp"
+#include "lower/frame_functions.hpp"
 #include "lower/lower.hpp"
 #include "model/formulas.hpp"
 #include "run/evaluate.hpp"
@@ -143,6 +145,40 @@ void evaluate_entries(SceneKinematics& s, State<double> state) {
     }
 }
 
+std::vector<double> values_at(const FunctionProgram& f, const State<double>& state) {
+    const std::vector<double> all = interpret(f.program, state);
+    std::vector<double> result;
+    for (const int node : f.program.nodes_of(Group::function))
+        result.push_back(all[static_cast<std::size_t>(node)]);
+    return result;
+}
+
+std::vector<std::vector<double>> rows_at(const FunctionProgram& f, const State<double>& state) {
+    const std::vector<double> all = values_at(f, state);
+    std::vector<std::vector<double>> rows;
+    for (auto at = all.begin(); at != all.end(); at += f.columns) rows.emplace_back(at, at + f.columns);
+    return rows;
+}
+
+void find_jacobians(SceneKinematics& s, const State<double>& state) {
+    if (s.mechanism.q.empty()) return;
+    for (const PointKinematics& p : s.points) {
+        PointJacobian found;
+        for (const FunctionProgram& f : frame_functions(s.scene, s.mechanism, p.name, "", false)) {
+            if (f.name == "_jacobian") found.jacobian = rows_at(f, state);
+            if (f.name == "_drift") found.drift = values_at(f, state);
+        }
+        s.jacobians.emplace_back(p.name, std::move(found));
+    }
+    if (s.mechanism.masses.empty() || masses_unknown(s.mechanism, "")) return;
+    const auto function = [&](const char* name) { return mass_function(s.scene, s.mechanism, name, false); };
+    const std::vector<double> momentum = values_at(function("momentum"), state);
+    s.mass_centre = MassCentreMotion{.position = values_at(function("com"), state),
+                                     .jacobian = rows_at(function("com_jacobian"), state),
+                                     .linear_momentum = {momentum.begin(), momentum.begin() + 3},
+                                     .angular_momentum = {momentum.begin() + 3, momentum.end()}};
+}
+
 }  // namespace
 
 SceneKinematics kinematics(Scene scene, const KinematicsOptions& options) {
@@ -169,6 +205,7 @@ SceneKinematics kinematics(Scene scene, const KinematicsOptions& options) {
     for (const std::string& name : points_and_masses(s.scene))
         if (is_wanted(name)) s.points.push_back(point(name, options.steps));
     evaluate_entries(s, start.state());
+    if (options.jacobian) find_jacobians(s, start.state());
     return s;
 }
 

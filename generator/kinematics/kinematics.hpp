@@ -31,6 +31,7 @@ struct KinematicsOptions {
     std::vector<std::string> of = {};  ///< frames, bodies, points, particles; empty: all of the scene
     Overrides at = {};                 ///< as `--at`; accelerations ("theta''") too
     bool steps = false;                ///< how velocities and accelerations are composed
+    bool jacobian = false;             ///< Jacobians of the points, the mass centre and the momentum, as numbers
 };
 
 /// A component of a vector.
@@ -88,6 +89,19 @@ struct PointKinematics {
     std::vector<PlaceStep> places = {};  ///< with `steps`: from `from` to the point
 };
 
+/// The motion of a point and of the axes that SceneMotion::spot gives it, along N: linear rows first.
+struct PointJacobian {
+    std::vector<std::vector<double>> jacobian = {};  ///< 6 × n
+    std::vector<double> drift = {};                  ///< (a, α) at q'' = 0: J' q'
+};
+
+/// The mass centre, its Jacobian (3 × n), the momentum, and the angular momentum about the mass centre, along N.
+struct MassCentreMotion {
+    std::vector<double> position = {};
+    std::vector<std::vector<double>> jacobian = {};
+    std::vector<double> linear_momentum = {}, angular_momentum = {};
+};
+
 struct SceneKinematics : Prepared {
     double time = 0;
     std::vector<std::string> coordinates = {};
@@ -99,6 +113,8 @@ struct SceneKinematics : Prepared {
         true;  ///< accelerations are those of the motion but for those given; else the least possible
     std::vector<FrameKinematics> frames = {};
     std::vector<PointKinematics> points = {};
+    std::vector<std::pair<std::string, PointJacobian>> jacobians = {};  ///< with `jacobian`
+    std::optional<MassCentreMotion> mass_centre = {};  ///< with `jacobian`, where masses are known
 };
 
 /// Throws what `prepared` and `assemble` throw; ModelError for names that the scene does not have, and for

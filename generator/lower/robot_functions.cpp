@@ -10,6 +10,8 @@
 #include "lower/choose.hpp"
 #include "lower/tree_functions.hpp"
 #include "model/friction.hpp"
+#include "program/partials.hpp"
+#include "program/solve.hpp"
 
 namespace alembert {
 
@@ -66,6 +68,13 @@ void need_gravity_of_its_own(const Mechanism& m, const std::string& name) {
             name));
 }
 
+/// The program with the fewest operations.
+Program with_fewest_operations(const std::vector<Program>& forms) {
+    const auto cost = [](const Program& p) { return p.count(p.nodes_of(Group::function)).total(); };
+    return *std::min_element(forms.begin(), forms.end(),
+                             [&](const Program& a, const Program& b) { return cost(a) < cost(b); });
+}
+
 const char* sentence_for(const std::string& name) {
     if (name == "inverse") return "Inverse dynamics: the loads M q'' + C q' + g - Q that bring q'' about.";
     if (name == "mass") return "The mass matrix M(q).";
@@ -83,7 +92,8 @@ RobotFunctions::RobotFunctions(const Mechanism& mechanism, bool fold)
 }
 
 const std::vector<std::string>& RobotFunctions::of_dynamics() {
-    static const std::vector<std::string> names{"inverse", "mass", "bias", "gravity", "loads"};
+    static const std::vector<std::string> names{"inverse",          "mass",        "bias", "gravity", "loads",
+                                                "inverse_jacobian", "mass_inverse"};
     return names;
 }
 
@@ -143,6 +153,8 @@ Program RobotFunctions::from_lagrange(const std::string& name) const {
 
 FunctionProgram RobotFunctions::dynamics(const std::string& name) const {
     const int n = m_.size();
+    if (name == "inverse_jacobian") return inverse_jacobian();
+    if (name == "mass_inverse") return mass_inverse();
     FunctionProgram result{
         .name = name, .about = sentence_for(name), .rows = n, .columns = name == "mass" ? n : 1};
     std::vector<Program> forms;
@@ -164,10 +176,62 @@ FunctionProgram RobotFunctions::dynamics(const std::string& name) const {
     } else if (n <= most_by_lagrange || forms.empty()) {
         forms.push_back(from_lagrange(name));
     }
-    const auto cost = [](const Program& p) { return p.count(p.nodes_of(Group::function)).total(); };
-    result.program = *std::min_element(forms.begin(), forms.end(),
-                                       [&](const Program& a, const Program& b) { return cost(a) < cost(b); });
+    result.program = with_fewest_operations(forms);
     return result;
+}
+
+FunctionProgram RobotFunctions::inverse_jacobian() const {
+    const int n = m_.size();
+    const Program inverse = dynamics("inverse").program;
+    const std::vector<int> loads = inverse.nodes_of(Group::function);
+    std::vector<Program> forms;
+    for (const auto order : {EliminationOrder::forward, EliminationOrder::reverse, EliminationOrder::least_fill}) {
+        Program program = inverse;
+        std::vector<int> inputs;
+        for (const auto kind : {Variable::Kind::coordinate, Variable::Kind::rate})
+            for (int i = 0; i < n; ++i) inputs.push_back(program.variable({kind, i}));
+        const auto found = partials(program, loads, inputs, order);
+        if (!found) continue;
+        std::vector<int> values(static_cast<std::size_t>(n * 2 * n), program.number(0));
+        for (const Partial& partial : *found)
+            values[static_cast<std::size_t>(partial.output * 2 * n + partial.input)] = partial.node;
+        forms.push_back(with_values_only(std::move(program), values));
+    }
+    if (forms.empty())
+        throw ModelError(
+            say("the derivatives of inverse dynamics are too long to be written out; leave "
+                "'inverse_jacobian' out"));
+    return {.name = "inverse_jacobian",
+            .about = "d tau / d q, then d tau / d q', of inverse dynamics; d tau / d q'' is M.",
+            .rows = n,
+            .columns = 2 * n,
+            .program = with_fewest_operations(forms)};
+}
+
+FunctionProgram RobotFunctions::mass_inverse() const {
+    const int n = m_.size();
+    Program program = dynamics("mass").program;
+    const std::vector<int> full = program.nodes_of(Group::function);
+    std::vector<int> lower;
+    std::vector<std::vector<int>> units;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j <= i; ++j) lower.push_back(full[static_cast<std::size_t>(i * n + j)]);
+        units.emplace_back();
+        for (int j = 0; j < n; ++j) units.back().push_back(program.number(i == j ? 1 : 0));
+    }
+    std::optional<std::vector<std::vector<int>>> solutions;
+    if (n > 0) solutions = solve_for_sides(program, lower, units, 0);
+    if (!solutions) throw ModelError(say("the mass matrix is singular at every state, so that it has no inverse"));
+    std::vector<int> values;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            values.push_back(
+                (*solutions)[static_cast<std::size_t>(std::min(i, j))][static_cast<std::size_t>(std::max(i, j))]);
+    return {.name = "mass_inverse",
+            .about = "The inverse of the mass matrix: d q'' / d tau of forward dynamics.",
+            .rows = n,
+            .columns = n,
+            .program = with_values_only(std::move(program), values)};
 }
 
 }  // namespace alembert

@@ -117,6 +117,15 @@ Json as_json(const SceneKinematics& s, bool steps) {
     for (const FrameKinematics& f : s.frames) result["frames"][f.name] = json_of(f, steps);
     result["points"] = Json::object();
     for (const PointKinematics& p : s.points) result["points"][p.name] = json_of(p, steps);
+    for (const auto& [name, found] : s.jacobians) {
+        result["points"][name]["jacobian"] = found.jacobian;
+        result["points"][name]["drift"] = found.drift;
+    }
+    if (s.mass_centre)
+        result["mass_centre"] = {{"position", s.mass_centre->position},
+                                 {"jacobian", s.mass_centre->jacobian},
+                                 {"linear_momentum", s.mass_centre->linear_momentum},
+                                 {"angular_momentum", s.mass_centre->angular_momentum}};
     return result;
 }
 

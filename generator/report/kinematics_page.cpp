@@ -9,6 +9,7 @@
 #include "notation/text.hpp"
 #include "report/formula_page.hpp"
 #include "report/kinematics.hpp"
+#include "report/page.hpp"
 
 namespace alembert {
 
@@ -223,6 +224,35 @@ std::string as_page(const SceneKinematics& s, const std::string& format, bool st
     if (!s.no_accelerations.empty())
         blocks.push_back({say("There are no accelerations at the state: {}", s.no_accelerations), {}});
     return n.page(blocks);
+}
+
+std::string jacobian_page(const SceneKinematics& s) {
+    std::string page;
+    const auto row = [&](const std::string& name, const std::vector<double>& values) {
+        put(page, "  {:<8}", name);
+        for (const double x : values) put(page, "{:>18.10g}", x == 0 ? 0.0 : x);
+        page += "\n";
+    };
+    const auto matrix = [&](const std::vector<std::vector<double>>& rows) {
+        const char* const names[] = {"v_x", "v_y", "v_z", "omega_x", "omega_y", "omega_z"};
+        for (std::size_t i = 0; i < rows.size(); ++i) row(names[i], rows[i]);
+    };
+    for (const auto& [name, found] : s.jacobians) {
+        page += "\n";
+        say_on(page, "Jacobian of {}, along N; columns by the rates of {}:\n", name,
+               fmt::join(s.coordinates, ", "));
+        matrix(found.jacobian);
+        row("J' q'", found.drift);
+    }
+    if (!s.mass_centre) return page;
+    page += "\n";
+    say_on(page, "Mass centre, along N; columns by the rates of {}:\n", fmt::join(s.coordinates, ", "));
+    matrix(s.mass_centre->jacobian);
+    row("r", s.mass_centre->position);
+    say_on(page, "momentum, and angular momentum about the mass centre:\n");
+    row("p", s.mass_centre->linear_momentum);
+    row("L", s.mass_centre->angular_momentum);
+    return page;
 }
 
 }  // namespace alembert

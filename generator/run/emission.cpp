@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "emit/names.hpp"
 #include "emit/standalone.hpp"
@@ -69,9 +70,15 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
                                                  : dynamics.dynamics(name);
         result.push_back(absorbed(program, function));
     }
+    std::map<std::string, std::string> prefixes;
     for (const std::string& frame : options.frames) {
         const std::string prefix = ascii_identifier(frame);
-        if (is_there(prefix + "_pose")) continue;
+        const auto [known, is_new] = prefixes.try_emplace(prefix, frame);
+        if (!is_new && known->second != frame)
+            throw ModelError(
+                say("the functions of {} and {} would have the same names, '{}_pose' …; ask for them one by one",
+                    in_quotes(known->second), in_quotes(frame), prefix));
+        if (!is_new) continue;
         for (const FunctionProgram& f : frame_functions(e.scene, e.mechanism, frame, prefix, options.fold))
             result.push_back(absorbed(program, f));
     }

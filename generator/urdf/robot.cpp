@@ -183,8 +183,7 @@ private:
             if (joint.damping < 0)
                 refuse(joint.place, say("the damping of joint {} is {}; expected zero or more",
                                         in_quotes(joint.name), joint.damping));
-            if (elements_.number(*dynamics, "friction").value_or(0) != 0)
-                drop(say("Coulomb friction, <dynamics friction=…>"), joint.name);
+            joint.friction = elements_.number(*dynamics, "friction").value_or(0);
         }
         if (const TiXmlElement* const limit = elements_.only(e, "limit"))
             if (limit->Attribute("lower") != nullptr || limit->Attribute("upper") != nullptr)

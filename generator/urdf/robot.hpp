@@ -56,8 +56,8 @@ struct Robot {
         Type type;
         int parent, child;  ///< in `links`
         RobotPose at;
-        Real3 axis;  ///< not normalized
-        double damping = 0;
+        Real3 axis;                        ///< not normalized
+        double damping = 0, friction = 0;  ///< friction: the Coulomb torque or force
         std::optional<std::array<double, 2>> limits = {};
         std::optional<Mimic> mimic = {};  ///< for a mimicking joint, the independent joint that it follows
     };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "language/say.hpp"
 #include "scene/text.hpp"
@@ -59,9 +60,16 @@ public:
             throw ModelError(say(
                 "this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or "
                 "floating one, or a root that floats"));
-        result_.text += joints_ + dampers_;
+        result_.text += joints_ + dampers_ + frictions_ + stops_;
+        for (const Group& group : groups_) mounted(group);
         if (!result_.drives.empty()) result_.text += fmt::format("\n[inputs]\n{}\n[forces]\n{}", inputs_, forces_);
         result_.dropped.insert(result_.dropped.begin(), robot_.dropped.begin(), robot_.dropped.end());
+        std::vector<std::string> without_friction;
+        for (const Robot::Joint& joint : robot_.joints)
+            if (joint.friction != 0 && !with_friction_.contains(joint.name))
+                without_friction.push_back(joint.name);
+        if (!without_friction.empty())
+            result_.dropped.push_back({say("Coulomb friction, <dynamics friction=…>"), without_friction});
         return std::move(result_);
     }
 
@@ -90,6 +98,11 @@ private:
             if (!joint.mimic && joint.type != Robot::Type::floating && joint.type != Robot::Type::planar)
                 values_of_[static_cast<std::size_t>(above)] = values_.given(joint.name);
         }
+        link_names_.resize(robot_.links.size());
+        for (const Group& group : groups_)
+            for (const int i : group.links)
+                if (!group.ground && group.kept && i != group.top)
+                    link_names_[static_cast<std::size_t>(i)] = named(places_, link(i).name);
     }
 
     void head() {
@@ -110,6 +123,32 @@ private:
         ++result_.bodies;
     }
 
+    /// Adds a frame and a point of the same name for each link that is fixed to the body's own.
+    void mounted(const Group& group) {
+        if (group.ground || !group.kept) return;
+        for (const int i : group.links) {
+            if (i == group.top) continue;
+            const std::string& name = link_names_[static_cast<std::size_t>(i)];
+            std::vector<std::string> rotate = turns_of(seat(i));
+            if (rotate.empty()) rotate.emplace_back("[\"z\", 0]");
+            result_.text += fmt::format(
+                "\n[[frame]]\nname = \"{0}\"\nparent = \"{1}\"\nrotate = {2}\n\n[[point]]\nname = \"{0}\"\nfrom = "
+                "\"{3}\"\noffset = {4}\naxes = \"{1}\"\n",
+                name, group.frame, rotations(rotate), group.name, scene_vector(seat(i).shift - group.centre));
+            result_.frames.push_back(name);
+        }
+    }
+    /// The rotations of the fixed joints that lead to a link.
+    static std::vector<std::string> turns_of(const Seat& at) {
+        std::vector<std::string> result;
+        for (const Real3& rpy : at.turns) add_turns(result, rpy);
+        return result;
+    }
+    static void add_turns(std::vector<std::string>& list, const Real3& rpy) {
+        for (int k = 2; k >= 0; --k)
+            if (rpy[k] != 0) list.push_back(fmt::format("[\"{}\", {}]", "xyz"[k], scene_angle(rpy[k])));
+    }
+
     /// The pose of the joint in the group of its parent, relative to the mass centre of that group.
     struct Stand {
         const Group* parent;
@@ -120,15 +159,9 @@ private:
         const Seat& at = seat(joint.parent);
         Stand result{.parent = &groups_[static_cast<std::size_t>(at.group)],
                      .point = at.shift + at.R * joint.at.shift,
-                     .rotate = {}};
+                     .rotate = turns_of(at)};
         if (!result.parent->ground) result.point -= result.parent->centre;
-        const auto add = [&](const Real3& rpy) {
-            for (int k = 2; k >= 0; --k)
-                if (rpy[k] != 0)
-                    result.rotate.push_back(fmt::format("[\"{}\", {}]", "xyz"[k], scene_angle(rpy[k])));
-        };
-        for (const Real3& rpy : at.turns) add(rpy);
-        add(joint.at.rpy);
+        add_turns(result.rotate, joint.at.rpy);
         return result;
     }
     static std::string rotations(const std::vector<std::string>& list) {
@@ -181,15 +214,22 @@ private:
         if (joint.limits)
             about =
                 fmt::format("limits {} to {}", scene_number((*joint.limits)[0]), scene_number((*joint.limits)[1]));
-        if (joint.limits && (*joint.limits)[0] <= (*joint.limits)[1] &&
-            ((*joint.limits)[0] > 0 || (*joint.limits)[1] < 0))
-            result_.notes.push_back(say("{} starts at 0, outside its limits", q));
+        const bool has_limits = joint.limits && (*joint.limits)[0] <= (*joint.limits)[1];
+        double initial = 0;
+        if (has_limits && ((*joint.limits)[0] > 0 || (*joint.limits)[1] < 0)) {
+            if (options_.stops) initial = ((*joint.limits)[0] + (*joint.limits)[1]) / 2;
+            result_.notes.push_back(options_.stops
+                                        ? say("{} starts at {}, between its stops", q, scene_number(initial))
+                                        : say("{} starts at 0, outside its limits", q));
+        }
         const std::string rotate =
             at.rotate.empty() ? "" : fmt::format("parent_rotate = {}\n", rotations(at.rotate));
         joint_table(name, slides ? "prismatic" : "revolute", at.parent->name, child, at.point,
                     fmt::format("{}axis = {}\ncoordinates = {{ {} }}\n", rotate, scene_axis(joint.axis),
-                                coordinate(q, slides ? "m" : "rad", about)));
+                                coordinate(q, slides ? "m" : "rad", about, initial)));
         damper(joint, q);
+        friction(joint, q);
+        if (has_limits) stops(joint, q);
         if (options_.drives) drive(joint, q, slides);
     }
 
@@ -277,6 +317,29 @@ private:
                 fmt::format("\n[[damper]]\nalong = \"{}\"\ndamping = {}\n", along, scene_number(joint.damping));
     }
 
+    /// Adds a torque or force of constant size against the motion along q.
+    void friction(const Robot::Joint& joint, const std::string& q) {
+        if (!options_.friction || joint.friction == 0) return;
+        if (joint.friction < 0)
+            throw ModelError(say("the friction of joint {} is {}; expected zero or more", in_quotes(joint.name),
+                                 scene_number(joint.friction)));
+        with_friction_.insert(joint.name);
+        frictions_ += fmt::format("\n[[friction]]\nname = \"{}\"\ncoefficient = {}\nslip = \"{}'\"\nnormal = 1\n",
+                                  values_.given(joint.name + "_friction"), scene_number(joint.friction), q);
+    }
+
+    /// Adds a contact at each end of the range of q, without rebound.
+    void stops(const Robot::Joint& joint, const std::string& q) {
+        if (!options_.stops) return;
+        const auto [low, high] = *joint.limits;
+        const auto stop = [&](const char* end, const std::string& gap) {
+            stops_ += fmt::format("\n[[unilateral]]\nname = \"{}\"\ngap = \"{}\"\n",
+                                  values_.given(fmt::format("{}_{}", joint.name, end)), gap);
+        };
+        stop("low", fmt::format("{} {} {}", q, low < 0 ? '+' : '-', scene_number(std::abs(low))));
+        stop("high", fmt::format("{} - {}", scene_number(high), q));
+    }
+
     std::size_t index(const Robot::Joint& joint) const {
         return static_cast<std::size_t>(&joint - robot_.joints.data());
     }
@@ -287,7 +350,9 @@ private:
     std::vector<Seat> seats_;
     SceneNames places_, values_, joints_taken_;
     std::vector<std::string> joint_names_, values_of_;  // for each joint of the robot
-    std::string joints_, dampers_, inputs_, forces_;
+    std::vector<std::string> link_names_;               // of links that are fixed to others
+    std::string joints_, dampers_, frictions_, stops_, inputs_, forces_;
+    std::set<std::string> with_friction_;  // joints
     RobotScene result_;
 };
 

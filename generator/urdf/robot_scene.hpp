@@ -6,10 +6,11 @@
 ///     const RobotScene scene = robot_scene(read_robot("arm.urdf"), {.source = "arm.urdf"});
 ///
 /// Links that are connected by fixed joints become one body, with the name and the frame of the one nearest to the
-/// root; links that are fixed to the root belong to the ground, unless the root floats. Joints keep their names,
-/// which their coordinates have too (a floating joint's with _x, _y, _z and _yaw, _pitch, _roll, or _e0 … _e3). A
-/// joint that mimics another has no coordinate: the frame of its body turns, or its point is shifted, by factor ·
-/// coordinate + offset. Branches without moving mass are left out.
+/// root; the others become a frame and a point of their name. Links that are fixed to the root belong to the
+/// ground, unless the root floats. Joints keep their names, which their coordinates have too (a floating joint's
+/// with _x, _y, _z and _yaw, _pitch, _roll, or _e0 … _e3). A joint that mimics another has no coordinate: the
+/// frame of its body turns, or its point is shifted, by factor · coordinate + offset. Branches without moving mass
+/// are left out.
 
 #include <string>
 #include <vector>
@@ -24,12 +25,15 @@ struct RobotSceneOptions {
     bool quaternion = false;  ///< whether floating joints turn by quaternions
     /// Whether to add an input, a torque or a force, for each independent joint that turns or slides.
     bool drives = false;
+    bool friction = false;  ///< whether to add the Coulomb friction of joints that turn or slide
+    bool stops = false;     ///< whether to add contacts at the limits of joints that turn or slide
 };
 
 struct RobotScene {
     std::string text;
     int bodies = 0;
     std::vector<std::string> coordinates;
+    std::vector<std::string> frames;  ///< names of the frames, and points, of links that are fixed to others
     std::vector<std::string> drives;  ///< names of the inputs, one for each driven joint
     std::vector<std::string> merged;  ///< sentences such as "tool is fixed to wrist"
     std::vector<std::string> notes;   ///< names that had to be changed, limits that do not hold at the start
