@@ -143,4 +143,48 @@ nonholonomic = "dot(vel(disc) + cross(omega(D), pos(disc, C)), ez(N))"
     CHECK(json["constraints"][3]["integral"] == "z - r*sin(theta)");
 }
 
+TEST_CASE("commands: audit tells poses at which coordinates fail from those at which the mechanism does") {
+    const auto poses = [](const std::string& file) {
+        const auto result = run({"audit", file, "--json"});
+        REQUIRE(result.exit == 0);
+        return Json::parse(result.out)["singular_poses"];
+    };
+    const Json polar = poses(temporary("polar.toml", R"toml(
+[coordinates]
+r = 1
+phi = { initial = 0.5, rate = 1 }
+[[particle]]
+name = "p"
+mass = 2
+position = ["r*cos(phi)", "r*sin(phi)"]
+)toml"));
+    REQUIRE(polar.size() == 1);
+    CHECK(polar[0]["kind"] == "description");
+    CHECK(std::abs(polar[0]["coordinates"]["r"].get<double>()) < 1e-4);  // the distance counts in M by its square
+    CHECK(polar[0]["among"] == Json{"phi"});
+    const Json top = poses(source_path("scenes/textbook/heavy_top.toml"));
+    REQUIRE(!top.empty());
+    for (const Json& pose : top) {
+        CHECK(pose["kind"] == "description");
+        CHECK(std::abs(std::sin(pose["coordinates"]["theta"].get<double>())) < 1e-4);
+    }
+    const Json flat = poses(temporary("flat.toml", R"toml(
+[coordinates]
+al = 0.5
+be = { guess = 0.1, rate_guess = 0 }
+ga = { guess = 0.6, rate_guess = 0 }
+[energy]
+kinetic = "al'^2 + be'^2 + ga'^2"
+[[constraint]]
+name = "along"
+holonomic = "cos(al) + 2*cos(be) - cos(ga) - 2"
+[[constraint]]
+name = "up"
+holonomic = "sin(al) + 2*sin(be) - sin(ga)"
+)toml"));
+    REQUIRE(!flat.empty());
+    for (const Json& pose : flat) CHECK(pose["kind"] == "mechanism");
+    CHECK(poses(source_path("scenes/textbook/double_pendulum.toml")).empty());
+}
+
 }  // namespace commands_audit

@@ -207,6 +207,7 @@ fields stability scenes/stability/mathieu.toml
 fields stability scenes/stability/ziegler.toml --over c=0.1:1:5 --over P=0:3:5
 fields stability scenes/stability/ziegler.toml --locus P=0:3:9
 fields stability scenes/stability/ziegler.toml --exponents all --duration 10
+fields identify scenes/textbook/double_pendulum_joints.toml
 fields inverse scenes/textbook/sled.toml
 fields impact scenes/textbook/struck_rods.toml
 fields emit scenes/textbook/sled.toml -o solver --jacobian

@@ -80,7 +80,7 @@ every() { # SCENE
     run derive "$scene" --json --reactions
     run derive "$scene" --draw "$folder/figure.svg"
     for by in $formalisms; do run derive "$scene" --by "$by" --steps; done
-    for verb in agree audit check eval equilibrium linearize stability inertia inverse impact; do run "$verb" "$scene"; done
+    for verb in agree audit check eval equilibrium linearize stability inertia identify inverse impact; do run "$verb" "$scene"; done
     for verb in agree audit check equilibrium linearize stability; do run "$verb" "$scene" --json; done
     run emit "$scene" -o "$folder"
     run emit "$scene" -o "$folder" --fold --jacobian --batch --json

@@ -111,4 +111,64 @@ TEST_CASE("rough impact: momenta, Coulomb's law and the energy hold in random im
     CHECK(done > 500);
 }
 
+TEST_CASE(
+    "rough impact: in a plane momentum, the cone and the energy are kept, and a fine polygon comes near it") {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const auto row = [&] { return RowVectorXd{{uniform(random), uniform(random), uniform(random)}}; };
+    int done = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        CAPTURE(trial);
+        MatrixXd L(3, 3);
+        for (int i = 0; i < 9; ++i) L(i / 3, i % 3) = uniform(random);
+        const MatrixXd M = L * L.transpose() + 0.5 * MatrixXd::Identity(3, 3), response = M.inverse();
+        RoughContact contact{.normal = row(), .slip = row()};
+        contact.across = row();
+        contact.coefficient = std::abs(uniform(random)) + 0.01;
+        contact.resting = contact.coefficient;
+        const VectorXd before = row().transpose();
+        if (contact.normal.dot(before) >= 0) continue;
+        const RoughImpact hit = strike_rough(M, before, no_rows, contact, 0.5);
+        REQUIRE(hit);
+        ++done;
+        const VectorXd momentum = contact.normal.transpose() * hit.impulse +
+                                  contact.slip.transpose() * hit.tangential +
+                                  contact.across.transpose() * hit.across;
+        CHECK((M * (hit.after - before) - momentum).norm() <= 1e-11 * (1 + momentum.norm()));
+        CHECK(std::hypot(hit.tangential, hit.across) <= contact.resting * hit.impulse * (1 + 1e-11));
+        CHECK(hit.loss == doctest::Approx(energy(M, before) - energy(M, hit.after)).epsilon(1e-9));
+        // Friction of the size mu against the present sliding velocity, in many small steps of the impulse: where
+        // it sticks, the polygon trembles about v = 0 by a step.
+        const int steps = 20000;
+        const double step = hit.impulse / steps;
+        VectorXd u = before;
+        for (int n = 0; n < steps; ++n) {
+            const double v = contact.slip.dot(u), w = contact.across.dot(u), speed = std::hypot(v, w);
+            const double mu = speed > 0 ? contact.coefficient / speed : 0;
+            u += step * response * (contact.normal - mu * (v * contact.slip + w * contact.across)).transpose();
+        }
+        CHECK((u - hit.after).norm() < 100 * step * response.norm());
+    }
+    CHECK(done > 20);
+}
+
+TEST_CASE(
+    "rough impact: a gripping impact with restitution reverses the sliding velocity as far as the cone allows") {
+    // A solid ball of mass 1 and radius 1 with the rates x', y', phi': the lowest point has v = x' − phi'.
+    MatrixXd M = MatrixXd::Identity(3, 3);
+    M(2, 2) = 0.4;
+    RoughContact contact{.normal = RowVectorXd{{0, 1, 0}}, .slip = RowVectorXd{{1, 0, -1}}};
+    contact.coefficient = contact.resting = 10;
+    contact.grip = 0.5;
+    const VectorXd before{{1, -2, -3}};
+    const RoughImpact whole = strike_rough(M, before, no_rows, contact, 1);
+    CHECK(contact.slip.dot(whole.after) == doctest::Approx(-2).epsilon(1e-14));
+    CHECK(whole.after[1] == doctest::Approx(2).epsilon(1e-14));
+    CHECK(whole.loss == doctest::Approx((16 - 4) / 7.0).epsilon(1e-13));  // of the reduced mass 2/7
+    contact.coefficient = contact.resting = 0.36;
+    const RoughImpact part = strike_rough(M, before, no_rows, contact, 1);
+    CHECK(std::abs(part.tangential) == doctest::Approx(0.36 * 4).epsilon(1e-14));
+    CHECK(contact.slip.dot(part.after) == doctest::Approx(4 - 3.5 * 0.36 * 4).epsilon(1e-13));
+}
+
 }  // namespace runtime_rough_impact

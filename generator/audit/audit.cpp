@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "audit/audit.hpp"
 
+#include "audit/description_poses.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -394,6 +396,7 @@ Audit audit_of(const Mechanism& mechanism) {
 Audited audit(Scene scene) {
     Audited result{prepared(std::move(scene))};
     result.audit = audit_of(result.mechanism);
+    result.audit.description_poses = description_poses(result.mechanism, result.audit.start);
     for (const Mechanism::Rolling& rolling : result.mechanism.rollings)
         if (rolling.is_along)
             result.audit.notes.push_back(

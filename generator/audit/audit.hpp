@@ -57,6 +57,8 @@ struct Audit {
     std::vector<Adjusted> adjusted;
     State<double> start;                       ///< the initial state after the adjustment of guesses
     std::vector<SingularPose> singular_poses;  ///< `among` counts all constraints
+    /// Poses at which the coordinates fail, and not the mechanism; `among` counts coordinates.
+    std::vector<SingularPose> description_poses;
     std::vector<std::string> notes;
     /// The reason why the initial state cannot be used; with `wrong` the scene is wrong, otherwise the computation
     /// failed.

@@ -51,6 +51,7 @@ void add_eval(CLI::App& app, Chosen& chosen);
 void add_fmu(CLI::App& app, Chosen& chosen);
 void add_impact(CLI::App& app, Chosen& chosen);
 void add_import(CLI::App& app, Chosen& chosen);
+void add_identify(CLI::App& app, Chosen& chosen);
 void add_inertia(CLI::App& app, Chosen& chosen);
 void add_inverse(CLI::App& app, Chosen& chosen);
 void add_kinematics(CLI::App& app, Chosen& chosen);

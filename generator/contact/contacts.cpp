@@ -10,9 +10,12 @@
 #include "formalism/routh.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
+#include "model/friction.hpp"
 #include "program/partials.hpp"
 
 namespace alembert {
+
+using GiNaC::ex;
 
 Mechanism with_closed(Mechanism mechanism, const std::vector<int>& closed) {
     for (const int k : closed) mechanism.constraints.push_back(mechanism.unilateral[k].gap);
@@ -37,8 +40,26 @@ Mechanism with_contacts_watched(Mechanism mechanism, const std::vector<int>& clo
 
 namespace {
 
-/// Adds ∂slip/∂q' of each friction, n entries each.
-void add_slip_rows(Program& program) {
+std::vector<ex> sliding_velocity(const Mechanism::Friction& f) {
+    return f.across ? std::vector{f.slip, *f.across} : std::vector{f.slip};
+}
+
+/// Replaces the sliding velocity of each friction by its one or two components, and adds their rates of change at
+/// q'' = 0, its restitution, and ∂v/∂q' of each component, n entries each.
+void add_slip_rows(Program& program, const Mechanism& mechanism) {
+    std::erase_if(program.roots, [](const Root& root) { return root.group == Group::slip; });
+    const auto add = [&](Group group, const std::vector<ex>& values) {
+        for (const int node : lower_expressions(program, mechanism, values))
+            program.roots.push_back({group, "", node});
+    };
+    std::vector<ex> velocities, restitutions;
+    for (const Mechanism::Friction& f : mechanism.frictions) {
+        for (const ex& v : sliding_velocity(f)) velocities.push_back(v);
+        restitutions.push_back(f.restitution);
+    }
+    add(Group::slip, velocities);
+    add(Group::slip_acceleration, mechanism.time_derivative_without_acceleration(velocities));
+    add(Group::grip, restitutions);
     const std::vector<int> slips = program.nodes_of(Group::slip);
     const int n = static_cast<int>(program.coordinates.size());
     if (slips.empty()) return;
@@ -53,7 +74,7 @@ void add_slip_rows(Program& program) {
 /// A program with the rows and other values of all constraints, contacts last. It has no accelerations, because
 /// there may be none with all contacts closed.
 Program view_of(const Mechanism& mechanism) {
-    Mechanism closed = with_all_closed(mechanism);
+    Mechanism closed = with_all_closed(without_plane_friction(mechanism));
     closed.outputs.clear();
     closed.events.clear();
     closed.event_actions.clear();
@@ -67,23 +88,26 @@ Program view_of(const Mechanism& mechanism) {
         return false;
     };
     std::erase_if(program.roots, [&](const Root& root) { return !is_wanted(root); });
-    add_slip_rows(program);
+    add_slip_rows(program, closed);
     return program.canonical();
 }
 
-/// The contact of each friction; −1 for frictions that are not at a contact.
-std::vector<int> contacts_of_frictions(const Mechanism& m) {
-    std::vector<int> result;
+constexpr double negligible_slip = 1e-12;  // of a sliding velocity, relative to the sizes of its terms
+
+}  // namespace
+
+std::vector<ContactView::Rubbed> ContactView::contacts_of_frictions(const Mechanism& m) {
+    std::vector<Rubbed> result;
     for (const Mechanism::Friction& f : m.frictions) {
         const auto found = std::find_if(m.unilateral.begin(), m.unilateral.end(), [&](const auto& contact) {
             return f.multiplier && contact.gap.multiplier.is_equal(*f.multiplier);
         });
-        result.push_back(found == m.unilateral.end() ? -1 : static_cast<int>(found - m.unilateral.begin()));
+        result.push_back(
+            {.contact = found == m.unilateral.end() ? -1 : static_cast<int>(found - m.unilateral.begin()),
+             .components = sliding_velocity(f).size()});
     }
     return result;
 }
-
-}  // namespace
 
 ContactView::ContactView(const Mechanism& mechanism)
     : program_(view_of(mechanism)),
@@ -118,16 +142,23 @@ Situation ContactView::at(const State<double>& state) const {
     here.bilateral = selected(rows, {which.begin(), which.begin() + bilateral_});
     here.contacts = selected(rows, {which.begin() + bilateral_, which.end()});
     const Eigen::VectorXd slip = of(Group::slip), slip_row = of(Group::form_row), sliding = of(Group::friction),
-                          bound = of(Group::stick_bound);
-    for (std::size_t k = 0; k < rough_.size(); ++k) {
-        if (rough_[k] < 0) continue;
-        const auto i = static_cast<Eigen::Index>(k);
-        const Eigen::RowVectorXd along = slip_row.segment(i * n_, n_).transpose();
-        here.rough.push_back({.contact = rough_[k],
+                          bound = of(Group::stick_bound), change = of(Group::slip_acceleration),
+                          grip = of(Group::grip);
+    for (std::size_t k = 0, first = 0; k < rough_.size(); first += rough_[k++].components) {
+        if (rough_[k].contact < 0) continue;
+        const auto i = static_cast<Eigen::Index>(k), at = static_cast<Eigen::Index>(first),
+                   count = static_cast<Eigen::Index>(rough_[k].components);
+        const Eigen::MatrixXd along = Eigen::Map<const Rows>(slip_row.data() + at * n_, count, n_);
+        const Eigen::VectorXd velocity = slip.segment(at, count);
+        here.rough.push_back({.contact = rough_[k].contact,
                               .slip = along,
-                              .drift = slip[i] - along.dot(u),
+                              .drift = velocity - along * u,
+                              .velocity = velocity,
+                              .acceleration = -change.segment(at, count),
                               .coefficient = sliding[i],
-                              .resting = sliding[i] * bound[i]});
+                              .resting = sliding[i] * bound[i],
+                              .restitution = grip[i],
+                              .still = negligible_slip * (along.cwiseAbs() * u.cwiseAbs()).maxCoeff()});
     }
     return here;
 }

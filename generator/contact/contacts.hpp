@@ -40,7 +40,12 @@ public:
 private:
     Program program_;
     int n_, bilateral_;
-    std::vector<int> rough_;  ///< for each friction its contact, or −1
+    struct Rubbed {
+        int contact;             ///< −1 for a friction that is not at a contact
+        std::size_t components;  ///< of its sliding velocity
+    };
+    static std::vector<Rubbed> contacts_of_frictions(const Mechanism& mechanism);
+    std::vector<Rubbed> rough_;  ///< for each friction
     std::vector<std::string> names_;
 };
 

@@ -261,8 +261,10 @@ private:
         for (const Mechanism::Friction& f : m_.frictions) {
             const auto slip = normal(f.slip), sliding = normal(f.coefficient * f.normal),
                        sticking = normal(f.resting * f.normal);
-            if (slip && sliding && sticking)
-                result_.frictions.push_back({f.name, readable(*slip), readable(*sliding), readable(*sticking)});
+            const auto across = f.across ? normal(*f.across) : std::nullopt;
+            if (!slip || !sliding || !sticking || f.across.has_value() != across.has_value()) continue;
+            result_.frictions.push_back({f.name, readable(*slip), readable(*sliding), readable(*sticking)});
+            if (across) result_.frictions.back().across = readable(*across);
         }
     }
 

@@ -50,6 +50,7 @@ struct Derivation {
     struct Rubs {
         std::string name;
         Phrase slip, sliding, sticking;
+        std::optional<Phrase> across = {};  ///< the second component of the sliding velocity, if it has two
     };
     std::vector<Rubs> frictions;
     bool has_unit_quaternions = false;  ///< whether e·e = 1 of quaternions has been used in all terms

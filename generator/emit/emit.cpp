@@ -71,6 +71,7 @@ public:
         const Operations cost = p_.count(p_.right_hand_side());
         add_functions();
         add_derivatives();
+        add_named_functions();
         file_.set("functions", functions_);
         describe(cost);
         add_counts();
@@ -135,6 +136,23 @@ private:
         number("entries", by_state.rows.size());
         number("parameter_entries", by_parameters.rows.size());
         number("derivative_operations", static_cast<std::size_t>(p_.count(nodes).total()));
+    }
+
+    void add_named_functions() {
+        mustache::data list{mustache::data::type::list};
+        for (const NamedFunction& function : options_.functions) {
+            const FunctionTask task = named_function(p_, function);
+            for (const EmittedFunction& part : written(p_, words_, task, options_)) functions_ << data_of(part);
+            mustache::data entry;
+            entry.set("name", function.name);
+            entry.set("about", task.about);
+            entry.set("rows", std::to_string(function.rows));
+            entry.set("columns", std::to_string(function.columns));
+            entry.set("operations", std::to_string(function.operations.total()));
+            list << entry;
+        }
+        file_.set("named_functions", list);
+        file_.set("has_named_functions", !options_.functions.empty());
     }
 
     void describe(const Operations& cost) {

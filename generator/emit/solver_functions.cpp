@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "emit/layout.hpp"
+
 namespace alembert {
 
 namespace {
@@ -237,6 +239,18 @@ FunctionTask impulses_at(const Program& p) {
                       .results = {}};
     add_results(task.results, p, Group::event_impulse, "out");
     task.goals = unnamed("Impulses", task.results);
+    return task;
+}
+
+FunctionTask named_function(const Program&, const NamedFunction& function) {
+    FunctionTask task{.name = function.name,
+                      .about = fmt::format("{} {}.", function.about, described(function)),
+                      .arguments = {t, state, rate, par, to("out")},
+                      .goals = {},
+                      .results = {}};
+    for (std::size_t k = 0; k < function.nodes.size(); ++k)
+        task.results.push_back({"out", fmt::format("out[{}]", k), function.nodes[k]});
+    task.goals = unnamed("Values", task.results);
     return task;
 }
 

@@ -5,6 +5,7 @@
 /// sections.
 
 #include "emit/function.hpp"
+#include "program/named_function.hpp"
 
 namespace alembert {
 
@@ -21,6 +22,9 @@ FunctionTask project(const Program& program);
 FunctionTask gamma_at(const Program& program);
 /// The impulses of events; without results if no event of the program has one.
 FunctionTask impulses_at(const Program& program);
+
+/// A function of its own, out = its values.
+FunctionTask named_function(const Program& program, const NamedFunction& function);
 
 /// The entries of a Jacobian that are not zero.
 struct SparseTask {

@@ -56,9 +56,11 @@ constexpr std::array patterns{
     to_say("the constraints prescribe that a contact closes"),
     to_say("no accelerations keep all contacts apart"),
     to_say("friction makes the contact force grow without bound during the impact"),
-    to_say("an impact with friction can be computed only for a single contact with one friction, and without "
-           "impulses "
-           "of events"),
+    to_say("an impact can be computed where each contact has one friction only"),
+    to_say("simultaneous impacts with friction can be computed where each contact has one friction in one "
+           "direction, without a restitution of its own"),
+    to_say("no choice of sticking and sliding is consistent in their impact together"),
+    to_say("their impact together would gain energy with these restitutions and coefficients"),
     to_say(
         "no C++ compiler: looked for {} in $PATH; install one (on Debian: apt install g++) or name one with $CXX"),
     to_say("cannot write {}: {}; is the disk full?"),

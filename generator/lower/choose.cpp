@@ -161,7 +161,11 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
         programs.push_back({lower(m, intermediate, energy, options)});
     }
     const bool has_matrix = equations.M.rows() > 0;
-    if (const std::optional<Equations> textbook = has_matrix ? textbook_equations(m, equations) : std::nullopt) {
+    // The directions of friction in planes are long when expanded.
+    const bool is_readable =
+        has_matrix && std::none_of(m.frictions.begin(), m.frictions.end(),
+                                   [](const Mechanism::Friction& f) { return f.across.has_value(); });
+    if (const std::optional<Equations> textbook = is_readable ? textbook_equations(m, equations) : std::nullopt) {
         LowerOptions as_in_book = options;
         as_in_book.is_textbook = true;
         programs.push_back({lower(m, *textbook, readable_energy(m, energy), as_in_book)});

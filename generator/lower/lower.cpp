@@ -289,7 +289,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     for (const auto* parts : {&m.outputs, &m.events})
         for (const Mechanism::Definition& part : *parts) wanted.push_back(part.value);
     for (const Mechanism::Friction& f : m.frictions)
-        wanted.insert(wanted.end(), {f.slip, f.coefficient, f.resting, f.normal});
+        wanted.insert(wanted.end(), {f.slip, f.across.value_or(0), f.coefficient, f.resting, f.normal});
     lowering.lower_definitions(wanted);
     add_energy_roots(lowering, program, m, equations, energy,
                      norms.empty() && has_matrix ? mass : std::vector<int>());
@@ -306,6 +306,9 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
         program.roots.push_back({Group::friction, f.name, lowering(f.coefficient)});
         program.roots.push_back({Group::normal, f.name, lowering(f.normal)});
         program.roots.push_back({Group::determinant, f.name, normal_forces.determinant(program, f)});
+        if (f.is_held)
+            program.roots.push_back(
+                {Group::across, f.name, lowering(*f.across), static_cast<int>(&f - m.frictions.data())});
     }
     return program.canonical();
 }

@@ -95,11 +95,20 @@ std::optional<std::vector<int>> NormalForces::solve(Lowering& lowering, Program&
         std::vector<std::vector<Program::Term>> terms(right.size());
         for (const Mechanism::Friction* f : pressed.frictions) {
             lowering.lower_definitions({f->slip, f->coefficient});
-            const int slip = lowering(f->slip), mu = lowering(f->coefficient),
-                      side = program.call(Op::sign, {slip});
-            const std::vector<int> row = row_of(program, slip, e_.size());
-            for (std::size_t i = 0; i < row.size(); ++i)
-                terms[i].emplace_back(1, program.product(-1, {{mu, 1}, {side, 1}, {row[i], 1}}));
+            const int mu = lowering(f->coefficient);
+            const auto add = [&](int slip, int side) {
+                const std::vector<int> row = row_of(program, slip, e_.size());
+                for (std::size_t i = 0; i < row.size(); ++i)
+                    terms[i].emplace_back(1, program.product(-1, {{mu, 1}, {side, 1}, {row[i], 1}}));
+            };
+            const int slip = lowering(f->slip);
+            if (!f->across) {
+                add(slip, program.call(Op::sign, {slip}));
+                continue;
+            }
+            lowering.lower_definitions({*f->across, f->direction[0], f->direction[1]});
+            add(slip, lowering(f->direction[0]));
+            add(lowering(*f->across), lowering(f->direction[1]));
         }
         sides.emplace_back();
         for (const auto& list : terms) sides.back().push_back(program.sum(0, list));

@@ -143,12 +143,19 @@ struct Mechanism {
     /// it sticks, slip = 0, and the force is at most resting·normal.
     struct Friction {
         std::string name;
-        GiNaC::ex slip;                  ///< linear in the rates
-        GiNaC::ex coefficient, resting;  ///< kinetic and static
-        GiNaC::ex normal;                ///< N; for a constraint |λ|, for a contact λ
+        GiNaC::ex slip;  ///< linear in the rates
+        /// The second component of a sliding velocity v in a plane, along a direction perpendicular to the first.
+        /// The friction is then a force of at most resting·normal in any direction, −coefficient·normal·v/|v|
+        /// while it slides.
+        std::optional<GiNaC::ex> across;
+        std::vector<GiNaC::ex> direction;  ///< sign(slip), or the components of v/|v|
+        bool is_held = false;              ///< whether `direction` is given by parameters (model/friction.hpp)
+        GiNaC::ex coefficient, resting;    ///< kinetic and static
+        GiNaC::ex normal;                  ///< N; for a constraint |λ|, for a contact λ
         /// The multiplier λ that gives N, of a constraint in `constraints` (of the contact mode); nothing if N is
         /// given.
         std::optional<GiNaC::symbol> multiplier;
+        GiNaC::ex restitution;  ///< of the sliding velocity in an impact that does not slide through, 0 to 1
         Place place;
     };
 

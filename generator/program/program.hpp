@@ -123,12 +123,16 @@ enum class Group : unsigned char {
     jacobi,
     output,
     event,
-    slip,         ///< for each dry friction: its sliding velocity,
-    stick_bound,  ///< its static coefficient over the kinetic one,
-    friction,     ///< its coefficient while it slides,
-    normal,       ///< its normal force,
-    determinant,  ///< and the divisor of that force if it is a multiplier, else 1 (lower/normal_forces.hpp)
-    load,         ///< inverse dynamics: M q'' − f
+    slip,               ///< for each dry friction: its sliding velocity,
+    stick_bound,        ///< its static coefficient over the kinetic one,
+    friction,           ///< its coefficient while it slides,
+    normal,             ///< its normal force,
+    determinant,        ///< and the divisor of that force if it is a multiplier, else 1 (lower/normal_forces.hpp)
+    slip_acceleration,  ///< the rate of the sliding velocity at q'' = 0
+    grip,               ///< the restitution of the sliding velocity
+    across,             ///< the second component of a sliding velocity in a plane whose direction follows from
+                        ///< parameters; Root::constraint is the position of its friction
+    load,               ///< inverse dynamics: M q'' − f
     force,
     moment,  ///< the moments of joints, three components for each
     input,   ///< prescribed motions and their derivatives
@@ -137,6 +141,7 @@ enum class Group : unsigned char {
     power_gradient,
     value_gradient,  ///< differentiate.hpp
     event_impulse,   ///< the impulses of each event that has some, n for each
+    function,        ///< results of functions of their own (named_function.hpp)
 };
 
 /// A value that the program computes for its users.
@@ -144,7 +149,7 @@ struct Root {
     Group group;
     std::string name;  ///< for people and for identifiers of emitted code; decides nothing
     int node;
-    int constraint = -1;  ///< for γ, the position of its constraint
+    int constraint = -1;  ///< for γ, the position of its constraint; for `across`, that of its friction
 };
 
 struct Operations {

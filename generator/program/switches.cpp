@@ -132,13 +132,33 @@ int ratio_of(const Program& p, int a, int b) {
     return first > 0 ? 1 : -1;
 }
 
-/// The frictions to which each condition belongs.
+/// The frictions in planes, whose directions follow from parameters.
+std::vector<int> frictions_in_planes(const Program& p) {
+    std::vector<int> result;
+    for (const Root& root : p.roots)
+        if (root.group == Group::across) result.push_back(root.constraint);
+    return result;
+}
+
+/// The two components of the sliding velocity of each friction in a plane.
+std::vector<int> components_in_planes(const Program& p) {
+    const std::vector<int> slips = p.nodes_of(Group::slip), across = p.nodes_of(Group::across),
+                           frictions = frictions_in_planes(p);
+    std::vector<int> result;
+    for (std::size_t c = 0; c < frictions.size(); ++c)
+        result.insert(result.end(), {slips[static_cast<std::size_t>(frictions[c])], across[c]});
+    return result;
+}
+
+/// The frictions to which each condition belongs. The first conditions are the components of those in planes.
 std::vector<std::vector<Switched::Rubbing>> frictions_of(const Program& p, const std::vector<int>& conditions) {
     std::vector<std::vector<Switched::Rubbing>> result(conditions.size());
-    const std::vector<int> slips = p.nodes_of(Group::slip);
+    const std::vector<int> slips = p.nodes_of(Group::slip), planes = frictions_in_planes(p);
+    for (std::size_t k = 0; k < 2 * planes.size(); ++k) result[k].push_back({planes[k / 2], 1});
     for (std::size_t i = 0; i < slips.size(); ++i)
-        for (std::size_t k = 0; k < conditions.size(); ++k)
-            if (const int direction = ratio_of(p, conditions[k], slips[i]); direction != 0)
+        for (std::size_t k = 2 * planes.size(); k < conditions.size(); ++k)
+            if (const int direction = ratio_of(p, conditions[k], slips[i]);
+                direction != 0 && std::find(planes.begin(), planes.end(), static_cast<int>(i)) == planes.end())
                 result[k].push_back({static_cast<int>(i), direction});
     return result;
 }
@@ -184,20 +204,26 @@ std::optional<Switched> switched(const Program& program) {
     if (program.singular) return std::nullopt;
     Holding holding(program);
     Program made = holding.finish();
-    const std::vector<int>& conditions = holding.conditions();
+    std::vector<int> conditions = components_in_planes(made), functions = components_in_planes(program);
+    const std::size_t components = conditions.size();
+    conditions.insert(conditions.end(), holding.conditions().begin(), holding.conditions().end());
+    functions.insert(functions.end(), holding.functions().begin(), holding.functions().end());
     if (conditions.empty()) return std::nullopt;
     for (const int g : conditions)
         if ((made[g].depends & (bit(Variable::Kind::acceleration) | bit(Variable::Kind::unknown))) != 0)
             return std::nullopt;
     const auto rates = rates_of(made, conditions);
     if (!rates) return std::nullopt;
-    for (std::size_t k = 0; k < conditions.size(); ++k)
+    for (std::size_t k = components; k < conditions.size(); ++k)
         made.parameters.push_back({.name = fmt::format("side_{}", k + 1), .unit = "", .value = 1});
     for (std::size_t k = 0; k < conditions.size(); ++k)
         made.roots.push_back({Group::event, fmt::format("side function {}", k + 1), conditions[k]});
     for (std::size_t k = 0; k < conditions.size(); ++k)
         made.roots.push_back({Group::event, fmt::format("rate of side function {}", k + 1), (*rates)[k]});
-    Switched result{.program = {}, .functions = holding.functions(), .frictions = frictions_of(made, conditions)};
+    Switched result{.program = {},
+                    .functions = functions,
+                    .pairs = static_cast<int>(components / 2),
+                    .frictions = frictions_of(made, conditions)};
     if (result.has_frictions()) add_bounds(made, result);
     result.program = made.canonical();
     return result;

@@ -22,7 +22,11 @@ namespace alembert {
 
 struct Switched {
     Program program;
-    std::vector<int> functions;  ///< nodes of the original program with sign, |·|, min or max, one for each σ
+    /// Nodes of the original program with sign, |·|, min or max, one for each σ; before them the components of
+    /// sliding velocities in planes, whose σ are parameters of that program already, after a mode and δ for each
+    /// pair (model/friction.hpp).
+    std::vector<int> functions;
+    int pairs = 0;  ///< of sliding velocities in planes
     /// A dry friction (Group::slip) whose sliding velocity has the sign σ, or −σ.
     struct Rubbing {
         int friction;
@@ -30,6 +34,8 @@ struct Switched {
     };
     std::vector<std::vector<Rubbing>> frictions = {};  ///< for each σ
     bool has_frictions() const;
+    /// The number of parameters at the end of the program's that a run holds.
+    int held() const { return 2 * pairs + static_cast<int>(functions.size()); }
 };
 
 /// Nothing if there is no such function, if some g contains accelerations, or if a derivative of a g would be

@@ -54,22 +54,39 @@ Json as_json(const Audited& audited) {
     for (const Adjusted& a : audit.adjusted)
         json["adjusted"].push_back({{"name", a.name}, {"from", a.from}, {"to", a.to}});
     json["singular_poses"] = Json::array();
-    for (const SingularPose& pose : audit.singular_poses) {
+    const auto add_pose = [&](const SingularPose& pose, const char* kind, const auto& name) {
         Json one;
+        one["kind"] = kind;
         one["coordinates"] = Json::object();
         for (int i = 0; i < m.size(); ++i) one["coordinates"][m.q[i].get_name()] = pose.q[i];
         one["rank"] = pose.rank;
         one["initial"] = pose.given;
         one["among"] = Json::array();
-        for (const int k : pose.among) one["among"].push_back(m.constraints[k].name);
+        for (const int k : pose.among) one["among"].push_back(name(k));
         json["singular_poses"].push_back(one);
-    }
+    };
+    for (const SingularPose& pose : audit.singular_poses)
+        add_pose(pose, "mechanism", [&](int k) { return m.constraints[k].name; });
+    for (const SingularPose& pose : audit.description_poses)
+        add_pose(pose, "description", [&](int k) { return m.q[k].get_name(); });
     for (const Mechanism::Friction& f : m.frictions)
-        json["friction"].push_back({{"name", f.name}, {"modes", {"stick", "slip +", "slip -"}}});
+        json["friction"].push_back(
+            {{"name", f.name}, {"modes", f.across ? Json{"stick", "slip"} : Json{"stick", "slip +", "slip -"}}});
     json["notes"] = audit.notes;
     if (!audit.problem.empty()) json["problem"] = audit.problem;
     return json;
 }
+
+namespace {
+
+std::string place_of(const SingularPose& pose, const Mechanism& m) {
+    std::string where;
+    for (int i = 0; i < m.size(); ++i)
+        where += fmt::format("{}{} = {:.10g}", i == 0 ? "" : ", ", m.q[i].get_name(), pose.q[i]);
+    return where;
+}
+
+}  // namespace
 
 std::string as_text(const Audited& audited) {
     const Audit& audit = audited.audit;
@@ -83,7 +100,18 @@ std::string as_text(const Audited& audited) {
     if (!m.identities.empty())
         say_on(page, "Left out, since they hold wherever the bodies are: {}\n", fmt::join(m.identities, ", "));
     for (const Mechanism::Friction& f : m.frictions)
-        say_on(page, "friction {} has three modes: it sticks, or slips one way or the other\n", f.name);
+        page += f.across ? say("friction {} has two modes: it sticks, or slips in some direction of its plane\n",
+                               f.name)
+                         : say("friction {} has three modes: it sticks, or slips one way or the other\n", f.name);
+    for (const SingularPose& pose : audit.description_poses) {
+        std::vector<std::string> among;
+        for (const int k : pose.among) among.push_back("'" + m.q[k].get_name() + "'");
+        say_on(page,
+               "the coordinates fail {}at {}: the mass matrix has the rank {} there, as rates of {} move no mass; "
+               "the mechanism itself is regular\n",
+               pose.given ? say("at the initial state, ") : "", place_of(pose, m), pose.rank,
+               fmt::join(among, ", "));
+    }
     if (audit.constraints.empty()) {
         say_on(page, "There are no constraints.\n");
         return page;
@@ -112,13 +140,11 @@ std::string as_text(const Audited& audited) {
     for (const Adjusted& a : audit.adjusted)
         say_on(page, "adjusted {} from {:.6g} to {:.17g}\n", a.name, a.from, a.to);
     for (const SingularPose& pose : audit.singular_poses) {
-        std::string where, among;
-        for (int i = 0; i < m.size(); ++i)
-            where += fmt::format("{}{} = {:.10g}", i == 0 ? "" : ", ", m.q[i].get_name(), pose.q[i]);
+        std::string among;
         for (const int k : pose.among)
             among += fmt::format("{}'{}'", among.empty() ? "" : ", ", m.constraints[k].name);
         say_on(page, "the rank drops to {} {}at {}: {} {}\n", pose.rank,
-               pose.given ? say("at the initial state, ") : "", where, among,
+               pose.given ? say("at the initial state, ") : "", place_of(pose, m), among,
                pose.among.size() == 1 ? say("has no row left") : say("become dependent"));
     }
     say_on(

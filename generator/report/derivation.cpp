@@ -91,10 +91,11 @@ Json as_json(const DerivedScene& d) {
         for (const auto& [name, phrase] : shown.gaps) result["gaps"][name] = text(phrase);
     }
     for (const Derivation::Rubs& f : shown.frictions)
-        result["friction"].push_back({{"name", f.name},
-                                      {"slip", text(f.slip)},
-                                      {"sliding", text(f.sliding)},
-                                      {"sticking", text(f.sticking)}});
+        result["friction"].push_back(
+            {{"name", f.name},
+             {"slip", f.across ? Json{text(f.slip), text(*f.across)} : Json(text(f.slip))},
+             {"sliding", text(f.sliding)},
+             {"sticking", text(f.sticking)}});
     if (!shown.reactions.empty()) {
         result["reactions"] = Json::object();
         for (const Statement& r : shown.reactions) result["reactions"][r.of][text(*r.by)] = text(r.value);
@@ -211,7 +212,10 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
             {say("Friction '{}' acts with the force {} against the sliding velocity {}. Where that is 0 it "
                  "sticks: the velocity stays 0, and a force of at most {} takes the place of the sliding "
                  "one.",
-                 f.name, n.inline_phrase(f.sliding), n.inline_phrase(f.slip), n.inline_phrase(f.sticking)),
+                 f.name, n.inline_phrase(f.sliding),
+                 f.across ? fmt::format("({}, {})", n.inline_phrase(f.slip), n.inline_phrase(*f.across))
+                          : n.inline_phrase(f.slip),
+                 n.inline_phrase(f.sticking)),
              {}});
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)

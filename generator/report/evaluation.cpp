@@ -25,8 +25,11 @@ std::size_t widest_name(const Evaluation& e) {
 }
 
 /// The name that `audit` gives to a mode of dry friction.
-std::string mode_of(int side) {
-    return side == 0 ? say("stick") : side > 0 ? say("slip +") : say("slip -");
+std::string mode_of(const Evaluation& e, const std::string& friction, int side) {
+    const bool in_plane =
+        std::any_of(e.mechanism.frictions.begin(), e.mechanism.frictions.end(),
+                    [&](const Mechanism::Friction& f) { return f.name == friction && f.across; });
+    return side == 0 ? say("stick") : in_plane ? say("slip") : side > 0 ? say("slip +") : say("slip -");
 }
 
 }  // namespace
@@ -46,7 +49,7 @@ Json as_json(const Evaluation& e, bool reactions) {
     result["residuals"] = Json::object();
     for (const auto& [name, residual] : e.residuals) result["residuals"][name] = residual;
     if (e.closed) result["closed"] = *e.closed;
-    for (const auto& [name, side] : e.frictions) result["friction"][name] = mode_of(side);
+    for (const auto& [name, side] : e.frictions) result["friction"][name] = mode_of(e, name, side);
     if (!e.adjusted.empty()) result["adjusted"] = e.adjusted;
     result["outputs"] = object_of(e.outputs);
     if (!reactions) return result;
@@ -70,7 +73,7 @@ std::string as_text(const Evaluation& e) {
         put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", e.speeds[k].first, width, e.speeds[k].second,
             e.speed_rates[k].second);
     for (const auto& [name, value] : e.multipliers) put(page, "{:<{}}{:>24.16g}\n", name, width, value);
-    for (const auto& [name, side] : e.frictions) say_on(page, "friction {}: {}\n", name, mode_of(side));
+    for (const auto& [name, side] : e.frictions) say_on(page, "friction {}: {}\n", name, mode_of(e, name, side));
     for (const std::string& line : e.adjusted) say_on(page, "adjusted {}\n", line);
     put(page, "\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", e.kinetic, e.potential, e.energy);
     for (const auto& [name, value] : e.outputs) put(page, "{} = {:.16g}\n", name, value);

@@ -81,24 +81,30 @@ std::string text_of(const std::vector<ContactEvent>& events, const std::vector<s
 Json contacts_of(const Run& run) {
     std::vector<Json> list;
     for (Json& event : json_of(run.motion.contacts, run.contacts)) list.push_back(std::move(event));
-    for (const Run::FrictionChange& change : run.friction_changes)
+    for (const Run::FrictionChange& change : run.friction_changes) {
+        const Mechanism::Friction& friction = run.mechanism.frictions[static_cast<std::size_t>(change.friction)];
         list.push_back({{"time", change.time},
-                        {"name", run.mechanism.frictions[static_cast<std::size_t>(change.friction)].name},
+                        {"name", friction.name},
                         {"event", change.side == 0 ? "stick" : "slip"},
                         {"side", change.side}});
+        if (friction.across && change.side != 0) list.back()["direction"] = change.direction;
+    }
     std::stable_sort(list.begin(), list.end(), [](const Json& a, const Json& b) { return a["time"] < b["time"]; });
     return list;
 }
 
 std::string text_of(const std::vector<Run::FrictionChange>& changes, const Mechanism& m) {
     std::string text;
-    for (std::size_t k = 0; k < std::min(changes.size(), most_lines); ++k)
-        text += say("friction {}: {} at t = {:.15g}\n",
-                    m.frictions[static_cast<std::size_t>(changes[k].friction)].name,
+    for (std::size_t k = 0; k < std::min(changes.size(), most_lines); ++k) {
+        const Mechanism::Friction& friction = m.frictions[static_cast<std::size_t>(changes[k].friction)];
+        const auto& [first, second] = changes[k].direction;
+        text += say("friction {}: {} at t = {:.15g}\n", friction.name,
                     changes[k].side == 0  ? say("sticks")
+                    : friction.across     ? say("slips along ({:.6g}, {:.6g})", first, second)
                     : changes[k].side > 0 ? say("slips (+)")
                                           : say("slips (-)"),
                     changes[k].time);
+    }
     if (changes.size() > most_lines) text += say("… and {} more\n", changes.size() - most_lines);
     return text;
 }

@@ -150,7 +150,7 @@ public:
                                        failure_at(result_, first).value_or(say("the mass matrix is singular"))),
                                    start_.t, start_.q);
         const double duration = wishes_.duration >= 0 ? wishes_.duration : start_.duration;
-        if (has_jumps(m) || switched(program)) return measure_jumps(program, first);
+        if (has_jumps(m) || !m.frictions.empty() || switched(program)) return measure_jumps(program, first);
 
         const Compilation c = compilation_of(result_, program, start_, energy.conserved, wishes_);
         result_.formulation = c.source.formulation;

@@ -11,6 +11,7 @@
 #include "contact/contacts.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
+#include "model/friction.hpp"
 #include "program/without_rounding.hpp"
 #include "run/held_state.hpp"
 #include "state/assemble.hpp"
@@ -74,10 +75,15 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     e.adjusted = assemble(start, e.mechanism, lower_constraints(e.mechanism), options.at);
     State<double> state = state_of(start, e.mechanism, e.equations);
     const Mechanism& m = e.mechanism;
+    std::vector<int> closed;
     if (!m.unilateral.empty()) {
         e.closed.emplace();
-        for (const int k : close_contacts(e, state)) e.closed->push_back(m.unilateral[k].gap.name);
+        closed = close_contacts(e, state);
+        for (const int k : closed) e.closed->push_back(m.unilateral[k].gap.name);
     }
+    if (const std::vector<int> planes = frictions_in_planes(m, closed); !planes.empty())
+        static_cast<Derived&>(e) =
+            derived_again(e, with_directions_held(m, planes), closed.empty() ? e.by : "routh");
     Program program = lowered(e).program;
     if (const auto jumps = program.nodes_of(Group::slip).empty() ? std::nullopt : switched(program);
         jumps && jumps->has_frictions()) {

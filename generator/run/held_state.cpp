@@ -19,7 +19,8 @@ constexpr double on_zero = 1e-12;  // a sliding velocity below this, relative to
 /// The program in the form that the runtime needs, evaluated by interpretation; y is q, followed by the rates or
 /// speeds.
 Switching interpreted(const Switched& s, const State<double>& state) {
-    const std::size_t count = s.functions.size(), n = state.q.size(), all = n + state.qdot.size();
+    const std::size_t count = s.functions.size(), held = static_cast<std::size_t>(s.held()), n = state.q.size(),
+                      all = n + state.qdot.size();
     const auto at = [state, n](double t, const double* y, const double* sigma, std::size_t signs) {
         State<double> here = state;
         here.t = t;
@@ -28,9 +29,9 @@ Switching interpreted(const Switched& s, const State<double>& state) {
         here.parameters.insert(here.parameters.end(), sigma, sigma + signs);
         return here;
     };
-    const auto events = [&s, at, count, n](std::size_t before_end) {
+    const auto events = [&s, at, count, held, n](std::size_t before_end) {
         return [=, &s](double t, const double* y, const double* sigma, const double* rate, double* out) {
-            State<double> here = at(t, y, sigma, count);
+            State<double> here = at(t, y, sigma, held);
             here.qddot.assign(rate + n, rate + n + here.qdot.size());
             const std::vector<double> value = interpret(s.program, here);
             const std::vector<int> nodes = s.program.nodes_of(Group::event);
@@ -40,8 +41,9 @@ Switching interpreted(const Switched& s, const State<double>& state) {
     };
     Switching system;
     system.names.resize(count);
-    system.rates = [&s, at, count, n, all](double t, const double* y, const double* sigma, double* rate) {
-        const std::vector<double> value = interpret(s.program, at(t, y, sigma, count));
+    system.pairs = s.pairs;
+    system.rates = [&s, at, held, n, all](double t, const double* y, const double* sigma, double* rate) {
+        const std::vector<double> value = interpret(s.program, at(t, y, sigma, held));
         const std::vector<int> first = s.program.nodes_of(Group::rate),
                                second = s.program.nodes_of(Group::acceleration);
         for (std::size_t i = 0; i < n; ++i)
@@ -57,21 +59,14 @@ Switching interpreted(const Switched& s, const State<double>& state) {
 }  // namespace
 
 HeldState held_state(const Switched& s, State<double> state) {
-    const std::size_t count = s.functions.size();
     const Switching system = interpreted(s, state);
-    std::vector<double> y = state.q, sigma(count, 1.0), g(2 * count);
+    std::vector<double> y = state.q;
     y.insert(y.end(), state.qdot.begin(), state.qdot.end());
-    const std::vector<double> none(y.size());
     double fastest = 0;
     for (const double rate : state.qdot) fastest = std::max(fastest, std::abs(rate));
-    std::vector<int> sides(count);
-    for (std::size_t k = 0; k < count; ++k) {  // a function may contain the signs of those before it
-        system.values(state.t, y.data(), sigma.data(), none.data(), g.data());
-        sides[k] = std::abs(g[k]) <= on_zero * fastest ? 0 : g[k] > 0 ? 1 : -1;
-        sigma[k] = sides[k];
-    }
-    const std::vector<int> found = sides;
-    sigma = consistent_signs(system, sides, state.t, y.data(), static_cast<int>(y.size()));
+    SideSet found;
+    const std::vector<double> sigma = consistent_signs(
+        system, [&](int) { return on_zero * fastest; }, state.t, y.data(), static_cast<int>(y.size()), &found);
     HeldState held{.program = s.program, .state = std::move(state), .frictions = {}};
     held.state.parameters.insert(held.state.parameters.end(), sigma.begin(), sigma.end());
     std::vector<const Root*> names;
@@ -85,13 +80,26 @@ HeldState held_state(const Switched& s, State<double> state) {
                     "determinant of the equation for its normal force is {:.6g}, and not positive",
                     held.state.t, root.name, value[static_cast<std::size_t>(root.node)]),
                 held.state.t, held.state.q);
-    for (std::size_t k = 0; k < count; ++k)
-        for (const Switched::Rubbing& one : s.frictions[k]) {
-            const bool sticks = found[k] == 0 && std::abs(sigma[k]) != 1;
-            held.frictions.emplace_back(names[static_cast<std::size_t>(one.friction)]->name,
-                                        sticks ? 0 : one.direction * (sigma[k] > 0 ? 1 : -1));
+    const auto name = [&](std::size_t k, std::size_t i) {
+        return names[static_cast<std::size_t>(s.frictions[k][i].friction)]->name;
+    };
+    for (int c = 0; c < s.pairs; ++c)
+        held.frictions.emplace_back(name(static_cast<std::size_t>(2 * c), 0),
+                                    sigma[static_cast<std::size_t>(2 * c)] == 0 ? 0 : 1);
+    for (std::size_t k = 2 * static_cast<std::size_t>(s.pairs); k < found.size(); ++k)
+        for (std::size_t i = 0; i < s.frictions[k].size(); ++i) {
+            const double sign = sigma[system.place(static_cast<int>(k))];
+            const bool sticks = found[k] == 0 && std::abs(sign) != 1;
+            held.frictions.emplace_back(name(k, i),
+                                        sticks ? 0 : s.frictions[k][i].direction * (sign > 0 ? 1 : -1));
         }
     return held;
+}
+
+std::vector<double> with_held_parameters(std::vector<double> of_scene, const Program& program) {
+    for (std::size_t k = of_scene.size(); k < program.parameters.size(); ++k)
+        of_scene.push_back(program.parameters[k].value);
+    return of_scene;
 }
 
 }  // namespace alembert

@@ -21,4 +21,8 @@ struct HeldState {
 /// Throws IntegrationError if no mode is consistent, or more than one is.
 HeldState held_state(const Switched& s, State<double> state);
 
+/// The scene's parameters, followed by those that `program` has for friction in planes (model/friction.hpp) at
+/// their values there.
+std::vector<double> with_held_parameters(std::vector<double> of_scene, const Program& program);
+
 }  // namespace alembert

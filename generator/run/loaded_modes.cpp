@@ -9,8 +9,10 @@
 #include "contact/contacts.hpp"
 #include "emit/taylor.hpp"
 #include "language/say.hpp"
+#include "model/friction.hpp"
 #include "program/differentiate.hpp"
 #include "run/canonical.hpp"
+#include "run/held_state.hpp"
 #include "run/sides.hpp"
 #include "run/sundials_methods.hpp"
 #include "state/diagnose.hpp"
@@ -164,7 +166,7 @@ void LoadedMode::hold_sides(double t, const double* state) {
 void LoadedMode::measure_sides(const Trajectory& motion) {
     if (!contact.switching) return;
     const std::size_t count = side_sizes.size();
-    const std::vector<double> sigma(count, 1.0);
+    const std::vector<double> sigma = contact.switching->sigma(contact.switching->start());
     std::vector<double> rate(static_cast<std::size_t>(contact.rhs.dimension)), g(2 * count);
     for (std::size_t row = 0; row < motion.rows(); ++row) {
         contact.switching->values(motion.times[row], motion.state(row).data(), sigma.data(), rate.data(),
@@ -177,7 +179,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, const Switched& jumps, std::size_
                              const SeriesModule& series) {
     LoadedMode* const self = &mode;
     Switching system = switching_of(
-        mode.module, start_.parameters, names_of_sides(mode.program, jumps), jumps.has_frictions(), work_,
+        mode.module, start_.parameters, jumps, names_of_sides(mode.program, jumps), work_,
         [this, self, series](const std::vector<double>& values) {
             Rhs rhs = make_rhs(self->module, values, work_);
             rhs.extra = self->contact.rhs.extra;
@@ -221,16 +223,21 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
         return clock - before;
     };
     const bool has_contacts = !derived_.mechanism.unilateral.empty();
+    const std::vector<int> planes = frictions_in_planes(derived_.mechanism, closed);
+    const bool is_own = !has_contacts && planes.empty();
     Derived derived =
-        has_contacts
-            ? derived_again(derived_, with_contacts_watched(with_closed(derived_.mechanism, closed), closed),
-                            closed.empty() ? derived_.by : "routh")
-            : derived_;
+        is_own ? derived_
+               : derived_again(derived_,
+                               with_directions_held(
+                                   with_contacts_watched(with_closed(derived_.mechanism, closed), closed), planes),
+                               closed.empty() ? derived_.by : "routh");
     seconds_.derive += lap();
-    Program program = free_ && !has_contacts ? *std::move(free_) : lowered(derived).program;
-    if (program.singular || (loaded_.size() == 1 && massless_combination(program, first_)))
+    Program program = free_ && is_own ? *std::move(free_) : lowered(derived).program;
+    State<double> first = first_;
+    first.parameters = with_held_parameters(first.parameters, program);
+    if (program.singular || (loaded_.size() == 1 && massless_combination(program, first)))
         throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", start_.t,
-                                   failure_at(derived, first_).value_or(say("the mass matrix is singular"))),
+                                   failure_at(derived, first).value_or(say("the mass matrix is singular"))),
                                start_.t, start_.q);
     std::optional<Switched> jumps;
     if (method_.sundials.empty() && !needs_canonical(method_.method)) jumps = switched(program);
@@ -257,8 +264,8 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
 
     const std::size_t sides = jumps ? jumps->functions.size() : 0;
     const std::size_t watched = jumps && jumps->has_frictions() ? 4 * sides : 2 * sides;
-    std::vector<double> values = start_.parameters;
-    values.resize(values.size() + sides, 1.0);
+    std::vector<double> values = with_held_parameters(start_.parameters, program);
+    if (jumps) values.resize(start_.parameters.size() + static_cast<std::size_t>(jumps->held()), 1.0);
     std::vector<bool> stops;
     std::vector<int> directions;
     for (const Mechanism::EventAction& event : derived.mechanism.event_actions) {

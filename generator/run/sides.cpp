@@ -104,12 +104,14 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
     return names;
 }
 
-Switching switching_of(const Module& module, const std::vector<double>& values, std::vector<std::string> names,
-                       bool has_bounds, Work work, std::function<Rhs(const std::vector<double>& values)> smooth) {
-    const std::size_t count = names.size(), more = has_bounds ? 2 * count : 0;
-    const auto held = std::make_shared<HeldParameters>(module, values, static_cast<int>(count));
+Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
+                       std::vector<std::string> names, Work work,
+                       std::function<Rhs(const std::vector<double>& values)> smooth) {
+    const std::size_t count = names.size(), more = jumps.has_frictions() ? 2 * count : 0;
+    const auto held = std::make_shared<HeldParameters>(module, values, jumps.held());
     Switching system;
     system.names = std::move(names);
+    system.pairs = jumps.pairs;
     system.rates = [module, held, work](double t, const double* y, const double* sigma, double* rate) {
         const alembert_solver_table& table = module.table();
         const double* const par = held->with(sigma);
@@ -127,7 +129,7 @@ Switching switching_of(const Module& module, const std::vector<double>& values, 
         };
     };
     system.values = events_from(2 * count + more);
-    if (has_bounds) system.bounds = events_from(more);
+    if (more > 0) system.bounds = events_from(more);
     system.smooth = [held, smooth = std::move(smooth)](const std::vector<double>& sigma) {
         return smooth(held->values(sigma));
     };
@@ -148,15 +150,8 @@ Events first_events(Events all, std::size_t count) {
 std::vector<double> sides_at(const Switching& system, double t, const double* y, int dimension,
                              const std::vector<double>& sizes) {
     constexpr double on_it = 1e-9;
-    const std::size_t count = system.names.size();
-    std::vector<double> sigma(count, 1.0), rate(static_cast<std::size_t>(dimension)), g(2 * count);
-    std::vector<int> sides(count);
-    for (std::size_t k = 0; k < count; ++k) {  // a function may contain the signs of those before it
-        system.values(t, y, sigma.data(), rate.data(), g.data());
-        sides[k] = std::abs(g[k]) <= on_it * sizes[k] ? 0 : g[k] > 0 ? 1 : -1;
-        sigma[k] = sides[k];
-    }
-    return consistent_signs(system, sides, t, y, dimension);
+    return consistent_signs(
+        system, [&](int k) { return on_it * sizes[static_cast<std::size_t>(k)]; }, t, y, dimension);
 }
 
 }  // namespace alembert

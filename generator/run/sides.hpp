@@ -16,10 +16,10 @@
 
 namespace alembert {
 
-/// The array `par` of a solver whose last scene parameters are the signs.
+/// The array `par` of a solver whose last scene parameters are held: signs, and what friction in planes needs.
 class HeldParameters {
 public:
-    /// `values` are without the `count` signs.
+    /// `values` are without the `count` parameters that are held.
     HeldParameters(const Module& module, std::vector<double> values, int count);
     /// The array with these signs; cheap if they have not changed.
     const double* with(const double* sigma);
@@ -34,10 +34,11 @@ private:
 /// `program` is the one from which `s` was made.
 std::vector<std::string> names_of_sides(const Program& program, const Switched& s);
 
-/// `smooth` is as in Switching; the caller adds the callbacks for steps and changes. With `has_bounds`, the last
-/// events are those of dry friction.
-Switching switching_of(const Module& module, const std::vector<double>& values, std::vector<std::string> names,
-                       bool has_bounds, Work work, std::function<Rhs(const std::vector<double>& values)> smooth);
+/// `smooth` is as in Switching; the caller adds the callbacks for steps and changes. `values` are the scene's
+/// parameters, without those that are held.
+Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
+                       std::vector<std::string> names, Work work,
+                       std::function<Rhs(const std::vector<double>& values)> smooth);
 
 /// The scene's events, the first `count` of the module's.
 Events first_events(Events all, std::size_t count);

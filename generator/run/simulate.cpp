@@ -12,6 +12,7 @@
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
+#include "run/held_state.hpp"
 #include "run/method.hpp"
 #include "run/trust.hpp"
 #include "state/assemble.hpp"
@@ -81,7 +82,8 @@ public:
             if (watch.is_over) return;
             if (frictions.empty()) run_.side_changes.push_back({change.time, name, change.kind});
             for (const Switched::Rubbing& one : frictions)
-                note(run_.friction_changes, {change.time, one.friction, one.direction * change.side});
+                note(run_.friction_changes,
+                     {change.time, one.friction, one.direction * change.side, change.direction});
         };
         const LoadedMode& free = modes({});
         if (wishes_.reactions && !run_.mechanism.joints.empty())
@@ -89,8 +91,8 @@ public:
         std::vector<std::string> columns = row_columns(run_.mechanism, free.program, reactions());
         columns.erase(columns.begin());  // t is the other axis of a picture
         check_columns(columns, wishes_.columns);
-        options_.quick_times =
-            quick_times(free.program, start_.parameters, options_.start, options_.start + options_.duration);
+        options_.quick_times = quick_times(free.program, with_held_parameters(start_.parameters, free.program),
+                                           options_.start, options_.start + options_.duration);
         contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
             if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
         };
@@ -235,7 +237,10 @@ private:
         if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks ||
             failure.kind == FailureKind::no_side)
             return translated_from_library(failure.message);
-        const auto there = failure_at(modes(run_.motion.phases.back().closed).derived, state_at(first_, failure));
+        const LoadedMode& last = modes(run_.motion.phases.back().closed);
+        State<double> state = state_at(first_, failure);
+        state.parameters = with_held_parameters(std::move(state.parameters), last.program);
+        const auto there = failure_at(last.derived, state);
         return translated_from_library(failure.message) + (there ? say("\n  there: {}", *there) : "");
     }
 

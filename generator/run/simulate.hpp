@@ -62,7 +62,8 @@ struct Run : Derived {
     struct FrictionChange {
         double time;
         int friction;  ///< position in Mechanism::frictions
-        int side;      ///< the sign of the slip, 0 if it sticks
+        int side;      ///< the sign of the slip, 0 if it sticks; 1 if it begins to slide in a plane
+        std::array<double, 2> direction = {0, 0};  ///< in this case, a unit vector
     };
     std::vector<FrictionChange> friction_changes = {};
     EnergyAccount energy = {};

@@ -293,6 +293,8 @@ private:
                                                  std::pair{&rule.normal, say("a normal force")}})
                 quantities_.check(*value, {.subject = subject, .order = 1, .input_order = 2, .time = true});
             quantities_.check(rule.slip, rates);
+            quantities_.check(rule.across, rates);
+            quantities_.check(rule.restitution, {.subject = say("a restitution")});
             if (rule.name.place.line == 0 || !check_name(rule.name)) continue;
             const auto [first, is_new] = known.emplace(rule.name.text, rule.name.place);
             if (!is_new)

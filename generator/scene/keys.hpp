@@ -64,7 +64,7 @@ inline constexpr TableKeys table_keys[] = {
     {"constraint", TableKeys::Shape::list, {"name", "holonomic", "nonholonomic", "multiplier"}},
     {"rolling", TableKeys::Shape::list, {"name", "body", "contact", "axes", "on"}},
     {"unilateral", TableKeys::Shape::list, {"name", "gap", "restitution"}},
-    {"friction", TableKeys::Shape::list, {"name", "coefficient", "static", "slip", "on", "normal"}},
+    {"friction", TableKeys::Shape::list, {"name", "coefficient", "static", "slip", "on", "normal", "restitution"}},
     {"impulse", TableKeys::Shape::list, {"at", "vector", "axes"}},
     {"impulses", TableKeys::Shape::one},
     {"energy", TableKeys::Shape::one, {"kinetic", "potential", "lagrangian"}},

@@ -129,6 +129,26 @@ void read_unilateral(Table table, Scene& scene) {
     scene.unilateral.push_back(std::move(rule));
 }
 
+namespace {
+
+/// One expression, or two in an array: components along perpendicular directions.
+void read_slip(const Table& table, FrictionRule& rule) {
+    const Entry* const entry = table.find("slip");
+    const toml::array* const list = entry ? entry->node->as_array() : nullptr;
+    if (!list) {
+        rule.slip = table.needed_expression("slip");
+        return;
+    }
+    if (list->size() != 2)
+        return table.complain("slip", say("{} has {} components; expected one expression, or two in an array for "
+                                          "a sliding velocity in a plane",
+                                          table.what("slip"), list->size()));
+    rule.slip = read_expression(table.reading(), *list->get(0), table.what("slip"));
+    rule.across = read_expression(table.reading(), *list->get(1), table.what("slip"));
+}
+
+}  // namespace
+
 void read_friction(Table table, Scene& scene) {
     table.allow("friction");
     FrictionRule rule;
@@ -136,7 +156,7 @@ void read_friction(Table table, Scene& scene) {
     table.entitle(rule.name);
     rule.coefficient = table.needed_expression("coefficient");
     rule.resting = table.expression("static");
-    rule.slip = table.needed_expression("slip");
+    read_slip(table, rule);
     if (table.has("on") == table.has("normal"))
         return table.reading().complain(
             table.place(), say("{} needs one of 'on' (the constraint or contact whose reaction is the "
@@ -144,6 +164,12 @@ void read_friction(Table table, Scene& scene) {
                                table.title()));
     rule.on = table.name("on");
     rule.normal = table.expression("normal");
+    rule.restitution = table.expression("restitution");
+    if (rule.restitution && !rule.on)
+        table.complain("restitution",
+                       say("{} gives a 'restitution' without 'on'; only a [[unilateral]] contact has "
+                           "impacts",
+                           table.title()));
     scene.frictions.push_back(std::move(rule));
 }
 

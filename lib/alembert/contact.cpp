@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "alembert/impact.hpp"
+#include "alembert/rough_choice.hpp"
 
 namespace alembert {
 
@@ -65,6 +66,47 @@ void concentrate(const Situation& here, std::vector<int>& carrying, std::vector<
     }
 }
 
+/// The friction of a contact as one row along which it slides, or sticks; nothing if it is not clear.
+bool add_friction(RoughRows& row, const Situation::Rough& rough) {
+    const double speed = rough.velocity.norm();
+    const bool slides = speed > rough.still;
+    if (rough.slip.rows() > 1 && !slides) return false;
+    const VectorXd along = rough.slip.rows() == 1 ? VectorXd::Ones(1) : VectorXd(rough.velocity / speed);
+    row.slip = along.transpose() * rough.slip;
+    row.slip_offset = -along.dot(rough.acceleration);
+    row.coefficient = rough.coefficient;
+    row.resting = rough.resting;
+    row.side = !slides ? 0 : rough.slip.rows() > 1 || rough.velocity[0] > 0 ? 1 : -1;
+    return true;
+}
+
+/// The contacts that last with their friction; `closed` is empty where that is not known.
+Lasting lasting_with_friction(const Situation& here, const std::vector<int>& candidates) {
+    Lasting lasting;
+    if (candidates.size() < 2 || candidates.size() > most_rough_contacts) return lasting;
+    std::vector<RoughRows> rows;
+    bool any = false;
+    for (const int k : candidates) {
+        rows.push_back({.normal = here.contacts.rows.row(k),
+                        .offset = -here.contacts.acceleration[k],
+                        .slip = {},
+                        .slip_offset = 0});
+        int frictions = 0;
+        for (const Situation::Rough& rough : here.rough)
+            if (rough.contact == k && (++frictions > 1 || !add_friction(rows.back(), rough))) return lasting;
+        any = any || frictions > 0;
+    }
+    if (!any) return lasting;
+    const RoughChoice found =
+        choose_rough(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration, rows);
+    if (!found.exists) return lasting;
+    lasting.acceleration = found.after;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        if (found.closed[i]) lasting.closed.push_back(candidates[i]);
+    lasting.resting = lasting.closed;
+    return lasting;
+}
+
 }  // namespace
 
 Situation::Rows selected(const Situation::Rows& rows, const std::vector<int>& which) {
@@ -114,6 +156,7 @@ bool is_carried(const Situation& here, const std::vector<int>& closed, int k) {
 }
 
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates) {
+    if (Lasting found = lasting_with_friction(here, candidates); !found.closed.empty()) return found;
     const Situation::Rows contacts = selected(here.contacts, candidates);
     const ImpactResult result = press(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration,
                                       contacts.rows, -contacts.acceleration);

@@ -33,11 +33,15 @@ struct Situation {
     Eigen::MatrixXd M;
     Eigen::VectorXd f;
     Rows bilateral, contacts;
-    /// Dry friction at a contact whose sliding velocity is v = slip·q' + drift.
+    /// Dry friction at a contact whose sliding velocity is v = slip q' + drift, of one component, or of two in a
+    /// plane.
     struct Rough {
         int contact;
-        Eigen::RowVectorXd slip;
-        double drift, coefficient, resting;
+        Eigen::MatrixXd slip;
+        Eigen::VectorXd drift, velocity;
+        Eigen::VectorXd acceleration;  ///< v' = slip q'' − acceleration
+        double coefficient, resting, restitution;
+        double still = 0;  ///< the |v| that rounding may leave of none
     };
     std::vector<Rough> rough = {};
 };
@@ -54,7 +58,8 @@ struct Lasting {
 
 /// `candidates` are the closed contacts with gap' = 0, ascending. How redundant contacts (the four legs of a
 /// table) share the load is not determined; here as few as possible carry it, and none of them pulls
-/// (Carathéodory).
+/// (Carathéodory). Where several contacts are candidates and one has friction, friction takes part
+/// (rough_choice.hpp), unless no mode is consistent with it.
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates);
 
 /// Do the bilateral rows and the contacts in `closed` determine the acceleration of contact k completely?

@@ -15,27 +15,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_pieces = 6;     // sliding, sticking or sliding back, in compression and in restitution
+constexpr int most_halvings = 60;  // until a share is known in double precision
 constexpr double no_slip = 1e-13;  // a sliding velocity below this, relative to its terms, is zero
-
-/// M⁻¹ rowᵀ with the bilateral rows at rest.
-VectorXd response(const MatrixXd& mass, const MatrixXd& rows, const VectorXd& row) {
-    const Index n = mass.rows(), m = rows.rows();
-    MatrixXd K = MatrixXd::Zero(n + m, n + m);
-    K.topLeftCorner(n, n) = mass;
-    K.topRightCorner(n, m) = rows.transpose();
-    K.bottomLeftCorner(m, n) = rows;
-    VectorXd right = VectorXd::Zero(n + m);
-    right.head(n) = row;
-    return least_norm(K, right).x.col(0).head(n);
-}
 
 class Striking {
 public:
     Striking(const MatrixXd& mass, const VectorXd& before, const MatrixXd& rows, const RoughContact& contact)
         : contact_(contact),
           u_(before),
-          by_normal_(response(mass, rows, contact.normal.transpose())),
-          by_slip_(response(mass, rows, contact.slip.transpose())) {
+          by_normal_(response_to(mass, rows, contact.normal.transpose())),
+          by_slip_(response_to(mass, rows, contact.slip.transpose())) {
         settle_slip();
     }
 
@@ -49,6 +38,7 @@ public:
         const double all = (1 + restitution) * hit.impulse;
         run_to([&](double) { return all - hit.impulse; }, hit);
         hit.after = u_;
+        hit.slides = !sticks_;
         return hit;
     }
 
@@ -102,11 +92,88 @@ private:
     bool sticks_ = false;
 };
 
+/// The impulses that take the sliding velocity of an impact without sliding at its end to −e_t times the one
+/// before.
+class Gripping {
+public:
+    Gripping(const MatrixXd& mass, const VectorXd& before, const MatrixXd& bilateral, const RoughContact& contact,
+             const RoughImpact& hit)
+        : contact_(contact), hit_(hit) {
+        const Index components = contact.across.size() > 0 ? 2 : 1;
+        rows_.resize(1 + components, before.size());
+        drift_.resize(1 + components);
+        rows_.row(0) = contact.normal;
+        rows_.row(1) = contact.slip;
+        drift_[0] = contact.normal_drift;
+        drift_[1] = contact.slip_drift;
+        if (components == 2) {
+            rows_.row(2) = contact.across;
+            drift_[2] = contact.across_drift;
+        }
+        responses_.resize(before.size(), rows_.rows());
+        for (Index i = 0; i < rows_.rows(); ++i)
+            responses_.col(i) = response_to(mass, bilateral, rows_.row(i).transpose());
+        VectorXd wanted = -(rows_ * hit.after + drift_) - contact.grip * (rows_ * before + drift_);
+        wanted[0] = 0;
+        impulses_ = least_norm(rows_ * responses_, wanted).x.col(0);
+    }
+
+    RoughImpact go() const {
+        double possible = 0, beyond = 1;
+        if (is_possible(1)) possible = 1;
+        for (int n = 0; n < most_halvings && possible < 1; ++n) {
+            const double middle = (possible + beyond) / 2;
+            (is_possible(middle) ? possible : beyond) = middle;
+        }
+        return with(possible);
+    }
+
+private:
+    RoughImpact with(double share) const {
+        RoughImpact hit = hit_;
+        const VectorXd x = share * impulses_;
+        hit.after += responses_ * x;
+        const VectorXd mean = rows_ * (hit_.after + hit.after) / 2 + drift_;
+        hit.impulse += x[0];
+        hit.tangential += x[1];
+        if (x.size() == 3) hit.across += x[2];
+        hit.work += x.dot(mean - drift_);
+        hit.loss -= x.dot(mean);
+        return hit;
+    }
+
+    bool is_possible(double share) const {
+        const RoughImpact hit = with(share);
+        return hit.impulse >= 0 && hit.loss >= -1e-12 * std::abs(hit_.loss) &&
+               std::hypot(hit.tangential, hit.across) <= contact_.resting * hit.impulse;
+    }
+
+    const RoughContact& contact_;
+    const RoughImpact& hit_;
+    MatrixXd rows_, responses_;
+    VectorXd drift_, impulses_;
+};
+
 }  // namespace
+
+VectorXd response_to(const MatrixXd& mass, const MatrixXd& rows, const VectorXd& row) {
+    const Index n = mass.rows(), m = rows.rows();
+    MatrixXd K = MatrixXd::Zero(n + m, n + m);
+    K.topLeftCorner(n, n) = mass;
+    K.topRightCorner(n, m) = rows.transpose();
+    K.bottomLeftCorner(m, n) = rows;
+    VectorXd right = VectorXd::Zero(n + m);
+    right.head(n) = row;
+    return least_norm(K, right).x.col(0).head(n);
+}
 
 RoughImpact strike_rough(const MatrixXd& mass, const VectorXd& before, const MatrixXd& bilateral_rows,
                          const RoughContact& contact, double restitution) {
-    return Striking(mass, before, bilateral_rows, contact).go(restitution);
+    const RoughImpact hit = contact.across.size() > 0
+                                ? strike_in_plane(mass, before, bilateral_rows, contact, restitution)
+                                : Striking(mass, before, bilateral_rows, contact).go(restitution);
+    if (!hit || hit.slides || contact.grip == 0) return hit;
+    return Gripping(mass, before, bilateral_rows, contact, hit).go();
 }
 
 }  // namespace alembert

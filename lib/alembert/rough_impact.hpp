@@ -15,6 +15,15 @@
 /// ≤ μₛ keeps v = 0; otherwise it slides the other way. All rates are linear in π between these points. The
 /// compression ends where gap' = 0, at π_c; the whole impulse is (1 + e) π_c (Poisson), with which no energy is
 /// gained.
+///
+/// In a plane v has two components and τ = −μ v/|v|; the direction of v turns during the impact, unless the mass
+/// is the same for all directions, and its motion is integrated (Keller, Impact with Friction, J. Appl. Mech. 53
+/// (1986) 1).
+///
+/// With a restitution e_t of the sliding velocity, an impact that ends without sliding goes on: further impulses,
+/// which leave gap' as it is, take v to −e_t times its value before, as far as |τ| ≤ μₛ π and the energy allow.
+/// With e = e_t = 1 this is the superball (Garwin, Kinematics of an Ultraelastic Rough Ball, Am. J. Phys. 37
+/// (1969) 88).
 
 #include <Eigen/Dense>
 #include <string>
@@ -25,6 +34,9 @@ struct RoughContact {
     Eigen::RowVectorXd normal, slip;  ///< g and w: gap' = g u + normal_drift, v = w u + slip_drift
     double normal_drift = 0, slip_drift = 0;
     double coefficient = 0, resting = 0;  ///< μ and μₛ
+    Eigen::RowVectorXd across = {};       ///< the row of the second component of v in a plane; empty otherwise
+    double across_drift = 0;
+    double grip = 0;  ///< e_t
 };
 
 struct RoughImpact {
@@ -33,6 +45,8 @@ struct RoughImpact {
     Eigen::VectorXd after;
     double impulse = 0;     ///< π at the end
     double tangential = 0;  ///< ∫ τ dπ
+    double across = 0;      ///< its second component in a plane
+    bool slides = false;    ///< whether the contact slides at the end
     double work = 0;        ///< the work of both impulses along the rates, without the drifts
     double loss = 0;        ///< T before − T after, seen from the moving floor; never negative
     explicit operator bool() const { return failure.empty(); }
@@ -41,5 +55,14 @@ struct RoughImpact {
 /// M: n×n, definite on the rates that the bilateral rows leave free.
 RoughImpact strike_rough(const Eigen::MatrixXd& mass, const Eigen::VectorXd& before,
                          const Eigen::MatrixXd& bilateral_rows, const RoughContact& contact, double restitution);
+
+/// M⁻¹ rowᵀ with the bilateral rows at rest.
+Eigen::VectorXd response_to(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& bilateral_rows,
+                            const Eigen::VectorXd& row);
+
+/// The same impact in a plane, without restitution of the sliding velocity.
+RoughImpact strike_in_plane(const Eigen::MatrixXd& mass, const Eigen::VectorXd& before,
+                            const Eigen::MatrixXd& bilateral_rows, const RoughContact& contact,
+                            double restitution);
 
 }  // namespace alembert

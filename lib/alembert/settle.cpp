@@ -9,7 +9,7 @@
 
 #include "alembert/dense.hpp"
 #include "alembert/impact.hpp"
-#include "alembert/rough_impact.hpp"
+#include "alembert/rough_strike.hpp"
 
 namespace alembert {
 
@@ -99,7 +99,7 @@ private:
         if (!is_kicked && std::none_of(near_.begin(), near_.end(), [&](int k) { return approaches(k); }))
             return true;
         for (const Situation::Rough& rough : here_.rough)
-            if (contains(near_, rough.contact)) return strike_with(rough, is_kicked);
+            if (contains(near_, rough.contact)) return strike_with_friction(is_kicked);
         const VectorXd kick = is_kicked ? at_.impulse : VectorXd::Zero(n_);
         const Situation::Rows rows = selected(here_.contacts, near_);
         VectorXd restitution(rows.drift.size());
@@ -129,34 +129,17 @@ private:
         return true;
     }
 
-    bool strike_with(const Situation::Rough& rough, bool is_kicked) {
-        const auto others = std::count_if(here_.rough.begin(), here_.rough.end(),
-                                          [&](const auto& r) { return r.contact == rough.contact; });
-        if (near_.size() > 1 || others > 1 || is_kicked)
-            return fail(near_,
-                        "an impact with friction can be computed only for a single contact with one friction, and "
-                        "without impulses of events");
-        const int k = rough.contact;
-        const double before = gap_rates(here_, u())[k];
-        const RoughImpact hit = strike_rough(here_.M, u(), here_.bilateral.rows,
-                                             {.normal = here_.contacts.rows.row(k),
-                                              .slip = rough.slip,
-                                              .normal_drift = here_.contacts.drift[k],
-                                              .slip_drift = rough.drift,
-                                              .coefficient = rough.coefficient,
-                                              .resting = rough.resting},
-                                             contacts_.restitution[k]);
+    bool strike_with_friction(bool is_kicked) {
+        const RoughStrike hit =
+            strike_rough_contacts(here_, u(), near_, contacts_.restitution, is_kicked ? at_.impulse : VectorXd());
         if (!hit) return fail(near_, hit.failure);
         result_.struck = hit.after;
-        bounced_.push_back(k);
+        for (ContactEvent event : hit.events) {
+            event.time = at_.t;
+            bounced_.push_back(event.contact);
+            result_.events.push_back(event);
+        }
         jump_to(hit.after, hit.work);
-        result_.events.push_back({.kind = ContactEvent::Kind::impact,
-                                  .contact = k,
-                                  .time = at_.t,
-                                  .speed_before = before,
-                                  .speed_after = gap_rates(here_, u())[k],
-                                  .energy_loss = hit.loss,
-                                  .impulse = hit.impulse});
         return true;
     }
 

@@ -10,20 +10,44 @@ namespace alembert {
 
 namespace {
 
+constexpr int directions = 48;     // tried all around, to find those in which a pair may begin to slide
+constexpr int most_halvings = 60;  // until neighbouring directions are equal in double precision
+constexpr int most_sweeps = 30;    // over several pairs that begin to slide together
+
+/// Changes the sides of a function or of a pair.
+void set_side(SideSet& sides, int k, int side) {
+    sides[static_cast<std::size_t>(k)] = side;
+    if (sides.is_pair(k)) sides[static_cast<std::size_t>(k) + 1] = side;
+}
+
 class SideJudge {
 public:
     SideJudge(const Switching& system, double t, const std::vector<double>& state)
         : system_(system), t_(t), state_(state) {}
 
+    /// Chooses the directions of pairs that begin to slide; several depend on each other.
+    void direct(SideSet& sides, const std::vector<int>& open) const {
+        std::vector<int> pairs;
+        for (const int k : open)
+            if (sides.is_pair(k) && sides[static_cast<std::size_t>(k)] != 0) pairs.push_back(k);
+        for (int sweep = 0; sweep < (pairs.size() > 1 ? most_sweeps : 1); ++sweep)
+            for (const int k : pairs) begin_to_slide(system_, sides, k, t_, state_);
+    }
+
     /// How consistent a choice is. In a consistent one every g moves to its chosen side and every α lies between
     /// −1 and 1.
-    SideChoice judged(const std::vector<int>& sides, const std::vector<int>& open) const {
+    SideChoice judged(const SideSet& sides, const std::vector<int>& open) const {
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
         at.find_bounds(t_, state_.data());
         SideChoice choice{.sides = sides, .margin = HUGE_VAL, .jumps = false};
         for (const int k : open) {
-            std::vector<int> one = sides, other = sides;
+            if (sides.is_pair(k)) {
+                const double margin = margin_of_pair(at, k);
+                choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
+                continue;
+            }
+            SideSet one = sides, other = sides;
             one[k] = 1;
             other[k] = -1;
             const double up = slope_of(one, k), down = slope_of(other, k);
@@ -36,7 +60,7 @@ public:
             else if (!jump || up > down)
                 margin = -HUGE_VAL;  // there is nothing to slide along, or the motion is repelled from it
             else
-                margin = 1 - std::abs(at.sigma()[k]) / at.bound(k);
+                margin = 1 - at.share(k) / at.bound(k);
             if (sides[k] != 0 && jump && up < down && can_stick(sides, k)) margin = -HUGE_VAL;
             choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
         }
@@ -44,17 +68,31 @@ public:
     }
 
 private:
+    double margin_of_pair(const SwitchSides& at, int k) const {
+        if (at.sides()[static_cast<std::size_t>(k)] == 0)
+            return at.resists(k) ? 1 - at.share(k) / at.bound(k) : -HUGE_VAL;
+        if (can_stick(at.sides(), k)) return -HUGE_VAL;
+        SideSet back = at.sides();
+        SideSet::Slide& slide = back.slides[static_cast<std::size_t>(k / 2)];
+        const Eigen::Vector2d e(slide.along, slide.across);
+        slide = {-e[0], -e[1], slide.grain};
+        SwitchSides other(system_, back, static_cast<int>(state_.size()));
+        other.evaluate(t_, state_.data());
+        const double size = at.acceleration(k).norm() + other.acceleration(k).norm();
+        return size > 0 ? at.acceleration(k).dot(e) / size : -HUGE_VAL;
+    }
+
     /// Friction with a static coefficient above the kinetic one begins to slide only where that is overcome.
-    bool can_stick(std::vector<int> sides, int k) const {
+    bool can_stick(SideSet sides, int k) const {
         if (!system_.bounds) return false;
-        sides[k] = 0;
+        set_side(sides, k, 0);
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
         at.find_bounds(t_, state_.data());
-        return at.bound(k) > 1 && std::abs(at.sigma()[k]) <= at.bound(k);
+        return at.bound(k) > 1 && at.share(k) <= at.bound(k);
     }
 
-    double slope_of(const std::vector<int>& sides, int k) const {
+    double slope_of(const SideSet& sides, int k) const {
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
         return at.slope(k);
@@ -67,18 +105,77 @@ private:
 
 }  // namespace
 
-std::vector<SideChoice> side_choices(const Switching& system, std::vector<int> sides, const std::vector<int>& open,
+std::vector<double> Switching::sigma(const SideSet& sides) const {
+    std::vector<double> all;
+    for (std::size_t c = 0; c < sides.slides.size(); ++c) {
+        const bool slides = sides[2 * c] != 0;
+        all.push_back(slides ? 1 : 0);
+        all.push_back(slides ? sides.slides[c].grain : 1);
+    }
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+        const bool of_pair = sides.is_pair(static_cast<int>(k)) && sides[k] != 0;
+        const SideSet::Slide* const slide = of_pair ? &sides.slides[k / 2] : nullptr;
+        all.push_back(slide ? (k % 2 == 0 ? slide->along : slide->across) : sides[k]);
+    }
+    return all;
+}
+
+SideSet Switching::start() const {
+    return {.of = std::vector<int>(static_cast<std::size_t>(count()), 1),
+            .slides = std::vector<SideSet::Slide>(static_cast<std::size_t>(pairs))};
+}
+
+double begin_to_slide(const Switching& system, SideSet& sides, int pair, double t,
+                      const std::vector<double>& state) {
+    SideSet::Slide& slide = sides.slides[static_cast<std::size_t>(pair / 2)];
+    double speed = 0, rate = 0;  // v'·d
+    const auto across = [&](double angle) {
+        slide = {std::cos(angle), std::sin(angle), 1};
+        SwitchSides at(system, sides, static_cast<int>(state.size()));
+        at.evaluate(t, state.data());
+        const Eigen::Vector2d e(slide.along, slide.across), v = at.velocity(pair);
+        slide.grain = 1e6 * (1 + v.norm());  // so that v does not change the direction
+        SwitchSides there(system, sides, static_cast<int>(state.size()));
+        there.evaluate(t, state.data());
+        const Eigen::Vector2d a = there.acceleration(pair);
+        speed = v.norm();
+        rate = a.dot(e);
+        return e[0] * a[1] - e[1] * a[0];
+    };
+    constexpr double turn = 6.283185307179586476925;
+    double best = -HUGE_VAL, direction = 0;
+    for (int i = 0; i < directions; ++i) {
+        double low = turn * i / directions, high = turn * (i + 1) / directions;
+        const double at_low = across(low);
+        if ((at_low > 0) == (across(high) > 0)) continue;
+        for (int n = 0; n < most_halvings; ++n) {
+            const double middle = (low + high) / 2;
+            ((across(middle) > 0) == (at_low > 0) ? low : high) = middle;
+        }
+        across(high);
+        if (rate > best) {
+            best = rate;
+            direction = high;
+        }
+    }
+    slide = {std::cos(direction), std::sin(direction), 8 * speed + 1e-15};
+    return best;
+}
+
+std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state) {
     const SideJudge judge(system, t, state);
     std::vector<SideChoice> found;
     std::size_t count = 1;
-    for (std::size_t i = 0; i < open.size(); ++i) count *= 3;
+    for (const int k : open) count *= sides.is_pair(k) ? 2 : 3;
     for (std::size_t code = 0; code < count; ++code) {
         std::size_t rest = code;
         for (const int k : open) {
-            sides[k] = static_cast<int>(rest % 3) - 1;
-            rest /= 3;
+            const std::size_t kinds = sides.is_pair(k) ? 2 : 3;
+            set_side(sides, k, static_cast<int>(rest % kinds) - (kinds == 3 ? 1 : 0));
+            rest /= kinds;
         }
+        judge.direct(sides, open);
         found.push_back(judge.judged(sides, open));
     }
     std::stable_sort(found.begin(), found.end(),
@@ -86,8 +183,23 @@ std::vector<SideChoice> side_choices(const Switching& system, std::vector<int> s
     return found;
 }
 
-std::vector<double> consistent_signs(const Switching& system, std::vector<int> sides, double t, const double* y,
-                                     int dimension) {
+std::vector<double> consistent_signs(const Switching& system, const std::function<double(int k)>& still, double t,
+                                     const double* y, int dimension, SideSet* found) {
+    SideSet sides = system.start();
+    std::vector<double> none(static_cast<std::size_t>(dimension)), g(2 * sides.size());
+    for (int k = 0; k < system.count(); ++k) {  // a function may contain the signs of those before it
+        const auto at = static_cast<std::size_t>(k);
+        system.values(t, y, system.sigma(sides).data(), none.data(), g.data());
+        if (!sides.is_pair(k)) {
+            sides[at] = std::abs(g[at]) <= still(k) ? 0 : g[at] > 0 ? 1 : -1;
+            continue;
+        }
+        const double speed = std::hypot(g[at], g[at + 1]);
+        set_side(sides, k, speed <= std::max(still(k), still(k + 1)) ? 0 : 1);
+        if (sides[at] != 0) sides.slides[at / 2] = {g[at] / speed, g[at + 1] / speed, 0};
+        ++k;
+    }
+    if (found) *found = sides;
     for (bool again = true; again;) {
         again = false;
         SwitchSides at(system, sides, dimension);
@@ -95,10 +207,13 @@ std::vector<double> consistent_signs(const Switching& system, std::vector<int> s
         at.find_bounds(t, y);
         for (std::size_t i = 0; i < at.sliding().size() && !again; ++i) {
             const int k = at.sliding()[i];
-            const double alpha = at.sigma()[static_cast<std::size_t>(k)];
-            if (at.steepness(i) < 0 && std::abs(alpha) <= at.bound(k) * (1 + 1e-9)) continue;
-            sides[static_cast<std::size_t>(k)] =
-                at.steepness(i) < 0 ? (alpha > 0 ? 1 : -1) : (at.slope(k) < 0 ? -1 : 1);
+            const double alpha = at.sign(k);
+            const bool is_pair = sides.is_pair(k);
+            if (is_pair && k % 2 == 1) continue;
+            const bool holds = is_pair ? at.resists(k) : at.steepness(i) < 0;
+            if (holds && at.share(k) <= at.bound(k) * (1 + 1e-9)) continue;
+            set_side(sides, k, is_pair ? 1 : holds ? (alpha > 0 ? 1 : -1) : (at.slope(k) < 0 ? -1 : 1));
+            if (is_pair) begin_to_slide(system, sides, k, t, {y, y + dimension});
             again = true;
         }
         if (!again) return at.sigma();

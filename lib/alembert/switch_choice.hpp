@@ -10,14 +10,20 @@
 namespace alembert {
 
 struct SideChoice {
-    std::vector<int> sides;
+    SideSet sides;
     double margin;  ///< the choice is consistent if this is positive
     bool jumps;     ///< whether f differs on the two sides of the open functions
 };
 
 /// All choices of sides for the `open` functions, the most consistent first; the other functions have their sides
-/// as in `sides`. There are 3 to the power of the number of open functions.
-std::vector<SideChoice> side_choices(const Switching& system, std::vector<int> sides, const std::vector<int>& open,
+/// as in `sides`. A pair, of which `open` has the first function, may stick, or slide in the direction that it
+/// takes. There are 3 to the power of the number of open functions, with 2 for a pair.
+std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state);
+
+/// Gives a pair that begins to slide its direction d, for which v' = r d, and returns r; the other functions have
+/// their sides. If there are several, that with the largest r is taken, and r is negative if there is none.
+double begin_to_slide(const Switching& system, SideSet& sides, int pair, double t,
+                      const std::vector<double>& state);
 
 }  // namespace alembert

@@ -3,12 +3,13 @@
 
 /// A system with held signs (switching.hpp) at one state, for given sides of its functions.
 ///
-///     SwitchSides at(system, {1, 0}, dimension);      // the first is positive, the second slides along its zero
+///     SwitchSides at(system, {{1, 0}}, dimension);    // the first is positive, the second slides along its zero
 ///     at.evaluate(t, y);
 ///     at.sigma()[1];                                  // α, for which ġ = 0
 ///     at.rate();                                      // f
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -19,24 +20,37 @@ namespace alembert {
 /// f and σ for given sides. The σ of functions that slide follow from ġ = 0.
 class SwitchSides {
 public:
-    SwitchSides(const Switching& system, std::vector<int> sides, int dimension)
+    SwitchSides(const Switching& system, SideSet sides, int dimension)
         : system_(system),
           sides_(std::move(sides)),
+          sigma_(system.sigma(sides_)),
           f_(dimension),
           g_(2 * system.count()),
           bounds_(2 * system.count(), 1.0) {
         for (int k = 0; k < system.count(); ++k)
             if (sides_[k] == 0) sliding_.push_back(k);
-        sigma_.assign(sides_.begin(), sides_.end());
     }
 
     int count() const { return system_.count(); }
     bool has_bounds() const { return static_cast<bool>(system_.bounds); }
-    const std::vector<int>& sides() const { return sides_; }
+    const SideSet& sides() const { return sides_; }
     const std::vector<int>& sliding() const { return sliding_; }
     const std::vector<double>& sigma() const { return sigma_; }
+    /// σ of the function k.
+    double sign(int k) const { return sigma_[system_.place(k)]; }
+    /// |σ| of the function k, and |α| of a pair.
+    double share(int k) const { return sides_.is_pair(k) ? std::hypot(sign(k), sign(k + 1)) : std::abs(sign(k)); }
     double value(int k) const { return g_[k]; }
     double slope(int k) const { return g_[system_.count() + k]; }
+    /// v of a pair, and v'.
+    Eigen::Vector2d velocity(int k) const { return {value(k), value(k + 1)}; }
+    Eigen::Vector2d acceleration(int k) const { return {slope(k), slope(k + 1)}; }
+    /// How far the direction of a pair is from turning by 60°: w·e − |w|/2.
+    double ahead(int k) const {
+        const SideSet::Slide& slide = sides_.slides[static_cast<std::size_t>(k / 2)];
+        const Eigen::Vector2d e(slide.along, slide.across), w = velocity(k) + slide.grain * e;
+        return w.dot(e) - w.norm() / 2;
+    }
     const std::vector<double>& rate() const { return f_; }
     /// The bound of |α_k|, and the numbers that must not be negative; both are known after `find_bounds`.
     double bound(int k) const { return bounds_[k]; }
@@ -45,26 +59,32 @@ public:
     double steepness(std::size_t position) const {
         return B_(static_cast<Eigen::Index>(position), static_cast<Eigen::Index>(position));
     }
+    /// Whether a force against v reduces it, whatever its direction, for a pair that sticks.
+    bool resists(int k) const {
+        const auto at = std::find(sliding_.begin(), sliding_.end(), k) - sliding_.begin();
+        const Eigen::Matrix2d all = B_.block<2, 2>(at, at), even = all + all.transpose();
+        return even.trace() < 0 && even.determinant() > 0;
+    }
 
     /// Computes f, g and ġ at a state, and the σ of functions that slide; NaN where no σ keeps ġ = 0.
     void evaluate(double t, const double* y) {
         const auto s = static_cast<Eigen::Index>(sliding_.size());
-        for (const int k : sliding_) sigma_[k] = 0;
+        for (const int k : sliding_) sigma_[system_.place(k)] = 0;
         rates(t, y);
         if (s == 0) return;
         const Eigen::VectorXd none = slopes();
         B_.resize(s, s);
         for (Eigen::Index j = 0; j < s; ++j) {
-            sigma_[sliding_[j]] = 1;
+            held(j) = 1;
             rates(t, y);
             B_.col(j) = slopes() - none;
-            sigma_[sliding_[j]] = 0;
+            held(j) = 0;
         }
         const double enough = 1e-13 * B_.cwiseAbs().maxCoeff();
         Eigen::VectorXd alpha = Eigen::VectorXd::Zero(s), slope = none;
         const auto go_to = [&](const Eigen::VectorXd& to) {
             alpha = to;
-            for (Eigen::Index j = 0; j < s; ++j) sigma_[sliding_[j]] = alpha[j];
+            for (Eigen::Index j = 0; j < s; ++j) held(j) = alpha[j];
             rates(t, y);
             slope = slopes();
             return !(slope.cwiseAbs().maxCoeff() > enough);
@@ -79,7 +99,7 @@ public:
             secant += slope * step.transpose() / step.squaredNorm();
         }
         if (slope.cwiseAbs().maxCoeff() > negligible * B_.cwiseAbs().maxCoeff())  // no σ can keep g at zero
-            for (const int k : sliding_) sigma_[k] = std::numeric_limits<double>::quiet_NaN();
+            for (Eigen::Index j = 0; j < s; ++j) held(j) = std::numeric_limits<double>::quiet_NaN();
     }
 
     /// To be called after `evaluate` at the same state.
@@ -97,7 +117,7 @@ public:
         if (off.isZero(0)) return;
         const Eigen::VectorXd along = -decomposed(B_).solve(off);
         const std::vector<double> alpha = sigma_, before = f_;
-        for (Eigen::Index j = 0; j < s; ++j) sigma_[sliding_[j]] += along[j];
+        for (Eigen::Index j = 0; j < s; ++j) held(j) += along[j];
         rates(t, y);
         for (std::size_t i = 0; i < f_.size(); ++i) y[i] += f_[i] - before[i];
         sigma_ = alpha;
@@ -114,13 +134,15 @@ private:
     /// The zero of ġ(α) = (a + b α)/(1 + c α), with a, b and c such that it has the values found at 0 and 1.
     /// Friction that changes its own normal force has this form.
     Eigen::VectorXd by_quotient(double t, const double* y, double at_none, double at_one) {
-        sigma_[sliding_[0]] = -1;
+        held(0) = -1;
         rates(t, y);
         const double at_minus = slopes()[0];
         const double c = (2 * at_none - at_one - at_minus) / (at_one - at_minus);
         return Eigen::VectorXd::Constant(1, -at_none / (at_one * (1 + c) - at_none));
     }
 
+    /// σ of the function at this position of `sliding`.
+    double& held(Eigen::Index position) { return sigma_[system_.place(sliding_[position])]; }
     void rates(double t, const double* y) {
         system_.rates(t, y, sigma_.data(), f_.data());
         system_.values(t, y, sigma_.data(), f_.data(), g_.data());
@@ -132,7 +154,8 @@ private:
     }
 
     const Switching& system_;
-    std::vector<int> sides_, sliding_;
+    SideSet sides_;
+    std::vector<int> sliding_;
     std::vector<double> sigma_, f_, g_, bounds_;
     Eigen::MatrixXd B_;
 };

@@ -12,6 +12,7 @@ namespace {
 
 // A negative normal force smaller than this, relative to the largest, is zero.
 constexpr double negligible_normal = 1e-9;
+constexpr double outgrown = 1e3;  // v has so many times the size of δ
 
 }  // namespace
 
@@ -21,9 +22,16 @@ std::vector<Watched> watches(const SwitchSides& now, PieceSpan span, const std::
         if (now.has_bounds())
             list.push_back(
                 {.what = Watched::What::normal, .index = k, .offset = -2 * std::min(0.0, now.normal(k))});
+        const bool is_pair = now.sides().is_pair(k);
+        if (is_pair && k % 2 == 1) continue;
+        if (is_pair && now.sides()[k] != 0) {
+            list.push_back({.what = Watched::What::turn, .index = k});
+            if (now.sides().slides[k / 2].grain > 0) list.push_back({.what = Watched::What::grain, .index = k});
+            continue;
+        }
         if (now.sides()[k] == 0) {
-            const bool is_close = std::abs(now.sigma()[k]) > (1 - 1e-12) * now.bound(k);
-            for (const double sign : {-1.0, 1.0})
+            const bool is_close = now.share(k) > (1 - 1e-12) * now.bound(k);
+            for (const double sign : is_pair ? std::vector{-1.0} : std::vector{-1.0, 1.0})
                 list.push_back({.what = Watched::What::bound,
                                 .index = k,
                                 .sign = sign,
@@ -47,7 +55,12 @@ std::vector<Watched> watches(const SwitchSides& now, PieceSpan span, const std::
 double watched_value(const Watched& w, const SwitchSides& at, const std::vector<double>& normals) {
     switch (w.what) {
         case Watched::What::bound:
-            return w.sign * at.sigma()[w.index] + w.offset * at.bound(w.index);
+            return w.sign * (at.sides().is_pair(w.index) ? at.share(w.index) : at.sign(w.index)) +
+                   w.offset * at.bound(w.index);
+        case Watched::What::turn:
+            return at.ahead(w.index);
+        case Watched::What::grain:
+            return outgrown * at.sides().slides[w.index / 2].grain - at.velocity(w.index).norm();
         case Watched::What::normal:
             return at.normal(w.index) + w.offset + 2 * negligible_normal * normals[w.index] +
                    std::numeric_limits<double>::min();

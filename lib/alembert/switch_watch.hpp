@@ -11,9 +11,10 @@
 
 namespace alembert {
 
-/// How one g_k, α_k or normal force is watched in a piece.
+/// How one g_k, α_k or normal force is watched in a piece; for pairs |α|, whether the direction has turned, and
+/// whether v has outgrown δ.
 struct Watched {
-    enum class What { side, bound, normal } what = What::side;
+    enum class What { side, bound, normal, turn, grain } what = What::side;
     int index;
     double sign = 1;  ///< the event's value is sign·(g or α) + offset, for α with r·offset
     double offset = 0;

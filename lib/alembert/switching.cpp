@@ -52,14 +52,16 @@ private:
 
     /// Determines the sides at the start.
     bool begin() {
-        sides_.assign(system_.count(), 1);
+        sides_ = system_.start();
         std::vector<int> open;
         bool is_defined = true;
         for (int k = 0; k < system_.count(); ++k) {  // a function may contain the signs of those before it
             const double g = value_of(k);
             is_defined = is_defined && std::isfinite(g);
             (*sizes_)[k] = std::abs(g);
-            if (g == 0)
+            if (sides_.is_pair(k)) {
+                if (k % 2 == 1 && !direct(k - 1, still(k - 1))) open.push_back(k - 1);
+            } else if (g == 0)
                 open.push_back(k);
             else
                 sides_[k] = g > 0 ? 1 : -1;
@@ -76,10 +78,28 @@ private:
         return here.value(k);
     }
 
+    /// The sliding velocity of a pair that rounding may leave of none.
+    double still(int pair) const {
+        double largest = std::max((*sizes_)[pair], (*sizes_)[pair + 1]);
+        for (const double y : state_) largest = std::max(largest, std::abs(y));
+        return 4 * tolerance::epsilon * largest;
+    }
+
+    /// Lets a pair slide in the direction of its velocity; false if that is not above `least`.
+    bool direct(int pair, double least) {
+        const double v = value_of(pair), w = value_of(pair + 1), speed = std::hypot(v, w);
+        if (!(speed > least)) return false;
+        sides_[pair] = sides_[pair + 1] = 1;
+        sides_.slides[pair / 2] = {v / speed, w / speed, 0};
+        return true;
+    }
+
     /// Updates the signs of functions that contain other signs, after some of these have changed.
     void follow_others(const std::vector<int>& decided) {
         for (int k = 0; k < system_.count(); ++k) {
-            if (sides_[k] == 0 || std::find(decided.begin(), decided.end(), k) != decided.end()) continue;
+            if (sides_[k] == 0 || sides_.is_pair(k) ||
+                std::find(decided.begin(), decided.end(), k) != decided.end())
+                continue;
             const double g = value_of(k);
             if (std::abs(g) > 1e-9 * (*sizes_)[k] && sides_[k] * g < 0) sides_[k] = -sides_[k];
         }
@@ -113,6 +133,9 @@ private:
         here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         here.rhs_when_stiff = {};
         if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
+        const auto has_grain = [](const SideSet::Slide& slide) { return slide.grain > 0; };
+        if (std::any_of(sides_.slides.begin(), sides_.slides.end(), has_grain))
+            here.when_stiff = {};  // the piece is short, and only its beginning is stiff
         if (!now.sliding().empty())
             here.project = [base = options_.project, sides = std::make_shared<SwitchSides>(
                                                          system_, sides_, dimension())](double t, double* y) {
@@ -147,9 +170,9 @@ private:
     }
 
     Rhs right_hand_side() const {
-        if (std::find(sides_.begin(), sides_.end(), 0) == sides_.end())
-            return system_.smooth({sides_.begin(), sides_.end()});
-        const Rhs any = system_.smooth(std::vector<double>(sides_.size(), 1.0));
+        if (std::find(sides_.of.begin(), sides_.of.end(), 0) == sides_.of.end())
+            return system_.smooth(system_.sigma(sides_));
+        const Rhs any = system_.smooth(system_.sigma(system_.start()));
         auto sides = std::make_shared<SwitchSides>(system_, sides_, dimension());
         Rhs rhs = make_rhs(
             dimension(),
@@ -205,8 +228,17 @@ private:
             if (w.what == Watched::What::normal) return fail_negative(w.index);
             if (w.what == Watched::What::bound) {  // α has reached a bound: the motion leaves to that side
                 sides_[w.index] = w.sign < 0 ? 1 : -1;
+                if (sides_.is_pair(w.index)) {
+                    sides_[w.index + 1] = 1;
+                    begin_to_slide(system_, sides_, w.index, t_, state_);
+                    seed(w.index);
+                }
                 tell(w.index, SideChange::Kind::leaving);
                 gone = true;
+            } else if (w.what == Watched::What::grain) {
+                direct(w.index, 0);
+            } else if (w.what == Watched::What::turn && direct(w.index, stopped(w.index))) {
+                continue;
             } else if (std::find(open.begin(), open.end(), w.index) == open.end()) {
                 open.push_back(w.index);
             }
@@ -214,7 +246,7 @@ private:
         if (!open.empty() ||
             (gone && system_.bounds)) {  // a contact that has opened may change the normal forces of others
             for (int k = 0; k < system_.count(); ++k)
-                if (sides_[k] == 0) open.push_back(k);
+                if (sides_[k] == 0 && !(sides_.is_pair(k) && k % 2 == 1)) open.push_back(k);
             if (!choose(open)) return false;
         }
         std::vector<int> decided = open;
@@ -243,8 +275,10 @@ private:
                 fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
                             "say which; start close to that state instead",
                             t_, names));
-        const std::vector<int> before = sides_;
+        const SideSet before = sides_;
         sides_ = found[0].sides;
+        for (const int k : open)
+            if (sides_.is_pair(k) && sides_[k] != 0) seed(k);
         for (const int k : open)
             if (before[k] != sides_[k] &&
                 (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side yet
@@ -254,8 +288,24 @@ private:
         return true;
     }
 
+    /// Gives a pair that begins to slide its δ (switching.hpp).
+    void seed(int pair) {
+        double& grain = sides_.slides[pair / 2].grain;
+        grain = std::max(grain, std::pow(std::max(options_.tolerance, 1e-13), 2.0 / 3));
+    }
+
+    /// The sliding velocity of a pair below which it counts as having stopped: what the tolerance leaves of none.
+    double stopped(int pair) const {
+        const double largest = std::max((*sizes_)[pair], (*sizes_)[pair + 1]);
+        return std::max(std::max(options_.tolerance, 1e-13) * largest, still(pair));
+    }
+
     void tell(int k, SideChange::Kind kind) const {
-        if (system_.on_change) system_.on_change({.time = t_, .index = k, .kind = kind, .side = sides_[k]});
+        if (!system_.on_change) return;
+        SideChange change{.time = t_, .index = k, .kind = kind, .side = sides_[k], .direction = {}};
+        if (sides_.is_pair(k) && sides_[k] != 0)
+            change.direction = {sides_.slides[k / 2].along, sides_.slides[k / 2].across};
+        system_.on_change(change);
     }
 
     bool fail(const std::string& message) {
@@ -283,7 +333,7 @@ private:
     const Events& events_;
     double end_, t_;
     std::vector<double> state_;
-    std::vector<int> sides_;
+    SideSet sides_;
     std::shared_ptr<std::vector<double>> sizes_;                       ///< the largest |g_k| so far
     std::shared_ptr<std::vector<double>> normals_;                     ///< the largest normal forces
     std::shared_ptr<bool> undefined_ = std::make_shared<bool>(false);  ///< whether some g_k has been NaN

@@ -22,7 +22,20 @@
 /// (`bounds`), and a contact with zero sliding velocity begins to slide only where sticking would need more.
 ///
 /// If several functions are zero at once, all choices of sides are tried, and the consistent one is taken.
+///
+/// Dry friction in a plane acts against the direction of a sliding velocity v of two components, with a force in
+/// a cone: the two are functions g of the list, a pair. While the contact sticks both are zero and have numbers
+/// α_1 and α_2, with |α| ≤ r. While it slides, the system calculates the direction of v itself. The direction
+/// changes smoothly as v passes through zero along a unit vector e,
+///
+///     (e + ρ e⊥)/√(1 + ρ²),   ρ = w·e⊥/w·e,   w = v + δ e,
+///
+/// so that a piece can end exactly at v = 0; e is chosen anew where v has turned by 60° from it. The small δ gives
+/// a direction to a contact that begins to slide: that d for which v' = r d with r > 0. Where r = 0, as with equal
+/// coefficients, the direction follows the load at a rate like 1/|v|, which δ bounds; it is dropped as soon as |v|
+/// is a thousand times larger. With δ = ε^(2/3) for the tolerance ε the error in position is about ε.
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -38,19 +51,40 @@ struct SideChange {
     int index = 0;
     Kind kind = Kind::crossing;
     int side = 0;  ///< the sign after it; 0: the function slides along its zero
+    /// For a pair that begins to slide in a plane (`side` is then 1) its direction.
+    std::array<double, 2> direction = {0, 0};
+};
+
+/// The sides of all functions: the sign of each, 0 if it slides along its zero. A pair has the sides 0, 0 while it
+/// sticks and 1, 1 while it slides in its plane.
+struct SideSet {
+    std::vector<int> of = {};
+    struct Slide {
+        double along = 1, across = 0;  ///< e, a unit vector
+        double grain = 0;              ///< δ
+    };
+    std::vector<Slide> slides = {};  ///< of the pairs
+
+    int& operator[](std::size_t k) { return of[k]; }
+    int operator[](std::size_t k) const { return of[k]; }
+    std::size_t size() const { return of.size(); }
+    bool is_pair(int k) const { return k < 2 * static_cast<int>(slides.size()); }
 };
 
 struct Switching {
     std::vector<std::string> names = {};  ///< the names of the g_k, for messages
-    /// f for given σ, each between −1 and 1.
+    /// The number of pairs; the pair c has the functions 2c and 2c + 1.
+    int pairs = 0;
+    /// f for given σ, each between −1 and 1. With pairs σ begins with two numbers for each: 0 and 1 while it
+    /// sticks, 1 and δ while it slides; and its two functions have α_1, α_2 or e for their σ.
     std::function<void(double t, const double* y, const double* sigma, double* rate)> rates = {};
     /// The right-hand side for one fixed σ, with what methods need besides (series, Jacobian).
     std::function<Rhs(const std::vector<double>& sigma)> smooth = {};
     /// K numbers g_k, then K numbers ġ_k for the y' given.
     std::function<void(double t, const double* y, const double* sigma, const double* rate, double* out)> values =
         {};
-    /// K bounds r_k ≥ 1 of |α_k|, then K numbers that must not become negative (normal forces; 1 where there is
-    /// none). May be empty; then all are 1.
+    /// K bounds r_k ≥ 1 of |α_k| (of |α| at the first function of a pair), then K numbers that must not become
+    /// negative (normal forces; 1 where there is none). May be empty; then all are 1.
     std::function<void(double t, const double* y, const double* sigma, const double* rate, double* out)> bounds =
         {};
     /// The message if the k-th of the latter numbers is negative. Required together with `bounds`.
@@ -60,6 +94,12 @@ struct Switching {
         {};  ///< called with σ before on_step; may be empty
 
     int count() const { return static_cast<int>(names.size()); }
+    /// The position of the function k in σ.
+    std::size_t place(int k) const { return static_cast<std::size_t>(2 * pairs + k); }
+    /// The σ of these sides; for functions that slide along their zeros it is 0.
+    std::vector<double> sigma(const SideSet& sides) const;
+    /// No sides yet: all functions at the side +1.
+    SideSet start() const;
 };
 
 /// Like integrate(rhs, …). If a function has no consistent side, or more than one, the run fails with
@@ -67,9 +107,10 @@ struct Switching {
 Trajectory integrate(const Switching& system, const std::vector<double>& initial, const Options& options,
                      const Events& events = {});
 
-/// σ at a state whose sides are known, with side 0 for functions at their zero. Where it is consistent these
-/// slide, with their α; otherwise they have the sign that g takes according to its rate.
-std::vector<double> consistent_signs(const Switching& system, std::vector<int> sides, double t, const double* y,
-                                     int dimension);
+/// σ at a state of the motion, for evaluations after it. g_k counts as zero below `still` of k. Where it is
+/// consistent such a function slides along its zero, with its α; otherwise it has the sign that g takes according
+/// to its rate. `found` gets the sides with 0 for all zeros, if it is not null.
+std::vector<double> consistent_signs(const Switching& system, const std::function<double(int k)>& still, double t,
+                                     const double* y, int dimension, SideSet* found = nullptr);
 
 }  // namespace alembert

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Several contacts with dry friction at once, at the level of rates (an impact) or of accelerations.
+///
+///     M (x⁺ − x⁻) = p + Aᵀ Λ + Σ gᵀ π + Σ wᵀ τ,   A x⁺ + b = 0
+///
+/// Each contact is open (π = 0 and ξ ≥ 0), sticks (ξ = 0, η = 0, |τ| ≤ μₛ π) or slides (ξ = 0, τ = −μ π s with
+/// s η ≥ 0), where π ≥ 0, ξ = g x⁺ + c and η = w x⁺ + d (Moreau, Unilateral Contact and Dry Friction in Finite
+/// Freedom Dynamics, 1988; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 8). All
+/// choices of modes are tried. With M definite and small μ the consistent one is unique.
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+namespace alembert {
+
+struct RoughRows {
+    Eigen::RowVectorXd normal;  ///< g
+    double offset = 0;          ///< c
+    Eigen::RowVectorXd slip;    ///< w; empty for a contact without friction
+    double slip_offset = 0;     ///< d
+    double coefficient = 0, resting = 0;
+    int side = 0;  ///< s, if the contact slides in any case; else 0
+};
+
+struct RoughChoice {
+    bool exists = false;
+    Eigen::VectorXd after;               ///< x⁺
+    Eigen::VectorXd normal, tangential;  ///< π and τ of each contact
+    Eigen::VectorXd bilateral;           ///< Λ
+    std::vector<bool> closed;            ///< which contacts are closed
+};
+
+/// M: n×n; `momentum` is M x⁻ + p; A: m×n. At most `most_rough_contacts`.
+RoughChoice choose_rough(const Eigen::MatrixXd& M, const Eigen::VectorXd& momentum, const Eigen::MatrixXd& A,
+                         const Eigen::VectorXd& b, const std::vector<RoughRows>& contacts);
+
+inline constexpr std::size_t most_rough_contacts = 5;  // for which 4⁵ choices are tried
+
+}  // namespace alembert

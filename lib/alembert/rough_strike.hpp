@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The impact of contacts of which at least one has dry friction.
+///
+/// A contact that strikes alone follows the impulse through its impact (rough_impact.hpp), if no other contact is
+/// pressed by that: the corner on which a block has stood lifts off when the other one strikes. Otherwise all near
+/// contacts are struck together by Moreau's law (rough_choice.hpp): a contact that has borne an impulse parts with
+/// e times its speed before, and sticks, or slides against its friction; the result must not gain energy.
+
+#include "alembert/settle.hpp"
+
+namespace alembert {
+
+struct RoughStrike {
+    std::string failure;  ///< if not empty, the reason why there are no rates after the impact; the other members
+                          ///< are then empty
+    Eigen::VectorXd after;
+    double work = 0;                        ///< of all impulses along the rates, without the drifts
+    std::vector<ContactEvent> events = {};  ///< impacts, without their time
+    explicit operator bool() const { return failure.empty(); }
+};
+
+/// `near` are the contacts with gap 0; `kick` is a generalized impulse that acts at the same instant, or empty.
+RoughStrike strike_rough_contacts(const Situation& here, const Eigen::VectorXd& before,
+                                  const std::vector<int>& near, const std::vector<double>& restitution,
+                                  const Eigen::VectorXd& kick);
+
+}  // namespace alembert

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// Dry friction with a cone, and several rough contacts at once: scenes/friction against closed forms, and a coin
+// against its vector equations in 30 digits (tests/reference/sliding_coin.py).
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "contacts.hpp"
+#include "files.hpp"
+
+namespace commands_friction_plane {
+
+using namespace alembert::test;
+
+namespace {
+
+std::string scene_of(const std::string& name) {
+    return source_path("scenes/friction/" + name + ".toml");
+}
+
+std::string changed(const std::string& name, const std::string& from, const std::string& to) {
+    std::string scene = alembert::test::contents(scene_of(name));
+    const std::size_t at = scene.find(from);
+    REQUIRE(at != std::string::npos);
+    return temporary(name + "_changed.toml", scene.replace(at, from.size(), to));
+}
+
+doctest::Approx near(double value) {
+    return doctest::Approx(value).epsilon(1e-12);
+}
+
+void check_balance(const Json& motion) {
+    CHECK(motion["work_balance"].get<double>() < 1e-12);
+}
+
+}  // namespace
+
+TEST_CASE("friction in a plane: a struck billiard ball moves on a parabola and rolls after 2 |u|/(7 mu g)") {
+    const double r = 0.028575, mu = 0.2, v0 = 2, wx = 40, wy = -25, end = 1.5;
+    const double u = v0 - r * wy, v = r * wx, speed = std::hypot(u, v), roll = 2 * speed / (7 * mu * g);
+    const Json motion = simulated(scene_of("billiard_ball_struck"));
+    const auto sticks = of_kind(motion, "stick");
+    REQUIRE(sticks.size() == 1);
+    CHECK(of_kind(motion, "slip").empty());
+    CHECK(value(sticks[0], "time") == near(roll));
+    const double ax = -mu * g * u / speed, ay = -mu * g * v / speed;
+    CHECK(rate(motion, "x") == near(v0 + ax * roll));
+    CHECK(rate(motion, "y") == near(ay * roll));
+    CHECK(coordinate(motion, "x") == near(v0 * roll + ax * roll * roll / 2 + (v0 + ax * roll) * (end - roll)));
+    CHECK(coordinate(motion, "y") == near(ay * roll * roll / 2 + ay * roll * (end - roll)));
+    check_balance(motion);
+}
+
+TEST_CASE(
+    "friction in a plane: a puck that slides across a slope stops at the time and place of its closed form") {
+    // dv/dpsi = v (k − cos psi)/sin psi from psi = pi/2, where v = v0; with u = tan(psi/2) the time is
+    // v0/(g sin(alpha)) ∫ u^(k−2) (1 + u²)/2 du, and the distances have integrals of the same kind.
+    const double k = 1.6, v0 = 2, s = g * std::sin(0.3);
+    const Json motion = simulated(scene_of("puck_on_slope"));
+    const auto sticks = of_kind(motion, "stick");
+    REQUIRE(sticks.size() == 1);
+    const auto power = [](double n) { return 1 / n; };  // ∫ u^(n−1) du from 0 to 1
+    CHECK(value(sticks[0], "time") == near(v0 / s * (power(k - 1) + power(k + 1)) / 2));
+    // v = v0 u^k/sin psi; dx = v sin psi dt, ds = v cos psi dt, dt = v0/s u^(k−2) (1 + u²)/2 du
+    const double scale = v0 * v0 / s / 2;
+    CHECK(coordinate(motion, "x") == near(scale * (power(2 * k - 1) + power(2 * k + 1))));
+    CHECK(coordinate(motion, "s") == near(scale / 2 * (power(2 * k - 2) - power(2 * k + 2))));
+    check_balance(motion);
+}
+
+TEST_CASE("friction in a plane: it holds within a cone, and lets go in the direction of the load") {
+    // A block on a table is pulled by (3 t, 4 t): it holds until 5 t = mu_s m g, then m v' = 5 t − mu m g.
+    const std::string scene = temporary("pulled_block.toml", R"toml(
+[parameters]
+mu = 0.4
+[coordinates]
+x = 0
+y = 0
+[[particle]]
+name = "block"
+mass = 2
+position = ["x", "y"]
+[forces]
+x = "3*t"
+y = "4*t"
+[[friction]]
+name = "table"
+coefficient = "mu"
+static = 0.5
+slip = ["x'", "y'"]
+normal = 19.62
+[simulation]
+duration = 3
+tolerance = 1e-12
+)toml");
+    const double weight = 19.62, freed = 0.5 * weight / 5;
+    const Json motion = simulated(scene);
+    const auto slips = of_kind(motion, "slip");
+    REQUIRE(slips.size() == 1);
+    CHECK(value(slips[0], "time") == near(freed));
+    CHECK(slips[0]["direction"][0].get<double>() == near(0.6));
+    CHECK(slips[0]["direction"][1].get<double>() == near(0.8));
+    const double speed = (2.5 * (9 - freed * freed) - 0.4 * weight * (3 - freed)) / 2;
+    CHECK(rate(motion, "x") == near(0.6 * speed));
+    CHECK(rate(motion, "y") == near(0.8 * speed));
+    check_balance(motion);
+    const auto at = [&](const char* t, const char* mode, double x) {
+        const auto result = run({"eval", scene, "--at", std::string("t=") + t, "--json"});
+        REQUIRE(result.exit == 0);
+        const Json state = Json::parse(result.out);
+        CHECK(state["friction"]["table"] == mode);
+        CHECK(std::abs(state["accelerations"]["x"].get<double>() - x) < 1e-12);
+    };
+    at("1.9", "stick", 0);
+    at("2.5", "slip", 0.6 * (12.5 - 0.4 * weight) / 2);
+}
+
+TEST_CASE("friction in a plane: a sliding coin rolls at the time of its vector equations in 30 digits") {
+    const Json motion = simulated(scene_of("sliding_coin"), {"--no-estimate"});
+    const auto sticks = of_kind(motion, "stick");
+    REQUIRE(sticks.size() == 1);
+    CHECK(value(sticks[0], "time") == near(0.14839178788374438897));
+    CHECK(of_kind(motion, "slip").size() == 1);  // rolling needs more than the cone holds after that
+    check_balance(motion);
+}
+
+TEST_CASE("friction in a plane: a derivation and an audit describe it, a claim is proved, mistakes have places") {
+    const std::string puck = scene_of("puck_on_slope");
+    const Json derived = Json::parse(run({"derive", puck, "--json"}).out)["friction"][0];
+    CHECK(derived["slip"] == Json{"x'", "s'"});
+    CHECK(Json::parse(run({"audit", puck, "--json"}).out)["friction"][0]["modes"] == Json{"stick", "slip"});
+    const auto checked = run({"check", puck});
+    CAPTURE(checked.out);
+    CHECK(checked.exit == 0);
+    const auto told = [](const std::string& from, const std::string& to) {
+        const auto result = run({"derive", changed("puck_on_slope", from, to)});
+        CHECK(result.exit == 3);
+        return result.err;
+    };
+    CHECK(told("[\"x'\", \"s'\"]", "[\"x'\"]").find("1 components; expected one expression, or two") !=
+          std::string::npos);
+    CHECK(told("[\"x'\", \"s'\"]", "[\"x'\", \"s\"]").find("contains no rate") != std::string::npos);
+    CHECK(told("normal = ", "restitution = 1\nnormal = ").find("only a [[unilateral]]") != std::string::npos);
+}
+
+TEST_CASE("friction in a plane: a ball that lands with spin slides or grips as in Routh's closed form") {
+    // The impulse of friction has the direction of the sliding velocity u, which keeps it; it is mu times that of
+    // the floor, or 2/7 m |u|, which stops it.
+    const double r = 0.028575, speed = std::sqrt(2 * g), u = 2 + r * 25, v = r * 40, slip = std::hypot(u, v);
+    for (const double mu : {0.05, 0.2}) {
+        CAPTURE(mu);
+        std::string scene = alembert::test::contents(scene_of("billiard_ball_struck"));
+        for (const auto& [from, to] :
+             {std::pair<std::string, std::string>{"{ value = 0.2, unit = \"1\" }", fmt::format("{}", mu)},
+              {"initial = \"r\"", "initial = \"r + 1\""},
+              {"gap = \"z - r\"", "gap = \"z - r\"\nrestitution = 0.5"},
+              {"duration = 1.5", "duration = 0.6"}})
+            scene.replace(scene.find(from), from.size(), to);
+        const Json motion = simulated(temporary("landing_ball.toml", scene));
+        REQUIRE(of_kind(motion, "impact").size() == 1);
+        const double change = std::min(mu * 1.5 * speed, 2.0 / 7 * slip);
+        CHECK(rate(motion, "x") == near(2 - change * u / slip));
+        CHECK(rate(motion, "y") == near(-change * v / slip));
+        check_balance(motion);
+    }
+}
+
+TEST_CASE("friction: a superball exchanges spin and flight without loss, as Garwin's map says") {
+    const double r = 0.025;
+    const Json motion = simulated(scene_of("superball"));
+    const auto impacts = of_kind(motion, "impact");
+    REQUIRE(impacts.size() >= 4);
+    double x = 1, phi = -120;
+    for (const Json& impact : impacts) {
+        const double change = -4.0 / 7 * (x - r * phi);
+        x += change;
+        phi -= change / (0.4 * r);
+        CHECK(std::abs(value(impact, "energy_loss")) < 1e-15);
+    }
+    CHECK(rate(motion, "x") == near(x));
+    CHECK(rate(motion, "phi") == near(phi));
+    check_balance(motion);
+}
+
+TEST_CASE("friction: a block rocks from corner to corner with Housner's loss") {
+    const double b = 0.2, h = 0.8, R = std::hypot(b, h), alpha = std::atan(b / h);
+    const Json motion = simulated(scene_of("rocking_block"));
+    const auto impacts = of_kind(motion, "impact");
+    REQUIRE(impacts.size() >= 3);
+    // 2/3 R² theta'² = g R (cos(alpha − theta0) − cos alpha); the other corner strikes with 2 b theta'.
+    double speed = -2 * b * std::sqrt(1.5 * g / R * (std::cos(alpha - 0.12) - std::cos(alpha)));
+    const double kept = 1 - 1.5 * std::sin(alpha) * std::sin(alpha);
+    for (std::size_t n = 0; n < impacts.size(); ++n) {
+        CHECK(impacts[n]["name"] == (n % 2 == 0 ? "right" : "left"));
+        CHECK(value(impacts[n], "speed_before") == doctest::Approx(speed).epsilon(1e-10));
+        speed *= kept;
+    }
+    check_balance(motion);
+}
+
+TEST_CASE(
+    "friction: a box brakes on two rough feet, stands, and with a high mass centre tips over the front one") {
+    const double v0 = 2, mu = 0.4;
+    const Json motion = simulated(scene_of("braking_box"));
+    const auto sticks = of_kind(motion, "stick");
+    REQUIRE(!sticks.empty());  // one foot that sticks holds the box
+    CHECK(value(sticks[0], "time") == near(v0 / (mu * g)));
+    CHECK(coordinate(motion, "x") == near(v0 * v0 / (2 * mu * g)));
+    CHECK(std::abs(rate(motion, "x")) < 1e-14);
+    CHECK(of_kind(motion, "release").empty());
+    check_balance(motion);
+    // mu h > b: the rear foot lifts at once. About the mass centre J theta'' = N (b - mu h), m y'' = N - m g and
+    // y'' = -b theta'' at the start.
+    const Json tall = Json::parse(
+        run({"eval", changed("braking_box", "h  = { value = 0.5", "h  = { value = 0.9"), "--json"}).out);
+    CHECK(tall["closed"] == Json{"front"});
+    const double m = 8, J = 0.6, half = 0.3, arm = half - mu * 0.9, N = m * g / (1 + m * half * arm / J);
+    CHECK(tall["accelerations"]["theta"].get<double>() == near(N * arm / J));
+    CHECK(tall["multipliers"]["lambda_front"].get<double>() == near(N));
+}
+
+}  // namespace commands_friction_plane
