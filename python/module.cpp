@@ -21,6 +21,7 @@
 #include "report/emission.hpp"
 #include "report/equilibria.hpp"
 #include "report/evaluation.hpp"
+#include "report/fmu.hpp"
 #include "report/impact.hpp"
 #include "report/inertia.hpp"
 #include "report/inverse.hpp"
@@ -220,6 +221,11 @@ void add_verbs(py::module_& module) {
         return answer(equilibria(parse_scene(text, file), {.by = by, .at = overrides_of(at), .starts = starts}));
     });
     module.def("kinematics", kinematics_of);
+    module.def("fmu", [](const std::string& text, const std::string& file, const std::string& by, int version,
+                         const std::string& path) {
+        const FunctionalUnit unit = functional_unit(parse_scene(text, file), {.by = by, .version = version});
+        return std::tuple(py::bytes(unit.archive), as_json(unit, path).dump(), unit.warnings);
+    });
     module.def("inertia", [](const std::string& text, const std::string& file, const std::vector<std::string>& of,
                              const std::string& about, const Values& at) {
         return answer(inertia(parse_scene(text, file), {.of = of, .about = about, .at = overrides_of(at)}));

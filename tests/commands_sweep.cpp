@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "program.hpp"
+#include "run/samples.hpp"
 #include "scenes.hpp"
 
 namespace commands_sweep {
@@ -167,6 +168,83 @@ TEST_CASE("sweep: a scene without parameters is swept, side by side and by every
             CHECK(row["final"]["coordinates"]["x"].get<double>() ==
                   doctest::Approx(row["varied"]["x"].get<double>() - 0.125).epsilon(1e-14));
     }
+}
+
+TEST_CASE("sweep: the points of a file give the rows of the grid that has the same points") {
+    const std::string scene = temporary("spring.toml", spring),
+                      points = temporary("points.csv", "x , k\n0.5,4\n\n 1, 2*3 \r\n\"0.5\",6\n");
+    const Json listed = sweep({scene, "--vary-from", points}),
+               grid = sweep({scene, "--vary", "k=4:6:2", "--vary", "x=0.5:1:2"});
+    REQUIRE(listed["rows"].size() == 3);
+    const std::size_t same[] = {0, 3, 2};
+    for (std::size_t k = 0; k < 3; ++k) CHECK(listed["rows"][k]["final"] == grid["rows"][same[k]]["final"]);
+    CHECK(listed["vary"][1] == Json{{"name", "k"}, {"from", 4.0}, {"to", 6.0}, {"count", 3}});
+    CHECK(listed["vary_from"] == points);
+
+    const auto refused = [&](const char* text, const char* words) {
+        const auto result = run({"sweep", scene, "--vary-from", temporary("wrong.csv", text)});
+        CHECK(result.exit == 3);
+        CHECK_MESSAGE(result.err.find(words) != std::string::npos, result.err);
+    };
+    refused("x\n1\n1,2\n", "wrong.csv:3: there are 2 values for 1 names");
+    refused("x,x\n", "wrong.csv:1: 'x' stands there twice");
+    refused("x\nmany\n", "'many' is no finite number");
+    refused("x\n", "there are no points");
+    refused("y\n1\n", "'y'");
+    CHECK(run({"sweep", scene, "--vary", "x=0:1:2", "--vary-from", points}).exit == 3);
+    CHECK(run({"sweep", scene, "--vary-from", points, "-o", points}).exit == 3);
+    CHECK(run({"sweep", scene, "--vary-from", points, "--svg", temporary("s.svg", "")}).exit == 3);
+}
+
+TEST_CASE("sweep: samples lie as their kind says, and the seed decides which they are") {
+    const std::string scene = temporary("spring.toml", spring);
+    const auto points = [&](const char* sampling, const char* seed) {
+        std::vector<std::vector<double>> result;
+        const Json all = sweep({scene, "--vary", "x=1:3", "--vary", "k=4:8", "--vary", "m=1:2", "--duration", "0",
+                                "--samples", "64", "--sampling", sampling, "--seed", seed});
+        for (const Json& row : all["rows"]) {
+            const Json& v = row["varied"];
+            result.push_back(
+                {(v["x"].get<double>() - 1) / 2, (v["k"].get<double>() - 4) / 4, v["m"].get<double>() - 1});
+        }
+        return result;
+    };
+    /// Whether each of 64 equal parts of each range has one point.
+    const auto is_spread = [](const std::vector<std::vector<double>>& list) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::vector<int> hits(64);
+            for (const auto& p : list) ++hits.at(static_cast<std::size_t>(64 * p[axis]));
+            if (hits != std::vector<int>(64, 1)) return false;
+        }
+        return true;
+    };
+    for (const char* const sampling : {"sobol", "latin"})
+        for (const char* const seed : {"0", "5"}) CHECK(is_spread(points(sampling, seed)));
+    const auto uniform = points("uniform", "5");
+    CHECK(!is_spread(uniform));
+    for (const auto& p : uniform)
+        for (const double x : p) CHECK((x >= 0 && x < 1));
+    CHECK(points("uniform", "5") == uniform);
+    for (const char* const sampling : {"sobol", "latin", "uniform"})
+        CHECK(points(sampling, "1") != points(sampling, "2"));
+    // The first two coordinates of Sobol's sequence: each of 8 × 8 squares has one of 64 points.
+    std::vector<int> squares(64);
+    for (const auto& p : points("sobol", "0"))
+        ++squares[static_cast<std::size_t>(8 * std::floor(8 * p[0]) + 8 * p[1])];
+    CHECK(squares == std::vector<int>(64, 1));
+    CHECK(run({"sweep", scene, "--vary", "x=0:1:3", "--samples", "5"}).exit == 3);
+}
+
+TEST_CASE("sweep: Sobol's points lie one in each equal part of every one of 21 ranges") {
+    std::vector<alembert::Axis> axes(21, {.name = "x", .from = 0, .to = 1});
+    const alembert::Grid grid = alembert::sampled(axes, 256, alembert::Sampling::sobol, 0);
+    for (std::size_t axis = 0; axis < 21; ++axis) {
+        std::vector<int> hits(256);
+        for (std::size_t k = 0; k < 256; ++k) ++hits.at(static_cast<std::size_t>(256 * grid.point(k)[axis]));
+        CHECK(hits == std::vector<int>(256, 1));
+    }
+    axes.push_back(axes[0]);
+    CHECK_THROWS(alembert::sampled(axes, 8, alembert::Sampling::sobol, 0));
 }
 
 }  // namespace commands_sweep

@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 import warnings
 
@@ -66,6 +67,18 @@ class Verbs(unittest.TestCase):
         np.testing.assert_allclose(velocity, [0.15 * math.cos(0.4), 0.15 * math.sin(0.4), 0])
         bodies = scene_file("textbook/gyrocompass.toml")
         self.assertEqual(alembert.Scene(bodies).inertia(["rotor"]).json, program("inertia", bodies, "--of", "rotor"))
+
+    def test_functional_mock_up_unit(self):
+        file = scene_file("textbook/cart_pole.toml")
+        with tempfile.TemporaryDirectory() as folder:
+            ours, theirs = os.path.join(folder, "a.fmu"), os.path.join(folder, "b.fmu")
+            unit = alembert.Scene(file).fmu(ours, fmi=3)
+            said = program("fmu", file, "-o", theirs, "--fmi", "3")
+            self.assertEqual({**unit.json, "file": theirs}, said)
+            with open(ours, "rb") as one, open(theirs, "rb") as other:
+                self.assertEqual(one.read(), other.read())
+        with self.assertRaises(ValueError):
+            alembert.Scene(file).fmu("none.fmu", fmi=1)
 
     def test_formulas_for_notebooks(self):
         derivation = alembert.Scene(PENDULUM).derive()

@@ -3,16 +3,19 @@
 
 #include <iostream>
 
+#include "alembert/error.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/vary.hpp"
+#include "commands/vary_from.hpp"
 #include "language/say.hpp"
 #include "report/sweep.hpp"
 #include "report/sweep_plot.hpp"
 #include "report/table_file.hpp"
+#include "run/samples.hpp"
 
 namespace alembert {
 
@@ -20,28 +23,50 @@ namespace {
 
 struct SweepVerb : RunVerb {
     std::vector<std::string> vary;
+    std::string vary_from;  ///< a table of points; empty for none
+    long samples = 0;       ///< how many points in the ranges; 0 for a grid
+    std::string sampling = "sobol";
+    long seed = 0;
     int threads = 0;
     std::string svg;   ///< an SVG picture; empty for none
     std::string show;  ///< the names of the columns that it shows, with commas; if empty, the coordinates
 };
 
+Grid points_of(const SweepVerb& verb) {
+    if (!verb.vary_from.empty()) {
+        if (!verb.vary.empty() || verb.samples > 0)
+            throw ModelError(say("--vary-from has all points; leave --vary and --samples out"));
+        return grid_from_file(verb.vary_from);
+    }
+    if (verb.samples == 0) return grid_of(verb.vary);
+    const Sampling sampling = verb.sampling == "latin"     ? Sampling::latin
+                              : verb.sampling == "uniform" ? Sampling::uniform
+                                                           : Sampling::sobol;
+    return sampled(ranges_of(verb.vary), static_cast<std::size_t>(verb.samples), sampling,
+                   static_cast<std::uint64_t>(verb.seed));
+}
+
 int run(const SweepVerb& verb) {
-    for (const std::string& file : {verb.output, verb.svg}) check_output(file, {verb.scene});
+    for (const std::string& file : {verb.output, verb.svg}) check_output(file, {verb.scene, verb.vary_from});
     need_table_form(verb.output);
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Grid grid = grid_of(verb.vary);
+    const Grid grid = points_of(verb);
     if (!verb.svg.empty()) need_pictured(grid);
     const Sweep swept = sweep(scene_of(verb.scene), grid, wishes, verb.threads);
     progress.wipe();
     warn(swept.warnings);
-    if (!verb.output.empty()) write_file(verb.output, table_file(swept, verb.output), {verb.scene});
-    if (!verb.svg.empty()) write_file(verb.svg, sweep_plot(swept, wishes.columns), {verb.scene});
+    if (!verb.output.empty())
+        write_file(verb.output, table_file(swept, verb.output), {verb.scene, verb.vary_from});
+    if (!verb.svg.empty()) write_file(verb.svg, sweep_plot(swept, wishes.columns), {verb.scene, verb.vary_from});
     if (verb.json) {
         Json result = as_json(swept);
+        if (!verb.vary_from.empty()) result["vary_from"] = verb.vary_from;
+        if (verb.samples > 0)
+            result.update({{"samples", verb.samples}, {"sampling", verb.sampling}, {"seed", verb.seed}});
         if (!verb.output.empty())
             result["file"] = verb.output;
         else
@@ -70,14 +95,25 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
          .example = "alembert sweep scenes/textbook/crane.toml --vary l=1:9:100"},
         run, [](Verb& verb, SweepVerb& options) {
             verb.add_option("--vary", options.vary, say("NAME=FROM:TO:COUNT; several make a grid"))
-                .type_name(values::range)
-                .required();
+                .type_name(values::range);
+            verb.add_option("--vary-from", options.vary_from, say("CSV: names, then a point in each line"))
+                .type_name(values::file);
+            verb.add_option("--samples", options.samples, say("N points in the ranges NAME=FROM:TO"))
+                .type_name(values::count)
+                .between(1, static_cast<int>(most_points));
+            verb.add_option("--sampling", options.sampling, say("how they lie: sobol (default), latin, uniform"))
+                .type_name(values::sampling)
+                .one_of({"sobol", "latin", "uniform"})
+                .needs("--samples");
+            verb.add_option("--seed", options.seed, say("of the samples; default: 0"))
+                .type_name(values::count)
+                .between(0, 2147483647)
+                .needs("--samples");
             add_run_options(verb, options);
             verb.add_option("--threads", options.threads, say("default: as many as there are cores"))
                 .type_name(values::count)
                 .between(1, 1024);
-            verb.add_option("--svg", options.svg,
-                            say("SVG picture: lines over one varied quantity, maps over two"))
+            verb.add_option("--svg", options.svg, say("SVG picture: lines over one quantity, maps over two"))
                 .type_name(values::file);
             add_show_option(verb, options.show, "--svg");
         });

@@ -16,8 +16,6 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t most_points = 1'000'000;
-
 bool read(std::string_view text, long& value) {
     if (text.starts_with('+')) text.remove_prefix(1);
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -68,6 +66,20 @@ Axis range_of(const std::string& option, const std::string& item, std::size_t co
     const Axis axis = axis_of(option, item, count);
     if (axis.count > 2000) throw ModelError(say("{} {}: expected at most 2000 values", option, item));
     return axis;
+}
+
+std::vector<Axis> ranges_of(const std::vector<std::string>& vary) {
+    std::vector<Axis> axes;
+    for (const std::string& item : vary) {
+        const Axis axis = axis_of("--vary", item, 0);
+        if (axis.count != 0)
+            throw ModelError(say("--vary {}: with --samples a range has no count; leave it out", item));
+        for (const Axis& other : axes)
+            if (other.name == axis.name) throw ModelError(say("--vary {}: '{}' is varied twice", item, axis.name));
+        axes.push_back(axis);
+    }
+    if (axes.empty()) throw ModelError(say("--samples needs ranges; expected --vary NAME=FROM:TO"));
+    return axes;
 }
 
 Grid grid_of(const std::vector<std::string>& vary) {

@@ -13,6 +13,11 @@ namespace alembert {
 /// count of at least 1, if a name is given twice, or if there are more than a million points.
 Grid grid_of(const std::vector<std::string>& vary);
 
+constexpr std::size_t most_points = 1'000'000;
+
+/// The ranges NAME=FROM:TO of --vary with --samples. Throws ModelError likewise, and for a range with a count.
+std::vector<Axis> ranges_of(const std::vector<std::string>& vary);
+
 /// NAME=FROM:TO or NAME=FROM:TO:COUNT of an option; `count` where there is none. Throws ModelError likewise.
 Axis range_of(const std::string& option, const std::string& item, std::size_t count);
 

@@ -80,6 +80,7 @@ bool written(const StoredTable& table, std::string& bytes) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_core(access, piece, false);  // in memory: the program writes all its files in one way
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);  // texts of any length as attributes
     const Handle file(H5Fcreate("table.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
     if (file < 0) return false;
     std::vector<std::string> names;

@@ -195,6 +195,8 @@ std::string lines(const Sweep& s, std::size_t axis, const std::vector<std::strin
 }  // namespace
 
 void need_pictured(const Grid& grid) {
+    if (grid.is_listed())
+        throw ModelError(say("--svg draws grids only; points of a file and samples are in the table"));
     if (varying(grid).size() > 2)
         throw ModelError(say("--svg: a picture shows one or two varied quantities, and this sweep varies {}",
                              fmt::join(grid.names(), ", ")));

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/grid.hpp"
 
+#include <algorithm>
+
 namespace alembert {
 
 std::size_t Grid::size() const {
+    if (is_listed()) return listed.size() / axes.size();
     std::size_t points = 1;
     for (const Axis& axis : axes) points *= axis.count;
     return points;
@@ -11,6 +14,10 @@ std::size_t Grid::size() const {
 
 std::vector<double> Grid::point(std::size_t k) const {
     std::vector<double> values(axes.size());
+    if (is_listed()) {
+        std::copy_n(listed.begin() + static_cast<std::ptrdiff_t>(k * axes.size()), axes.size(), values.begin());
+        return values;
+    }
     for (std::size_t i = axes.size(); i-- > 0;) {
         const Axis& axis = axes[i];
         const std::size_t step = k % axis.count, last = axis.count - 1;

@@ -6,7 +6,8 @@
 ///     const Grid grid{{{"theta1", 0, 3, 4}, {"l1", 1, 2, 2}}};     // 8 points, the last name the fastest
 ///     grid.point(3);                                               // {1, 2}
 ///
-/// `count` evenly spaced values from `from` to `to`, both included; a single value is `from`.
+/// `count` evenly spaced values from `from` to `to`, both included; a single value is `from`. A grid may have a
+/// list of points in place of these, as from a file or random (run/samples.hpp).
 
 #include <string>
 #include <vector>
@@ -21,10 +22,12 @@ struct Axis {
 
 struct Grid {
     std::vector<Axis> axes;
+    std::vector<double> listed = {};  ///< if not empty, the points, one value for each axis, point after point
 
     std::size_t size() const;
     std::vector<double> point(std::size_t k) const;
     std::vector<std::string> names() const;
+    bool is_listed() const { return !listed.empty(); }
 };
 
 }  // namespace alembert

@@ -260,6 +260,16 @@ class Scene:
         """Masses, centres of mass and moments of inertia of bodies (all of them, or those named)."""
         return Result(_taken(_alembert.inertia(self.text, self.name, list(of), about, at or {})))
 
+    def fmu(self, path, *, fmi=2, by=""):
+        """Writes a functional mock-up unit of FMI 2.0 or 3.0 to this file; its states, inputs, outputs, parameters."""
+        if fmi not in (2, 3):
+            raise ValueError(f"fmi={fmi!r}: there are the versions 2 and 3")
+        path = _os.fspath(path)
+        archive, *answer = _alembert.fmu(self.text, self.name, by, fmi, path)
+        with open(path, "wb") as file:
+            file.write(archive)
+        return Result(_taken(answer))
+
     def simulate(self, duration=None, tolerance=None, *, method="", step=None, sample=None, max_step=None,
                  budget=10_000_000, estimate=True, reactions=False, by=""):
         """Integrates the motion. What is not given is the scene's."""

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/vary_from.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "alembert/error.hpp"
+#include "commands/vary.hpp"
+#include "commands/verb.hpp"
+#include "language/say.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// The fields of a line without blanks around them and without quotes.
+std::vector<std::string> fields_of(const std::string& line) {
+    std::vector<std::string> fields;
+    for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        std::string field = line.substr(begin, end - begin);
+        field.erase(0, std::min(field.find_first_not_of(" \t\""), field.size()));
+        field.erase(field.find_last_not_of(" \t\r\"") + 1);
+        fields.push_back(std::move(field));
+        begin = end + 1;
+    }
+    return fields;
+}
+
+bool is_blank(const std::string& line) {
+    return line.find_first_not_of(" \t\r") == std::string::npos;
+}
+
+}  // namespace
+
+Grid grid_from_file(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) throw ModelError(say("--vary-from {}: it cannot be read: {}", path, std::strerror(errno)));
+    Grid grid;
+    std::size_t number = 0, points = 0;
+    const auto wrong = [&](const std::string& what) {
+        return ModelError(
+            say("{}:{}: {}; expected names with commas between in the first line, and a number for each "
+                "of them in each other line",
+                path, number, what));
+    };
+    for (std::string line; std::getline(file, line);) {
+        ++number;
+        if (is_blank(line)) continue;
+        const std::vector<std::string> fields = fields_of(line);
+        if (grid.axes.empty()) {
+            for (const std::string& name : fields) {
+                if (name.empty()) throw wrong(say("a name is missing"));
+                for (const Axis& other : grid.axes)
+                    if (other.name == name) throw wrong(say("{} stands there twice", in_quotes(name)));
+                grid.axes.push_back({.name = name});
+            }
+            continue;
+        }
+        if (fields.size() != grid.axes.size())
+            throw wrong(say("there are {} values for {} names", fields.size(), grid.axes.size()));
+        if (++points > most_points) throw wrong(say("there are more than {} points", most_points));
+        for (std::size_t k = 0; k < fields.size(); ++k) {
+            double value = NAN;
+            try {
+                value = number_of(fields[k]);
+            } catch (const ModelError&) {
+            }
+            if (!std::isfinite(value)) throw wrong(say("'{}' is no finite number", fields[k]));
+            Axis& axis = grid.axes[k];
+            axis.from = points == 1 ? value : std::min(axis.from, value);
+            axis.to = points == 1 ? value : std::max(axis.to, value);
+            grid.listed.push_back(value);
+        }
+    }
+    if (points == 0) throw wrong(say("there are no points"));
+    for (Axis& axis : grid.axes) axis.count = points;
+    return grid;
+}
+
+}  // namespace alembert
