@@ -105,6 +105,21 @@ TEST_CASE("check: the slips of students are named") {
                "m2*g*sin(theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta2)") == "wrong_row");
 }
 
+TEST_CASE("check: slips in equations of speeds and in relations of kinematics are named, with the right claim") {
+    const auto slip = [](const std::string& scene, const std::string& claim) {
+        const Checked result = checked(scene, claim + "\n");
+        REQUIRE(result.claims[0].verdict == Verdict::refuted);
+        REQUIRE(result.claims[0].likely);
+        return *result.claims[0].likely;
+    };
+    CHECK(slip("heavy_top_quaternion", "A*w1' = 2*m*g*l*(e2*e3 + e0*e1)").term == "-(A - C)*w2*w3");
+    CHECK(slip("free_body_quaternion", "2*e0' = -e1*w1 - e2*w2").term == "w3*e3");
+    const Slip turned = slip("euler_angles", "dot(ez(N), ey(F)) = -sin(theta)*cos(phi)");
+    CHECK(turned.kind == "sign");
+    CHECK(turned.repair == "-dot(ez(N), ey(F)) = -sin(theta)*cos(phi)");
+    CHECK(slip("universal_joint", "2*dot(alpha(S2), ez(S2)) = theta2''").kind == "factor");
+}
+
 TEST_CASE("check: the slips in claims about rest and about impacts are named too") {
     const auto slip = [](const std::string& scene, const std::string& claim) {
         CAPTURE(claim);

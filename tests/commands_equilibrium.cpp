@@ -319,6 +319,36 @@ vector = ["-P*cos(b)", "-P*sin(b)"]
     CHECK(are_close(points(load, "hamiltonian hopf"), {3.5 - std::sqrt(2.0)}, 1e-10));
 }
 
+// 4 g = (c1 + c2) v.
+TEST_CASE(
+    "equilibrium: two bodies on one rod sink at their common speed, though one's coordinate stands in a "
+    "constraint") {
+    const std::string sinking = temporary("sinking.toml", R"toml(
+gravity = [0, -9.81, 0]
+[coordinates]
+y1 = { initial = 1, rate = -1 }
+y2 = { initial = 0, rate = -1 }
+[[particle]]
+name = "upper"
+mass = 1
+position = [0, "y1"]
+[[particle]]
+name = "lower"
+mass = 3
+position = [0, "y2"]
+[[constraint]]
+name = "rod"
+holonomic = "y1 - y2 - 1"
+[forces]
+y1 = "-0.5*y1'"
+y2 = "-1.5*y2'"
+)toml");
+    const Json one = found(sinking)["equilibria"].at(0);
+    CHECK(one["rates"]["y1"].get<double>() == doctest::Approx(-4 * 9.81 / 2).epsilon(1e-14));
+    CHECK(one["rates"]["y2"] == one["rates"]["y1"]);
+    CHECK(one["stable"] == "yes");
+}
+
 TEST_CASE("equilibrium: scenes without equilibria are refused, each with its reason") {
     const auto says = [](const std::vector<std::string>& args, int code, const std::string& words) {
         const auto result = run(args);
@@ -328,6 +358,7 @@ TEST_CASE("equilibrium: scenes without equilibria are refused, each with its rea
     };
     says({"equilibrium", on_a_line("push.toml", "2*mu")}, 3, "the force along x' is 1 at every state");
     says({"equilibrium", on_a_line("none.toml", "1 + x^2")}, 2, "This is no proof that there is none");
+    says({"equilibrium", textbook("linked_particles")}, 2, "This is no proof that there is none");
     says({"equilibrium", textbook("cart_pole")}, 3, "the input F changes with time");
     says({"equilibrium", textbook("bouncing_ball"), "--at", "y=0", "--at", "y'=0"}, 3, "is closed at this state");
     says({"equilibrium", textbook("rotating_hoop"), "--follow", "theta=0:1"}, 3, "as an unknown");

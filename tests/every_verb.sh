@@ -80,11 +80,12 @@ every() { # SCENE
     run derive "$scene" --json --reactions
     run derive "$scene" --draw "$folder/figure.svg"
     for by in $formalisms; do run derive "$scene" --by "$by" --steps; done
-    for verb in agree audit check eval equilibrium linearize stability inertia inverse impact; do run "$verb" "$scene"; done
+    for verb in agree audit check eval equilibrium linearize stability inertia identify inverse impact; do run "$verb" "$scene"; done
     for verb in agree audit check equilibrium linearize stability; do run "$verb" "$scene" --json; done
     run emit "$scene" -o "$folder"
     run emit "$scene" -o "$folder" --fold --jacobian --batch --json
     run emit "$scene" -o "$folder" --language c --jacobian --standalone
+    for version in 2 3; do run fmu "$scene" -o "$folder/unit.fmu" --fmi "$version" --json; done
     run simulate "$scene" "${short[@]}" --json --reactions -o "$folder/motion.csv" --sample 0.01
     for method in rk4 gauss; do run simulate "$scene" "${short[@]}" --method "$method" --step 0.005; done
     for method in radau taylor; do run simulate "$scene" "${short[@]}" --method "$method" --no-estimate; done

@@ -79,6 +79,23 @@ void add_products(const std::vector<std::string>& atoms, const std::vector<std::
 
 }  // namespace
 
+namespace {
+
+/// Terms that are usual in equations in the scene's speeds, as Euler's of a gyrostat: w2*w3, e1*w1, w1*sigma'.
+std::vector<std::string> products_of_speeds(const Mechanism& m) {
+    if (m.speeds.empty()) return {};
+    std::vector<std::string> atoms, terms;
+    for (const Mechanism::Speed& speed : m.speeds)
+        for (const char* primes : {"", "'"}) atoms.push_back(speed.u.get_name() + primes);
+    for (const Mechanism::Input& input : m.inputs)
+        for (const GiNaC::symbol& value : input.derivative) atoms.push_back(value.get_name());
+    for (const GiNaC::symbol& q : m.q) atoms.push_back(q.get_name());
+    add_products(atoms, {}, terms);
+    return terms;
+}
+
+}  // namespace
+
 EquationTerms equation_terms(const Mechanism& m, const Equations& e) {
     EquationTerms result;
     const Derivation shown = derivation_of(m, e);
@@ -109,8 +126,9 @@ EquationTerms equation_terms(const Mechanism& m, const Equations& e) {
 
 std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& m, const Equations& e,
                                             const EquationTerms& known) {
-    if (!known.is_short) return {};
-    std::vector<std::string> terms = known.of_equations, at_rest, in_motion;
+    std::vector<std::string> terms = products_of_speeds(m), at_rest, in_motion;
+    if (!known.is_short) return terms;
+    terms.insert(terms.end(), known.of_equations.begin(), known.of_equations.end());
     const std::vector<std::string>& energies = known.of_energies;
     terms.insert(terms.end(), energies.begin(), energies.end());
     std::set<std::string> angles = known.angles;
@@ -158,6 +176,13 @@ std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& m) {
     };
     for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs}) collect(*side->tree, side->text);
     std::vector<std::string> result(parameters.begin(), parameters.end());
+    if (!m.speeds.empty())  // (A - C)*w2*w3 of Euler's equations
+        for (std::size_t i = 0; i < m.parameters.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                const Mechanism::Parameter &a = m.parameters[j], &b = m.parameters[i];
+                if (!a.unit.empty() && a.unit == b.unit)
+                    sums.insert(fmt::format("({} - {})", a.symbol.get_name(), b.symbol.get_name()));
+            }
     result.insert(result.end(), sums.begin(), sums.end());
     return result;
 }

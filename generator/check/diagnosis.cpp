@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "check/dimensions.hpp"
@@ -11,6 +12,7 @@
 #include "check/vanishing.hpp"
 #include "formalism/rest.hpp"
 #include "language/say.hpp"
+#include "scene/functions.hpp"
 
 namespace alembert {
 
@@ -18,6 +20,16 @@ using GiNaC::ex;
 using GiNaC::numeric;
 
 namespace {
+
+bool has_vectors(const Tree& tree) {
+    const Function* const function = tree.kind == Tree::Kind::call ? find_function(tree.text) : nullptr;
+    return (function != nullptr && function->takes == Function::Takes::vectors) ||
+           std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& arg) { return has_vectors(*arg); });
+}
+
+bool has_vectors(const Claim& claim) {
+    return has_vectors(*claim.equation.lhs.tree) || has_vectors(*claim.equation.rhs.tree);
+}
 
 class Diagnostician {
 public:
@@ -42,7 +54,7 @@ public:
             }
         const auto right = [&](const Claim& repaired) {
             try {
-                return holds_quickly(claims_.read(repaired));
+                return holds_quickly(claims_.read(repaired), asked_.at_impact || has_vectors(repaired));
             } catch (const SceneMistake&) {
                 return false;
             }
@@ -114,7 +126,8 @@ private:
         return result;
     }
 
-    bool holds_quickly(const ClaimForm& form) {
+    /// An identity is no repair, unless it says something: how a vector of the scene is composed.
+    bool holds_quickly(const ClaimForm& form, bool may_be_identity) {
         if (!form.open.empty()) {
             // The claim is tested with the right claims of its group; if these do not determine the open names, it
             // is tested with all claims of the group.
@@ -127,7 +140,7 @@ private:
         }
         Program p;
         const int root = claims_.lower(p, {form.residual})[0];
-        if (p.is_zero(root)) return asked_.at_impact;  // otherwise an identity is no repair
+        if (p.is_zero(root)) return may_be_identity;
         return vanishes_at_two(states_, p, root);
     }
 

@@ -4,104 +4,34 @@
 #include "check/dimensions.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "scene/unit_text.hpp"
+
 namespace alembert {
 
 namespace {
 
-using Dimension = std::map<std::string, double>;  ///< base unit → exponent, none of them 0
-using Known = std::optional<Dimension>;           ///< nothing if it may be any
+using Dimension = UnitExponents;         ///< without rad, which is a number here
+using Known = std::optional<Dimension>;  ///< nothing if it may be any
 
-Dimension multiplied(Dimension a, const Dimension& b, double exponent = 1) {
-    for (const auto& [base, power] : b)
-        if ((a[base] += exponent * power) == 0) a.erase(base);
-    return a;
+Known dimension_of_unit(const std::string& text) {
+    const std::optional<UnitMeaning> unit = meaning_of_unit(text);
+    if (!unit) return {};
+    Dimension result = unit->exponents;
+    result.erase("rad");
+    return result;
 }
-
-/// "kg m^2/s": words with whole exponents, joined by spaces, points, * and /; a / applies to the next word only.
-class UnitText {
-public:
-    explicit UnitText(const std::string& text) : text_(text) {}
-
-    Known dimension() {
-        Dimension result = product();
-        return bad_ || at_ < text_.size() ? Known() : Known(std::move(result));
-    }
-
-private:
-    bool take(char c) {
-        if (at_ >= text_.size() || text_[at_] != c) return false;
-        ++at_;
-        return true;
-    }
-
-    Dimension product() {
-        Dimension result;
-        bool divides = false;
-        while (at_ < text_.size() && text_[at_] != ')' && !bad_) {
-            if (take(' ') || take('*') || take('.')) continue;
-            if (take('/')) {
-                divides = true;
-                continue;
-            }
-            const bool in_brackets = take('(');
-            const Dimension factor = in_brackets ? product() : word();
-            bad_ = bad_ || (in_brackets && !take(')'));
-            result = multiplied(std::move(result), factor, (divides ? -1 : 1) * exponent());
-            divides = false;
-        }
-        return result;
-    }
-
-    double exponent() {
-        if (!take('^')) return 1;
-        const bool minus = take('-');
-        int value = 0;
-        const std::size_t start = at_;
-        while (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0)
-            value = 10 * value + (text_[at_++] - '0');
-        bad_ = bad_ || at_ == start || value > 99;
-        return minus ? -value : value;
-    }
-
-    Dimension word() {
-        static const std::map<std::string, Dimension> derived{
-            {"1", {}},
-            {"rad", {}},
-            {"deg", {}},
-            {"N", {{"kg", 1}, {"m", 1}, {"s", -2}}},
-            {"J", {{"kg", 1}, {"m", 2}, {"s", -2}}},
-            {"W", {{"kg", 1}, {"m", 2}, {"s", -3}}},
-            {"Pa", {{"kg", 1}, {"m", -1}, {"s", -2}}},
-            {"Hz", {{"s", -1}}},
-            {"C", {{"A", 1}, {"s", 1}}},
-            {"V", {{"kg", 1}, {"m", 2}, {"s", -3}, {"A", -1}}},
-            {"T", {{"kg", 1}, {"s", -2}, {"A", -1}}},
-        };
-        const std::size_t start = at_;
-        while (at_ < text_.size() && std::string(" *./^()").find(text_[at_]) == std::string::npos) ++at_;
-        const std::string name = text_.substr(start, at_ - start);
-        bad_ = bad_ || name.empty();
-        const auto found = derived.find(name);
-        return found != derived.end() ? found->second : Dimension{{name, 1}};
-    }
-
-    const std::string& text_;
-    std::size_t at_ = 0;
-    bool bad_ = false;
-};
 
 class Dimensions {
 public:
     explicit Dimensions(const Mechanism& m) {
         const auto know = [this](const std::string& name, const std::string& unit) {
             if (!unit.empty())
-                if (const Known dimension = UnitText(unit).dimension()) names_[name] = *dimension;
+                if (const Known dimension = dimension_of_unit(unit)) names_[name] = *dimension;
         };
         for (const Mechanism::Parameter& p : m.parameters) know(p.symbol.get_name(), p.unit);
         for (std::size_t i = 0; i < m.units.size(); ++i) know(m.q[i].get_name(), m.units[i]);

@@ -18,12 +18,16 @@ namespace {
 struct EmitVerb : SceneOptions {
     std::string folder;
     std::string language = "cpp";
+    std::string functions;
+    std::vector<std::string> frames;
     EmissionOptions emission;
 };
 
 int run(const EmitVerb& options) {
     EmissionOptions wishes = options.emission;
     wishes.by = options.by;
+    wishes.functions = alembert::names_of(options.functions);
+    wishes.frames = options.frames;
     wishes.language = options.language == "c" ? CodeLanguage::c : CodeLanguage::cpp;
     const Emission e = emission(scene_of(options.scene), wishes);
     warn(e.warnings);
@@ -65,6 +69,14 @@ void add_emit(CLI::App& app, Chosen& chosen) {
             verb.add_flag("--fold", options.emission.fold, say("parameters as constants"));
             verb.add_flag("--jacobian", options.emission.jacobian,
                           say("also the derivatives of the right-hand side"));
+            verb.add_option("--functions", options.functions,
+                            say("functions of their own: inverse, mass, bias, gravity, loads, com, com_jacobian, "
+                                "momentum, regressor"))
+                .type_name(values::names);
+            verb.add_option(
+                    "--frame", options.frames,
+                    say("a point or body, or P@F: pose, Jacobian, velocity, acceleration; may be repeated"))
+                .type_name(values::point);
             verb.add_flag("--batch", options.emission.batch,
                           say("also the same functions for eight systems at once"));
             add_by_option(verb, options.by);

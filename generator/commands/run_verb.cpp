@@ -22,7 +22,8 @@ void add_run_options(Verb& verb, RunVerb& options) {
     verb.add_option("--step", w.step, say("fixed step, for methods without step control"))
         .type_name(values::seconds)
         .positive();
-    verb.add_option("-o,--output", options.output, say("table as CSV")).type_name(values::file);
+    verb.add_option("-o,--output", options.output, say("table as CSV, or NAME.npz (NumPy), NAME.h5 (HDF5)"))
+        .type_name(values::file);
     add_limits(verb, w);
     verb.add_flag("--fast-math", w.fast_math, say("let the compiler reorder sums"));
     add_by_option(verb, options.by);

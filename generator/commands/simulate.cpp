@@ -11,6 +11,7 @@
 #include "language/say.hpp"
 #include "report/motion_plot.hpp"
 #include "report/run.hpp"
+#include "report/table_file.hpp"
 #include "run/section.hpp"
 
 namespace alembert {
@@ -25,6 +26,7 @@ struct SimulateVerb : RunVerb {
 
 int run(const SimulateVerb& verb) {
     for (const std::string& file : {verb.output, verb.plot}) check_output(file, {verb.scene});
+    need_table_form(verb.output);
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);
@@ -40,7 +42,7 @@ int run(const SimulateVerb& verb) {
     const SectionOfRun section{verb.section, take_crossings(run)};
     progress.wipe();
     warn(run.warnings);
-    if (!verb.output.empty()) write_file(verb.output, as_csv(run.rows), {verb.scene});
+    if (!verb.output.empty()) write_file(verb.output, table_file(run, verb.output), {verb.scene});
     if (!verb.plot.empty()) write_file(verb.plot, motion_plot(run, wishes.columns), {verb.scene});
     if (verb.json) {
         Json all = as_json(run);

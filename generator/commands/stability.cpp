@@ -133,7 +133,7 @@ void add_stability(CLI::App& app, Chosen& chosen) {
     add_scene_verb<StabilityVerb>(
         app, chosen,
         {.name = "stability",
-         .about = say("says whether an equilibrium, a steady motion or a polynomial is stable, and why"),
+         .about = say("says whether an equilibrium or a motion is stable, and why"),
          .example = "alembert stability scenes/textbook/watt_governor.toml --at alpha=0"},
         run, [](Verb& verb, StabilityVerb& options) {
             add_by_option(verb, options.by);

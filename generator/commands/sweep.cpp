@@ -12,6 +12,7 @@
 #include "language/say.hpp"
 #include "report/sweep.hpp"
 #include "report/sweep_plot.hpp"
+#include "report/table_file.hpp"
 
 namespace alembert {
 
@@ -26,6 +27,7 @@ struct SweepVerb : RunVerb {
 
 int run(const SweepVerb& verb) {
     for (const std::string& file : {verb.output, verb.svg}) check_output(file, {verb.scene});
+    need_table_form(verb.output);
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);
@@ -36,7 +38,7 @@ int run(const SweepVerb& verb) {
     const Sweep swept = sweep(scene_of(verb.scene), grid, wishes, verb.threads);
     progress.wipe();
     warn(swept.warnings);
-    if (!verb.output.empty()) write_file(verb.output, as_csv(swept), {verb.scene});
+    if (!verb.output.empty()) write_file(verb.output, table_file(swept, verb.output), {verb.scene});
     if (!verb.svg.empty()) write_file(verb.svg, sweep_plot(swept, wishes.columns), {verb.scene});
     if (verb.json) {
         Json result = as_json(swept);

@@ -28,6 +28,7 @@ std::vector<ValueKind> all_kinds() {
             {.name = values::method, .plural = say("Methods"), .words = method_words()},
             {.name = values::format, .words = {"text", "latex", "mathml"}},
             {.name = values::reading, .words = {"en", "zh"}},
+            {.name = values::interface_version, .words = {"2", "3"}},
             {.name = values::language, .words = {"cpp", "c"}},
             {.name = values::shell, .words = {"bash", "zsh", "fish"}}};
 }

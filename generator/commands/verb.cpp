@@ -120,9 +120,10 @@ void add_at_option(Verb& verb, std::vector<std::string>& at) {
 
 void add_verbs(CLI::App& app, Chosen& chosen) {
     for (const auto add :
-         {add_derive,    add_agree,      add_audit,   add_check,   add_eval,   add_equilibrium, add_linearize,
-          add_stability, add_kinematics, add_inertia, add_inverse, add_impact, add_emit,        add_import,
-          add_simulate,  add_sweep,      add_bench,   add_report,  add_watch,  add_completion,  add_manual})
+         {add_derive,    add_agree,     add_audit,      add_check,      add_eval,     add_equilibrium,
+          add_linearize, add_stability, add_kinematics, add_inertia,    add_identify, add_inverse,
+          add_impact,    add_emit,      add_fmu,        add_import,     add_simulate, add_sweep,
+          add_bench,     add_report,    add_watch,      add_completion, add_manual})
         add(app, chosen);
 }
 

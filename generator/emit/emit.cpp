@@ -71,6 +71,7 @@ public:
         const Operations cost = p_.count(p_.right_hand_side());
         add_functions();
         add_derivatives();
+        add_named_functions();
         file_.set("functions", functions_);
         describe(cost);
         add_counts();
@@ -111,6 +112,7 @@ private:
         const bool has_gamma = !p_.nodes_of(Group::gamma).empty(), moves = !p_.nodes_of(Group::projected).empty();
         const bool is_needed = has_gamma || std::any_of(position.begin(), position.end(),
                                                         [&](int node) { return !p_.is_zero(node); });
+        add(impulses_at(p_));
         add(project(p_));
         add(moves ? gamma_at(p_)
                   : FunctionTask{.name = "gamma_at", .about = {}, .arguments = {}, .goals = {}, .results = {}});
@@ -119,18 +121,38 @@ private:
 
     void add_derivatives() {
         const std::vector<int> nodes = p_.nodes_of(Group::jacobian);
-        const SparseTask by_state = jacobian(p_), by_parameters = parameter_jacobian(p_);
-        add(by_state.task);
-        add(by_parameters.task);
+        const SparseTask by_state = jacobian(p_), by_parameters = parameter_jacobian(p_),
+                         of_values = value_gradient(p_);
+        for (const SparseTask* part : {&by_state, &by_parameters, &of_values}) add(part->task);
         file_.set("has_derivatives", !nodes.empty());
         file_.set("has_parameter_derivatives", !p_.nodes_of(Group::parameter_jacobian).empty());
         file_.set("rows", wrapped_list(by_state.rows));
         file_.set("columns", wrapped_list(by_state.columns));
         file_.set("parameter_rows", wrapped_list(by_parameters.rows));
         file_.set("parameter_columns", wrapped_list(by_parameters.columns));
+        file_.set("value_rows", wrapped_list(of_values.rows));
+        file_.set("value_columns", wrapped_list(of_values.columns));
+        number("value_entries", of_values.rows.size());
         number("entries", by_state.rows.size());
         number("parameter_entries", by_parameters.rows.size());
         number("derivative_operations", static_cast<std::size_t>(p_.count(nodes).total()));
+    }
+
+    void add_named_functions() {
+        mustache::data list{mustache::data::type::list};
+        for (const NamedFunction& function : options_.functions) {
+            const FunctionTask task = named_function(p_, function);
+            for (const EmittedFunction& part : written(p_, words_, task, options_)) functions_ << data_of(part);
+            mustache::data entry;
+            entry.set("name", function.name);
+            entry.set("about", task.about);
+            entry.set("rows", std::to_string(function.rows));
+            entry.set("columns", std::to_string(function.columns));
+            entry.set("operations", std::to_string(function.operations.total()));
+            list << entry;
+        }
+        file_.set("named_functions", list);
+        file_.set("has_named_functions", !options_.functions.empty());
     }
 
     void describe(const Operations& cost) {

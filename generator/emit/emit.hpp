@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "emit/statement.hpp"
+#include "program/named_function.hpp"
 #include "program/processor.hpp"
 #include "program/program.hpp"
 
@@ -34,6 +35,7 @@ struct Source {
 struct EmitOptions {
     bool batch = false;  ///< whether to write alembert_pack too; not possible in C
     CodeLanguage language = CodeLanguage::cpp;
+    std::vector<NamedFunction> functions = {};  ///< functions of their own, whose nodes are in the program
     std::size_t longest_function =
         processor::longest_function;  ///< in statements; a longer function is written in parts (parts.hpp)
 };

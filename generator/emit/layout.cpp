@@ -73,6 +73,13 @@ std::string described(const std::vector<std::string>& names, const std::vector<Q
     return result + line;
 }
 
+std::string described(const NamedFunction& function) {
+    const std::string shape = function.columns == 1
+                                  ? counted(function.rows, "value")
+                                  : fmt::format("{} x {}, row by row", function.rows, function.columns);
+    return fmt::format("{}; {}", shape, counted(function.operations.total(), "operation"));
+}
+
 std::string counted(long count, const std::string& noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

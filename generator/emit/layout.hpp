@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "program/program.hpp"
+#include "program/named_function.hpp"
 
 namespace alembert {
 
@@ -23,6 +23,9 @@ std::string quoted(const std::vector<std::string>& names);
 
 /// "l1 [m], l2 [m]" over several lines of a comment.
 std::string described(const std::vector<std::string>& names, const std::vector<Quantity>& quantities);
+
+/// "7 x 7, row by row; 120 operations": the shape of its values, and their cost.
+std::string described(const NamedFunction& function);
 
 /// "1 division", "2 divisions".
 std::string counted(long count, const std::string& noun);

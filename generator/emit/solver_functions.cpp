@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "emit/layout.hpp"
+
 namespace alembert {
 
 namespace {
@@ -229,6 +231,29 @@ FunctionTask gamma_at(const Program& p) {
     return task;
 }
 
+FunctionTask impulses_at(const Program& p) {
+    FunctionTask task{.name = "impulses_at",
+                      .about = "The generalized impulses of each event that has some, of the rates before.",
+                      .arguments = {t, state, par, to("out")},
+                      .goals = {},
+                      .results = {}};
+    add_results(task.results, p, Group::event_impulse, "out");
+    task.goals = unnamed("Impulses", task.results);
+    return task;
+}
+
+FunctionTask named_function(const Program&, const NamedFunction& function) {
+    FunctionTask task{.name = function.name,
+                      .about = fmt::format("{} {}.", function.about, described(function)),
+                      .arguments = {t, state, rate, par, to("out")},
+                      .goals = {},
+                      .results = {}};
+    for (std::size_t k = 0; k < function.nodes.size(); ++k)
+        task.results.push_back({"out", fmt::format("out[{}]", k), function.nodes[k]});
+    task.goals = unnamed("Values", task.results);
+    return task;
+}
+
 SparseTask jacobian(const Program& p) {
     const std::size_t width = p.coordinates.size() + speeds_of(p);
     return sparse({.name = "jacobian",
@@ -246,6 +271,15 @@ SparseTask parameter_jacobian(const Program& p) {
                    .goals = {},
                    .results = {}},
                   p, {{Group::parameter_jacobian, 0}}, p.parameters.size());
+}
+
+SparseTask value_gradient(const Program& p) {
+    return sparse({.name = "value_gradient",
+                   .about = "Derivatives of T, V, E, the power and the outputs by state, u' and parameters.",
+                   .arguments = {t, state, rate, par, to("values")},
+                   .goals = {},
+                   .results = {}},
+                  p, {{Group::value_gradient, 0}}, p.coordinates.size() + 2 * speeds_of(p) + p.parameters.size());
 }
 
 }  // namespace alembert

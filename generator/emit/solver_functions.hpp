@@ -5,6 +5,7 @@
 /// sections.
 
 #include "emit/function.hpp"
+#include "program/named_function.hpp"
 
 namespace alembert {
 
@@ -19,6 +20,11 @@ FunctionTask multipliers_at(const Program& program);
 /// One step of the projection to the constraints; it has no results if there is no such step.
 FunctionTask project(const Program& program);
 FunctionTask gamma_at(const Program& program);
+/// The impulses of events; without results if no event of the program has one.
+FunctionTask impulses_at(const Program& program);
+
+/// A function of its own, out = its values.
+FunctionTask named_function(const Program& program, const NamedFunction& function);
 
 /// The entries of a Jacobian that are not zero.
 struct SparseTask {
@@ -27,5 +33,7 @@ struct SparseTask {
 };
 SparseTask jacobian(const Program& program);
 SparseTask parameter_jacobian(const Program& program);
+/// Derivatives of energies and outputs; without results unless they were asked for (DerivativeWishes::values).
+SparseTask value_gradient(const Program& program);
 
 }  // namespace alembert

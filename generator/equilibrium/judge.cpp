@@ -82,8 +82,8 @@ bool is_singular(const SteadyProblem& problem, const Instant<long double>& at, c
     for (std::size_t i = 0; i < other.q.size(); ++i)
         other.q[i] += beside * problem.scales()[i] / static_cast<long double>(i + 1);
     if (!problem.settle_at(other)) return false;
-    const SteadySystem there = problem.linearized_at(other, other.u);
-    return least(mass) < nothing * least(there.tangent.mass);
+    const Split split = problem.linearized_at(other, other.u).split;
+    return least(mass) < nothing * least(tangent(problem.residuals(), split, other).mass);
 }
 
 /// Are these zero eigenvalues those of a family of steady motions, one for each value of the cyclic rates?

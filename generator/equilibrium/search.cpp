@@ -16,7 +16,7 @@ namespace {
 constexpr long double pi = 3.14159265358979323846264338327950288L, turn = 2 * pi;
 constexpr long double same = 1e-9L, same_if_singular = 1e-5L;  // in units of the scales
 constexpr int most_starts = 1500, least_starts = 60;
-constexpr double most_work = 3e6;  // starts times nodes times unknowns: a second or two
+constexpr double most_work = 1.5e6;  // starts times nodes times unknowns: a second or two
 
 /// The k-th number, for the i-th coordinate, of a sequence that fills (0, 1) evenly. (Halton, Numer. Math. 2
 /// (1960) 84.)
@@ -154,7 +154,7 @@ namespace {
 int usual_starts(const SteadyProblem& problem, int dimension) {
     const Residuals& r = problem.residuals();
     const int wanted = std::min(most_starts, 40 + 80 * dimension);
-    const double each = static_cast<double>(r.program.size()) * (1 + r.n + r.s);
+    const double each = static_cast<double>(problem.nodes()) * (1 + r.n + r.s);
     return std::clamp(static_cast<int>(std::min<double>(wanted, most_work / each)), std::min(least_starts, wanted),
                       wanted);
 }
@@ -200,7 +200,7 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
             if (root->isolated || !has_family) found.roots.push_back(*root);
             has_family = has_family || !root->isolated;
         }
-        if (!found.roots.empty()) break;
+        if (!found.roots.empty() || problem.kept_speeds().rows() == 0) break;
     }
     if (found.roots.empty()) {
         found.rates = Rates::given;

@@ -31,13 +31,19 @@ std::optional<std::string> obstacle_to_recursive(const Mechanism& m) {
     return tree_with_masses(with_own_intermediates(m)).obstacle();
 }
 
+std::vector<ex> forces_besides_gravity(const Mechanism& m) {
+    const std::vector<ex> springs = potential_forces(m), dampers = m.generalized_forces(true),
+                          others = m.generalized_forces(false);
+    std::vector<ex> forces;
+    for (int a = 0; a < m.size(); ++a) forces.push_back(m.z->name(springs[a] + dampers[a] + others[a]));
+    return forces;
+}
+
 Possible<JointTree> loaded_tree(const Mechanism& m) {
     Possible<JointTree> found = tree_with_masses(m);
     if (!found.exists()) return found;
     JointTree joints = std::move(found).value();
-    const std::vector<ex> springs = potential_forces(m), dampers = m.generalized_forces(true),
-                          others = m.generalized_forces(false);
-    for (int a = 0; a < m.size(); ++a) joints.forces.push_back(m.z->name(springs[a] + dampers[a] + others[a]));
+    joints.forces = forces_besides_gravity(m);
     return joints;
 }
 

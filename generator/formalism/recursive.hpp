@@ -23,6 +23,9 @@ std::optional<std::string> obstacle_to_recursive(const Mechanism& mechanism);
 /// hundreds of joints without constraints.
 Equations recursive_without_matrix(const Mechanism& mechanism);
 
+/// The generalized forces of springs, other potentials, dampers and applied loads; of everything but gravity.
+std::vector<GiNaC::ex> forces_besides_gravity(const Mechanism& mechanism);
+
 /// The tree with all generalized forces except gravity's, which is all that is needed without M.
 Possible<JointTree> loaded_tree(const Mechanism& mechanism);
 

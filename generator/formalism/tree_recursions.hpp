@@ -246,6 +246,33 @@ std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenc
     return loads;
 }
 
+/// The loads that hold the tree at rest against gravity, from the mass and the first moment h of each link with
+/// all links that it carries: (h × −g)·z about an axis, −m g·s along a slide. It takes fewer operations than the
+/// forces of `Bias`, because the arms are multiplied by constant masses only.
+template <typename S>
+std::vector<S> gravity_loads(const BodyTree<S>& tree) {
+    std::vector<RigidBody<S>> whole;
+    std::vector<Triple<S>> lift;  // −g along the link's axes
+    for (const TreeLink<S>& link : tree.links) {
+        whole.push_back(tree.body(link));
+        lift.push_back(tree.from_parent(link, link.parent < 0 ? -tree.gravity : lift[link.parent]));
+    }
+    std::vector<S> loads(whole.size(), S(0));
+    for (int j = tree.size() - 1; j >= 0; --j) {
+        const TreeLink<S>& link = tree.links[j];
+        const RigidBody<S>& b = whole[j];
+        loads[j] = link.slides ? b.mass * dot(tree.direction(link), lift[j])
+                               : b.first[0] * lift[j][1] - b.first[1] * lift[j][0];
+        if (link.parent < 0) continue;
+        RigidBody<S>& parent = whole[link.parent];
+        // Turning the parent does not turn a link whose rate counts from the ground.
+        if (!link.absolute) parent.first = parent.first + tree.outward_to_parent(link, b.first);
+        parent.first = parent.first + b.mass * tree.arm(link);
+        parent.mass = parent.mass + b.mass;
+    }
+    return loads;
+}
+
 /// For elements of M of a chain, columns can be passed inwards and the rates of the first joints outwards. This is
 /// the link where it is best that the two meet: the middle of the chain, or −1 (no such link) if passing costs
 /// little because axes are at right angles.

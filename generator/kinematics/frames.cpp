@@ -113,7 +113,8 @@ FrameKinematics frame_kinematics(const std::string& name, const Scene& scene, Pl
     }
     const Vector3 w = write.unit(orientation.angular_velocity()), alpha = write.rate(w);
     f.omega = {write(write.along_N(axes, w)), write(w)};
-    f.alpha = {write(write.along_N(axes, alpha)), write(alpha)};
+    f.alpha = {write.derivative(write.along_N(axes, alpha), f.omega.along_N),
+               write.derivative(alpha, f.omega.own)};
     f.parent = parent_of(f.same_as.empty() ? name : f.same_as, scene);
     TurnWriter(f, places, write).write(steps);
     return f;

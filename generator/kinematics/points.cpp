@@ -40,16 +40,6 @@ const Joint* PointWriter::joint_of(const std::string& name) const {
     return nullptr;
 }
 
-/// The frame along which a person would look at the point: that of its offset, or of the body itself.
-std::string PointWriter::frame_of(const std::string& name) const {
-    if (name == "O") return "N";
-    if (joint_of(name) != nullptr) return name;
-    const Position& place = *place_of(name);
-    const bool is_there = std::all_of(place.offset.component.begin(), place.offset.component.end(),
-                                      [](const Expression& e) { return e.text == "0"; });
-    return is_there ? frame_of(place.from.text) : place.axes.text;
-}
-
 PointWriter::Moving PointWriter::along_N(const std::string& name) {
     const Vector3 r = write_.unit(places_.position(name)), v = write_.rate(r);
     return {r, v, write_.rate(v)};
@@ -59,7 +49,7 @@ PointWriter::Moving PointWriter::along(const std::string& name, const std::strin
     if (name == "O") return {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     const Orientation& orientation = places_.orientation(frame);
     const Position* place = place_of(name);
-    if (place == nullptr || frame_of(name) != frame) {
+    if (place == nullptr || places_.frame_of(name) != frame) {
         const Moving m = along_N(name);
         std::array<Vector3, 3> axes;
         for (std::size_t k = 0; k < 3; ++k) axes[k] = write_.unit(orientation.axis(static_cast<int>(k)));
@@ -103,14 +93,14 @@ PointKinematics PointWriter::operator()(const std::string& name, bool steps) {
     }
     const Moving fixed = along_N(name);
     p.position.along_N = write_(fixed.r);
-    p.velocity.along_N = write_(fixed.v);
-    p.acceleration.along_N = write_(fixed.a);
-    if (const std::string frame = frame_of(name); frame != "N") {
+    p.velocity.along_N = write_.derivative(fixed.v, p.position.along_N);
+    p.acceleration.along_N = write_.derivative(fixed.a, p.velocity.along_N);
+    if (const std::string frame = places_.frame_of(name); frame != "N") {
         const Moving moving = along(name, frame);
         p.along = frame;
         p.position.own = write_(moving.r);
         p.velocity.own = write_(moving.v);
-        p.acceleration.own = write_(moving.a);
+        p.acceleration.own = write_.derivative(moving.a, p.velocity.own);
     }
     if (!steps) return p;
     const int begin = places_.point(p.from);

@@ -26,7 +26,6 @@ private:
     };
     const Position* place_of(const std::string& name) const;
     const Joint* joint_of(const std::string& name) const;
-    std::string frame_of(const std::string& name) const;
     Moving along_N(const std::string& name);
     Moving along(const std::string& name, const std::string& frame);
     PlaceStep step_of(int point);

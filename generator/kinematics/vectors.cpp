@@ -17,6 +17,15 @@ KinematicVector VectorWriter::operator()(const Vector3& v) const {
     return result;
 }
 
+KinematicVector VectorWriter::derivative(const Vector3& v, const KinematicVector& before) const {
+    KinematicVector result;
+    for (std::size_t k = 0; k < 3; ++k) {
+        result[k].expression = v[k];
+        if (before[k].formula) result[k].formula = formula(v[k]);
+    }
+    return result;
+}
+
 std::optional<Phrase> VectorWriter::formula(const ex& e) const {
     const auto f = steps_.normal(e);
     if (!f || f->size() > most_terms_shown) return std::nullopt;

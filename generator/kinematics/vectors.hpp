@@ -20,6 +20,9 @@ public:
     explicit VectorWriter(const Mechanism& mechanism) : m_(mechanism), steps_(mechanism), unit_(mechanism) {}
 
     KinematicVector operator()(const Vector3& v) const;
+    /// The same for the derivative of `before` by time. A component that was too long to be shown before is not
+    /// sought for it.
+    KinematicVector derivative(const Vector3& v, const KinematicVector& before) const;
     std::optional<Phrase> formula(const GiNaC::ex& e) const;
 
     /// The time derivative of each component.

@@ -22,25 +22,41 @@ namespace {
 // Relative to the largest singular value; below this a direction is free.
 constexpr long double no_pivot = 1e-11L;
 constexpr long double small_step = 1e-16L;  // in units of the scales
-constexpr long double rounding = 1e-16L;
+constexpr long double rounding = 1e-15L;
 constexpr long double longest_step = 0.5L;
+constexpr int most_long_steps = 30;     // where steps are that long after so many, hardly any search finds a root
+constexpr long double noise = 1e-17L;   // of the largest work that a force does in changes of the scales
 constexpr long double solved = 1e-13L;  // relative to the effect of a change of 1 in units of the scales
 
-/// The least-squares solution of least length.
-Column least_step(const LongMatrix& J, const Column& r, bool& full_rank) {
-    if (J.cols() == 0) {
-        full_rank = true;
-        return Column(0);
-    }
-    LongMatrix scaled = J;
-    Column right = -r;
+/// The least-squares solution of least length. The rate of a coordinate that is at rest, and its equation, one of
+/// those that `rates` counts after the first `forces`, are left out.
+Column least_step(const LongMatrix& J, const Column& r, Index forces, Index rates, bool& full_rank) {
+    std::vector<Index> rows, columns;
+    std::vector<bool> is_kept(static_cast<std::size_t>(J.cols()), false);
     for (Index i = 0; i < J.rows(); ++i) {
-        const long double row = J.row(i).cwiseAbs().maxCoeff();
+        Index last = -1, count = 0;
+        for (Index j = 0; j < J.cols(); ++j)
+            if (J(i, j) != 0) last = j, ++count;
+        if (i >= forces && i < forces + rates && count == 1 && r[i] == 0)
+            is_kept[static_cast<std::size_t>(last)] = true;
+        else
+            rows.push_back(i);
+    }
+    for (Index j = 0; j < J.cols(); ++j)
+        if (!is_kept[static_cast<std::size_t>(j)]) columns.push_back(j);
+    Column result = Column::Zero(J.cols());
+    full_rank = true;
+    if (columns.empty()) return result;
+    LongMatrix scaled = J(rows, columns);
+    Column right = -r(rows);
+    for (Index i = 0; i < scaled.rows(); ++i) {
+        const long double row = scaled.row(i).cwiseAbs().maxCoeff();
         if (row > 0) scaled.row(i) /= row, right[i] /= row;
     }
     const LongLeastNorm step = least_norm(scaled, right, no_pivot);
-    full_rank = step.rank == J.cols();
-    return step.x;
+    full_rank = step.rank == scaled.cols();
+    result(columns) = step.x;
+    return result;
 }
 
 }  // namespace
@@ -76,6 +92,36 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
     kept_speeds_ = LongMatrix::Zero(free.cols(), residuals_.s);
     for (Index k = 0; k < free.cols(); ++k)
         for (Index i = 0; i < p; ++i) kept_speeds_(k, split.u[i]) = free(i, k) / free.col(k).norm();
+    // Where wheels roll, fewer searches end at a root if the speeds may not pass through others on the way.
+    if (residuals_.rates_are_speeds && residuals_.kept == residuals_.holonomic) {
+        at_rest_.emplace(m, e, resting());
+        at_rest_->inputs = residuals_.inputs;  // also those that act only in motion
+    }
+}
+
+std::vector<bool> SteadyProblem::resting() const {
+    // Coordinates that constraints of position tie to a cyclic one, directly or through others, may move with it.
+    std::vector<bool> result = essential_;
+    std::vector<std::vector<int>> tied;
+    for (const int root : residuals_.position) {
+        tied.emplace_back();
+        for (const int id : residuals_.program.needed(std::vector<int>{root}))
+            if (residuals_.program[id].op == Op::variable &&
+                residuals_.program[id].variable.kind == Variable::Kind::coordinate)
+                tied.back().push_back(residuals_.program[id].variable.index);
+    }
+    const auto rests = [&](int i) { return result[static_cast<std::size_t>(i)]; };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const std::vector<int>& coordinates : tied) {
+            if (std::all_of(coordinates.begin(), coordinates.end(), rests)) continue;
+            for (const int i : coordinates) {
+                changed = changed || rests(i);
+                result[static_cast<std::size_t>(i)] = false;
+            }
+        }
+    }
+    return result;
 }
 
 Split SteadyProblem::split_at(const Instant<long double>& at) const {
@@ -89,9 +135,32 @@ bool SteadyProblem::settle_at(Instant<long double>& at, const Split* split) cons
 
 SteadySystem SteadyProblem::linearized_at(const Instant<long double>& at, const std::vector<long double>& given,
                                           Rates rates, const Split* split) const {
-    SteadySystem result;
-    result.split = split != nullptr ? *split : split_at(at);
-    result.tangent = tangent(residuals_, result.split, at, false, Undisturbed::steady);
+    return system_of(residuals_, at, given, rates, split != nullptr ? *split : split_at(at));
+}
+
+SteadySystem SteadyProblem::resting_system(const Instant<long double>& at, const std::vector<long double>& given,
+                                           Rates rates) const {
+    SteadySystem result = system_of(*at_rest_, at, given, rates, split_at(at));
+    // A force that the forces of motion alone change has a row of roundings here.
+    const auto p = static_cast<Index>(result.split.u.size());
+    Column work = Column::Zero(p);
+    for (Index i = 0; i < p; ++i)
+        for (Index j = 0; j < result.by.cols(); ++j)
+            work[i] =
+                std::max(work[i], std::abs(result.by(i, j)) * scale_of(result, j) * scales_[result.split.u[i]]);
+    for (Index i = 0; i < p; ++i)
+        if (work[i] < noise * work.maxCoeff()) result.by.row(i).setZero();
+    return result;
+}
+
+SteadySystem SteadyProblem::system_of(const Residuals& residuals, const Instant<long double>& at,
+                                      const std::vector<long double>& given, Rates rates,
+                                      const Split& split) const {
+    SteadySystem result{.split = split,
+                        .tangent = tangent(residuals, split, at, false, Undisturbed::steady),
+                        .unknowns = {},
+                        .residual = {},
+                        .by = {}};
     const Tangent<long double>& t = result.tangent;
     const Index nr = static_cast<Index>(result.split.q.size()), p = static_cast<Index>(result.split.u.size());
     std::vector<Index> still;  // essential independent coordinates
@@ -120,6 +189,12 @@ SteadySystem SteadyProblem::linearized_at(const Instant<long double>& at, const 
     return result;
 }
 
+long double SteadyProblem::scale_of(const SteadySystem& here, Index unknown) const {
+    const Index column = here.unknowns[static_cast<std::size_t>(unknown)];
+    const bool is_coordinate = column < static_cast<Index>(here.split.q.size());
+    return is_coordinate ? scales_[here.split.q[column]] : 1;
+}
+
 long double SteadyProblem::size(const Column& change) const {
     long double largest = 0;
     for (Index i = 0; i < residuals_.n; ++i) largest = std::max(largest, std::abs(change[i]) / scales_[i]);
@@ -134,10 +209,11 @@ std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates ra
     if (!settle_at(at)) return {};
     long double last = HUGE_VALL;
     for (int step = 0; step < most; ++step) {
-        const SteadySystem here = linearized_at(at, given, rates);
+        const SteadySystem here = at_rest_ ? resting_system(at, given, rates) : linearized_at(at, given, rates);
         if (!here.residual.allFinite() || !here.by.allFinite()) return {};
         bool full_rank = true;
-        const Column change = least_step(here.by, here.residual, full_rank);
+        const auto p = static_cast<Index>(here.split.u.size()), still = at_rest_ ? here.by.cols() - p : 0;
+        const Column change = least_step(here.by, here.residual, p, still, full_rank);
         Column local = Column::Zero(here.tangent.along.cols());
         for (std::size_t j = 0; j < here.unknowns.size(); ++j)
             local[here.unknowns[j]] = change[static_cast<Index>(j)];
@@ -151,12 +227,7 @@ std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates ra
             long double worst = 0;
             for (Index i = 0; i < here.residual.size(); ++i) {
                 long double does = 1e-3L;  // the reference if there is no other force
-                for (std::size_t j = 0; j < here.unknowns.size(); ++j) {
-                    const Index column = here.unknowns[j];
-                    const bool is_coordinate = column < static_cast<Index>(here.split.q.size());
-                    does += std::abs(here.by(i, static_cast<Index>(j))) *
-                            (is_coordinate ? scales_[here.split.q[column]] : 1);
-                }
+                for (Index j = 0; j < here.by.cols(); ++j) does += std::abs(here.by(i, j)) * scale_of(here, j);
                 worst = std::max(worst, std::abs(here.residual[i]) / does);
             }
             if (worst > solved) return {};
@@ -166,6 +237,7 @@ std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates ra
                 if (std::abs(u) < rounding) u = 0;
             return SteadyRoot{.at = at, .residual = worst, .step = moved, .isolated = full_rank};
         }
+        if (step >= most_long_steps && moved > longest_step) return {};
         last = moved;
         const long double part = size_q > longest_step ? longest_step / size_q : 1;
         for (int i = 0; i < residuals_.n; ++i) at.q[i] += part * whole[i];

@@ -50,6 +50,8 @@ public:
     SteadyProblem(const Mechanism& mechanism, const Equations& equations, const Start& start);
 
     const Residuals& residuals() const { return residuals_; }
+    /// Of which a step of `solve` computes values and derivatives.
+    std::size_t nodes() const { return at_rest_ ? at_rest_->steady.size() : residuals_.steady.size(); }
     const Instant<long double>& start() const { return start_; }
     void set_start(Instant<long double> start) { start_ = std::move(start); }
     /// For each coordinate, whether the motion of any other depends on it.
@@ -80,9 +82,19 @@ public:
 
 private:
     Split split_at(const Instant<long double>& at) const;
+    /// For each coordinate, whether it stays as it is in every steady motion.
+    std::vector<bool> resting() const;
+    SteadySystem system_of(const Residuals& residuals, const Instant<long double>& at,
+                           const std::vector<long double>& given, Rates rates, const Split& split) const;
+    /// linearized_at where the essential coordinates are at rest, in a fraction of the time.
+    SteadySystem resting_system(const Instant<long double>& at, const std::vector<long double>& given,
+                                Rates rates) const;
+    /// The size of an ordinary change of an unknown.
+    long double scale_of(const SteadySystem& here, Eigen::Index unknown) const;
 
     const Mechanism& m_;
     Residuals residuals_;
+    std::optional<Residuals> at_rest_;  ///< with the rates 0 that Newton's method leaves at 0
     Instant<long double> start_;
     std::vector<bool> essential_, follows_q_, follows_u_;
     std::vector<long double> scales_;

@@ -20,7 +20,7 @@ namespace alembert {
 using GiNaC::ex;
 using Index = Eigen::Index;
 
-Residuals::Residuals(const Mechanism& m, const Equations& e)
+Residuals::Residuals(const Mechanism& m, const Equations& e, const std::vector<bool>& at_rest)
     : n(m.size()),
       s(e.size()),
       holonomic(0),
@@ -29,42 +29,58 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
     Program all;
     all.source_labels = m.z->source_labels();
     std::vector<std::pair<GiNaC::symbol, int>> given;
-    for (int i = 0; i < s; ++i) given.emplace_back(e.u[i], all.variable({Variable::Kind::rate, i}));
     for (std::size_t i = 0; i < m.inputs.size(); ++i)
         for (int order = 0; order < 3; ++order)
             given.emplace_back(m.inputs[i].derivative[order],
                                all.variable({Variable::Kind::unknown, 3 * static_cast<int>(i) + order}));
-    std::vector<std::pair<Group, ex>> wanted;
+    std::vector<std::pair<Group, ex>> inertia, forces, motion;
     for (int i = 0; i < s; ++i) {
-        for (int j = 0; j <= i; ++j) wanted.emplace_back(Group::mass, e.M(i, j));
-        wanted.emplace_back(Group::forcing, e.forcing(i));
+        for (int j = 0; j <= i; ++j) inertia.emplace_back(Group::mass, e.M(i, j));
+        forces.emplace_back(Group::forcing, e.forcing(i));
     }
     for (int k = 0; k < kept; ++k) {
-        for (const ex& entry : e.A[k]) wanted.emplace_back(Group::row, entry);
-        wanted.emplace_back(Group::gamma, e.gamma[k]);
+        for (const ex& entry : e.A[k]) forces.emplace_back(Group::row, entry);
+        forces.emplace_back(Group::gamma, e.gamma[k]);
     }
     const auto rate_of = [&](int i) { return e.h[i]; };
-    for (int i = 0; i < n; ++i) wanted.emplace_back(Group::rate, rate_of(i));
+    for (int i = 0; i < n; ++i) motion.emplace_back(Group::rate, rate_of(i));
     for (const Mechanism::Constraint& c : m.constraints)
         if (c.position) {
-            wanted.emplace_back(Group::position, *c.position);
+            motion.emplace_back(Group::position, *c.position);
             ++holonomic;
         }
     for (const int k : e.kept(m)) {
         const Mechanism::Constraint& c = m.constraints[k];
         GiNaC::exvector terms{c.drift};
         for (int i = 0; i < n; ++i) terms.push_back(c.row[i] * rate_of(i));
-        wanted.emplace_back(Group::velocity, m.z->name(GiNaC::add(std::move(terms))));
+        motion.emplace_back(Group::velocity, m.z->name(GiNaC::add(std::move(terms))));
     }
-    std::vector<ex> values;
-    for (const auto& [group, value] : wanted) values.push_back(value);
-    const std::vector<int> nodes = lower_expressions(all, m, values, given);
-    for (std::size_t i = 0; i < nodes.size(); ++i) all.roots.push_back({wanted[i].first, "", nodes[i]});
+    const auto add = [&](const std::vector<std::pair<Group, ex>>& roots, const std::vector<bool>& is_zero) {
+        std::vector<std::pair<GiNaC::symbol, int>> known = given;
+        for (int i = 0; i < s; ++i)
+            known.emplace_back(e.u[i], !is_zero.empty() && is_zero[static_cast<std::size_t>(i)]
+                                           ? all.number(0)
+                                           : all.variable({Variable::Kind::rate, i}));
+        std::vector<ex> values;
+        for (const auto& [group, value] : roots) values.push_back(value);
+        const std::vector<int> nodes = lower_expressions(all, m, values, known);
+        for (std::size_t i = 0; i < nodes.size(); ++i) all.roots.push_back({roots[i].first, "", nodes[i]});
+    };
+    add(forces, at_rest);
+    add(motion, {});
+    steady_needs_mass = std::any_of(all.roots.begin(), all.roots.end(), [&](const Root& root) {
+        return root.group == Group::gamma && !(all[root.node].is_number() && cln::zerop(all[root.node].number));
+    });
+    if (at_rest.empty() || steady_needs_mass) add(inertia, at_rest);
     std::vector<ex> input_symbols;
     for (const Mechanism::Input& input : m.inputs)
         input_symbols.insert(input_symbols.end(), input.derivative.begin(), input.derivative.end());
     for (const int id : lower_expressions(all, m, input_symbols)) all.roots.push_back({Group::input, "", id});
     program = all.canonical();
+    for (int id = 0; id < program.size(); ++id)
+        if (program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::unknown)
+            inputs.push_back(program[id].variable.index);
+    std::sort(inputs.begin(), inputs.end());
     for (const auto& [group, list] : {std::pair{Group::mass, &mass},
                                       {Group::forcing, &forcing},
                                       {Group::row, &row},
@@ -74,13 +90,14 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
                                       {Group::velocity, &velocity},
                                       {Group::input, &input_values}})
         *list = program.nodes_of(group);
-    for (int id = 0; id < program.size(); ++id)
-        if (program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::unknown)
-            inputs.push_back(program[id].variable.index);
-    std::sort(inputs.begin(), inputs.end());
     geometry = position;
     geometry.insert(geometry.end(), velocity.begin(), velocity.end());
     geometry = program.needed(geometry);
+    steady = position;
+    for (const std::vector<int>* list : {&velocity, &forcing, &row, &gamma, &rate})
+        steady.insert(steady.end(), list->begin(), list->end());
+    if (steady_needs_mass) steady.insert(steady.end(), mass.begin(), mass.end());
+    steady = program.needed(steady);
 }
 
 template <typename Real>
@@ -277,7 +294,8 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
                       Undisturbed motion) {
     using Matrix = MatrixOf<Real>;
     using Vector = VectorOf<Real>;
-    const Values<Real> value(r, at, at_kink);
+    const bool is_forced = motion == Undisturbed::as_forced;
+    const Values<Real> value = is_forced || at_kink ? Values<Real>(r, at, at_kink) : Values<Real>(r, at, r.steady);
     const Index n = r.n, s = r.s, extra = value.columns - n - s, nr = static_cast<Index>(split.q.size()),
                 p = static_cast<Index>(split.u.size());
     Tangent<Real> result;
@@ -302,14 +320,14 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     const Matrix U = along.block(n, nr, s, p);
 
     // u' and λ of the undisturbed motion.
-    Matrix M(s, s);
-    for (Index i = 0, next = 0; i < s; ++i)
+    Matrix M = Matrix::Zero(s, s);
+    const bool has_mass = is_forced || r.steady_needs_mass;
+    for (Index i = 0, next = 0; has_mass && i < s; ++i)
         for (Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[r.mass[next++]].value;
     const Vector f = value.vector(r.forcing), gamma = value.vector(r.gamma);
     Vector udot = particular(gamma).col(0);
     result.mass = U.transpose() * M * U;
     result.balance = U.transpose() * (f - M * udot);
-    const bool is_forced = motion == Undisturbed::as_forced;
     if (is_forced) {
         result.speed_rates = p > 0 ? Vector(solution<Real>(result.mass, result.balance)) : Vector(0);
         udot += U * result.speed_rates;
@@ -325,7 +343,7 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     // The derivatives of the residuals with constant u' and λ.
     const Matrix df = value.jacobian(r.forcing), dgamma = value.jacobian(r.gamma);
     Matrix R = -df, Gamma = -dgamma;
-    for (Index i = 0, next = 0; i < s; ++i)
+    for (Index i = 0, next = 0; has_mass && i < s; ++i)
         for (Index j = 0; j <= i; ++j) {
             const Jet<Real>& entry = value[r.mass[next++]];
             for (Index k = 0; k < value.columns; ++k) {

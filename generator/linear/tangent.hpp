@@ -21,7 +21,10 @@ namespace alembert {
 
 /// Everything that the algebra needs as one Program. Its variables of kind `unknown` are the inputs that occur.
 struct Residuals {
-    Residuals(const Mechanism& mechanism, const Equations& equations);
+    /// If `at_rest` names speeds, they are 0 in M, f, A and γ, whose derivatives by them are 0 then: a much
+    /// shorter program for the balance of a steady motion (Undisturbed::steady) in which these speeds are 0 and
+    /// stay so.
+    Residuals(const Mechanism& mechanism, const Equations& equations, const std::vector<bool>& at_rest = {});
 
     Program program;
     int n, s, holonomic, kept;  ///< coordinates, speeds, rows of φ, rows of A
@@ -29,7 +32,9 @@ struct Residuals {
     std::vector<int> inputs;        ///< 3·index + order of the inputs that occur
     std::vector<int> input_values;  ///< nodes, in parameters and t
     std::vector<int> geometry;      ///< all nodes that `position` and `velocity` need
+    std::vector<int> steady;        ///< all nodes that the balance of a steady motion needs
     bool rates_are_speeds;
+    bool steady_needs_mass;  ///< whether speeds must change (γ is not 0) where the independent ones do not
 };
 
 template <typename Real>

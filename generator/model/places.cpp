@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/places.hpp"
 
+#include <algorithm>
+
 #include "language/say.hpp"
 #include "model/joints.hpp"
 #include "model/parameter_values.hpp"
@@ -125,6 +127,15 @@ Vector3 Places::position(const std::string& name) {
     SourceScope source(*m_.z, "point " + name);
     points_[name] = step(point(where->from.text), orientation(where->axes.text).frame, vector(where->offset));
     return positions_[name] = add(position(where->from.text), along(where->offset, where->axes), *m_.z);
+}
+
+std::string Places::frame_of(const std::string& name) const {
+    if (name == "O") return "N";
+    if (joint_of(name) != nullptr) return name;
+    const Position& place = *find(name);
+    const bool is_there = std::all_of(place.offset.component.begin(), place.offset.component.end(),
+                                      [](const Expression& e) { return e.text == "0"; });
+    return is_there ? frame_of(place.from.text) : place.axes.text;
 }
 
 Vector3 Places::velocity(const std::string& name) {

@@ -41,6 +41,9 @@ public:
     Vector3 unit_axis(const Rotation& rotation);
     Orientation turned(const Orientation& o, const Vector3& axis, const GiNaC::ex& angle);
     Orientation turned(const Orientation& o, const std::array<GiNaC::ex, 4>& quaternion);
+    /// The frame along which a person would look at a point, particle or body: that of its offset, or of the body
+    /// itself.
+    std::string frame_of(const std::string& point) const;
     /// The position of the mass centre; of N, the origin.
     Vector3 position_of_body(const std::string& body) { return position(body == "N" ? "O" : body); }
 

@@ -195,6 +195,39 @@ public:
         return gradient;
     }
 
+    /// The rows of Group::value_gradient.
+    std::optional<Matrix> value_gradient() {
+        std::vector<int> values;
+        for (const Group group :
+             {Group::kinetic, Group::potential, Group::energy, Group::power, Group::output, Group::speed})
+            for (const int node : p_.nodes_of(group)) values.push_back(node);
+        const std::vector<int> acceleration = p_.nodes_of(Group::acceleration), by_parameters = parameters();
+        std::vector<int> inputs = state_;
+        std::map<int, std::size_t> column;  // node: column
+        for (std::size_t i = 0; i < state_.size(); ++i) column.emplace(state_[i], i);
+        for (std::size_t i = 0; i < by_parameters.size(); ++i)
+            column.emplace(by_parameters[i], state_.size() + static_cast<std::size_t>(s_) + i);
+        inputs.insert(inputs.end(), by_parameters.begin(), by_parameters.end());
+        for (int i = 0; i < s_; ++i)
+            for (const int node : {p_.variable({Variable::Kind::acceleration, i}), acceleration[i]})
+                if (!p_[node].is_number() && column.emplace(node, state_.size() + i).second)
+                    inputs.push_back(node);
+        const auto parts = partials(p_, values, inputs, EliminationOrder::reverse, budget_);
+        if (!parts) return std::nullopt;
+        const std::size_t width = state_.size() + static_cast<std::size_t>(s_) + by_parameters.size();
+        std::vector<std::vector<std::vector<Program::Term>>> sums(values.size(),
+                                                                  std::vector<std::vector<Program::Term>>(width));
+        for (const Partial& part : *parts)
+            sums[static_cast<std::size_t>(part.output)][column.at(inputs[static_cast<std::size_t>(part.input)])]
+                .emplace_back(1, part.node);
+        Matrix result;
+        for (const auto& row : sums) {
+            result.emplace_back();
+            for (const auto& terms : row) result.back().push_back(p_.sum(0, terms));
+        }
+        return result;
+    }
+
     Operations cost(const Matrix& m) const {
         std::vector<int> nodes;
         for (const auto& row : m) nodes.insert(nodes.end(), row.begin(), row.end());
@@ -342,6 +375,11 @@ std::optional<Differentiated> differentiated(const Program& program, const Deriv
         const auto gradient = chosen.power_gradient(jacobian);
         if (!gradient) return std::nullopt;
         chosen.keep(Group::power_gradient, "W", {*gradient});
+    }
+    if (wishes.values) {
+        const auto gradient = chosen.value_gradient();
+        if (!gradient) return std::nullopt;
+        chosen.keep(Group::value_gradient, "G", *gradient);
     }
     return Differentiated{.program = std::move(chosen).finished(), .operations = fewest, .route = best->name};
 }

@@ -138,7 +138,10 @@ enum class Group : unsigned char {
     input,   ///< prescribed motions and their derivatives
     jacobian,
     parameter_jacobian,
-    power_gradient,  ///< differentiate.hpp
+    power_gradient,
+    value_gradient,  ///< differentiate.hpp
+    event_impulse,   ///< the impulses of each event that has some, n for each
+    function,        ///< results of functions of their own (named_function.hpp)
 };
 
 /// A value that the program computes for its users.

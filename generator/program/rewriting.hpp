@@ -7,6 +7,7 @@
 ///     return rewriting.finish([&](int id) { return rewriting.plain(id); });      // the same again
 
 #include <functional>
+#include <utility>
 
 #include "program/program.hpp"
 
@@ -14,7 +15,9 @@ namespace alembert {
 
 class Rewriting {
 public:
-    explicit Rewriting(const Program& old) : old_(old), made_(old.shell()), image_(old.size(), -1) {
+    explicit Rewriting(const Program& old) : Rewriting(old, old.shell()) {}
+    /// The copies are added to `made`.
+    Rewriting(const Program& old, Program made) : old_(old), made_(std::move(made)), image_(old.size(), -1) {
         std::vector<int> roots;
         for (const Root& root : old.roots) roots.push_back(root.node);
         needed = old.needed(roots);

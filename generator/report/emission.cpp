@@ -24,6 +24,9 @@ Json as_json(const Emission& e, const std::vector<std::string>& paths) {
         result["jacobian_operations"] = e.derivatives->operations.total();
         result["jacobian_route"] = e.derivatives->route;
     }
+    for (const NamedFunction& f : e.functions)
+        result["functions"].push_back(
+            {{"name", f.name}, {"rows", f.rows}, {"columns", f.columns}, {"operations", f.operations.total()}});
     if (!e.mechanism.unilateral.empty()) result["closed"] = Json::array();
     return result;
 }
@@ -39,6 +42,9 @@ std::string as_text(const Emission& e, const std::vector<std::string>& paths) {
     if (e.derivatives)
         say_on(page, "the Jacobian takes {} ({})\n",
                shown_count(e.derivatives->operations.total(), to_say("operation")), e.derivatives->route);
+    for (const NamedFunction& f : e.functions)
+        say_on(page, "{}: {} x {}, {}\n", f.name, f.rows, f.columns,
+               shown_count(f.operations.total(), to_say("operation")));
     if (e.choice.runner_up)
         say_on(page, "next best: {}, {}\n", translated_parts(e.choice.runner_up->formulation),
                shown_count(e.choice.runner_up->cost.operations, to_say("operation")));

@@ -115,6 +115,12 @@ std::string happenings(const Run& run, const PlotArea& area) {
 
 }  // namespace
 
+std::vector<std::string> column_units(const Run& run) {
+    std::vector<std::string> units{"s"};
+    for (const PlottedLine& line : columns_of(run)) units.push_back(line.unit);
+    return units;
+}
+
 std::string motion_plot(const Run& run, const std::vector<std::string>& columns) {
     PlotSheet sheet{.title = run.mechanism.title.empty() ? run.mechanism.name : run.mechanism.title,
                     .about = say("Charts over the time until {:.6g} s.", run.motion.final_time())};

@@ -21,4 +21,7 @@ namespace alembert {
 /// joints.
 std::string motion_plot(const Run& run, const std::vector<std::string>& columns);
 
+/// The units of all columns of the table, in their order; empty where a unit is not known.
+std::vector<std::string> column_units(const Run& run);
+
 }  // namespace alembert

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/emission.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "emit/names.hpp"
 #include "emit/standalone.hpp"
 #include "language/say.hpp"
+#include "lower/frame_functions.hpp"
+#include "lower/regressor.hpp"
+#include "lower/robot_functions.hpp"
+#include "scene/text.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -24,6 +33,51 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
     return standalone(program, from, language);
 }
 
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Throws for functions that do not exist, before any is made.
+void check_functions(const Emission& e, const EmissionOptions& options) {
+    if (!e.equations.speeds_are_rates())
+        throw ModelError(say(
+            "functions such as 'inverse' take coordinates and their rates, and the equations are in other speeds; "
+            "leave out the table [speeds], and choose no formalism that has speeds of its own"));
+    std::vector<std::string> known = RobotFunctions::of_dynamics();
+    known.insert(known.end(), functions_of_masses().begin(), functions_of_masses().end());
+    known.emplace_back("regressor");
+    for (const std::string& name : options.functions)
+        if (!holds(known, name))
+            throw ModelError(say("there is no function {} to emit; expected some of: {}", in_quotes(name),
+                                 fmt::join(known, ", ")));
+}
+
+/// Adds the functions to `program`, each once.
+std::vector<NamedFunction> named_functions(Program& program, const Emission& e, const EmissionOptions& options) {
+    if (options.functions.empty() && options.frames.empty()) return {};
+    check_functions(e, options);
+    std::vector<NamedFunction> result;
+    const auto is_there = [&](const std::string& name) {
+        return std::any_of(result.begin(), result.end(), [&](const NamedFunction& f) { return f.name == name; });
+    };
+    const RobotFunctions dynamics(e.mechanism, options.fold);
+    for (const std::string& name : options.functions) {
+        if (is_there(name)) continue;
+        const FunctionProgram function =
+            name == "regressor"                  ? regressor(e.scene, e.mechanism, options.fold).function
+            : holds(functions_of_masses(), name) ? mass_function(e.scene, e.mechanism, name, options.fold)
+                                                 : dynamics.dynamics(name);
+        result.push_back(absorbed(program, function));
+    }
+    for (const std::string& frame : options.frames) {
+        const std::string prefix = ascii_identifier(frame);
+        if (is_there(prefix + "_pose")) continue;
+        for (const FunctionProgram& f : frame_functions(e.scene, e.mechanism, frame, prefix, options.fold))
+            result.push_back(absorbed(program, f));
+    }
+    return result;
+}
+
 }  // namespace
 
 Emission emission(Scene scene, const EmissionOptions& options) {
@@ -35,8 +89,9 @@ Emission emission(Scene scene, const EmissionOptions& options) {
             throw ModelError(say(
                 "the derivatives of the right-hand side are too long to be written out; leave the Jacobian out"));
     }
-    const Program& program = e.derivatives ? e.derivatives->program : e.choice.program;
-    e.source = emit(program, {.batch = options.batch, .language = options.language});
+    Program& program = e.derivatives ? e.derivatives->program : e.choice.program;
+    e.functions = named_functions(program, e, options);
+    e.source = emit(program, {.batch = options.batch, .language = options.language, .functions = e.functions});
     if (options.standalone) e.main = main_program(e, program, options.language);
     return e;
 }

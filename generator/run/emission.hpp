@@ -21,19 +21,24 @@ struct EmissionOptions {
     bool jacobian = false;
     bool batch = false;  ///< whether to add the same functions for eight systems at once
     CodeLanguage language = CodeLanguage::cpp;
+    /// Names of functions of their own (robot_functions.hpp, frame_functions.hpp), each written once.
+    std::vector<std::string> functions = {};
+    /// Points, bodies, or points with the axes of a frame, "P@F": their functions of frame_functions.hpp.
+    std::vector<std::string> frames = {};
     bool standalone = false;  ///< whether to add a main program that integrates and prints
 };
 
 struct Emission : Derived {
     Choice choice = {};
     std::optional<Differentiated> derivatives = {};
+    std::vector<NamedFunction> functions = {};
     Source source = {};
     std::optional<SourceFile> main = {};  ///< set if it was requested
 };
 
 /// Throws what `derived` throws; ModelError for a main program of a scene with contacts, dry friction or events
-/// that change the motion, which it would ignore; for a singular system; and for derivatives that are too long to
-/// be written out.
+/// that change the motion, which it would ignore; for a singular system; for derivatives that are too long to be
+/// written out; for functions whose name is unknown, and for functions where the state is not (q, q').
 Emission emission(Scene scene, const EmissionOptions& options = {});
 
 }  // namespace alembert

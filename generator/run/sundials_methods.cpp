@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "alembert/error.hpp"
+#include "alembert/process.hpp"
 #include "language/say.hpp"
 #include "peers/backend.hpp"
 
@@ -17,10 +18,8 @@ constexpr std::string_view cvode = "cvode", ida = "ida";
 
 /// The back end, in the same folder as this program; it stays loaded until the end.
 const Backend& backend(std::string_view method) {
-    std::error_code failed;
-    const std::filesystem::path beside =
-        std::filesystem::read_symlink("/proc/self/exe", failed).parent_path() / "alembert-sundials.so";
-    if (failed || !std::filesystem::exists(beside))
+    const std::filesystem::path beside = beside_this_program("alembert-sundials.so");
+    if (beside.empty())
         throw CompileError(
             say("method '{}' needs SUNDIALS, with which this program was not built; install "
                 "libsundials-dev (Debian) and build "

@@ -103,6 +103,24 @@ struct alembert_pack_table {
     void (*outputs_at)(const double* t, const double* state, const double* rate, const double* par, double* out);
 };
 
+/// One of the functions that `alembert_functions()` lists, such as inverse dynamics or a frame's Jacobian.
+struct alembert_named_function {
+    const char* name;
+    int rows, columns;  ///< of the matrix that it writes to `out`, row by row; a vector has one column
+    int operations;     ///< of one call
+    /// `state` is (q, q') and `rate` is (q', q''), of which only q'' is read, and only by functions that need it.
+    void (*call)(double t, const double* state, const double* rate, const double* par, double* out);
+    /// The same for `lanes` systems at once as in alembert_pack_table; null without `--batch`.
+    void (*pack)(const double* t, const double* state, const double* rate, const double* par, double* out);
+};
+
+/// What `alembert_functions()` of a file emitted with `--functions` or `--frame` returns.
+struct alembert_function_table {
+    int abi;
+    int count;
+    const alembert_named_function* list;
+};
+
 }  // extern "C"
 
 namespace alembert {

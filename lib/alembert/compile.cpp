@@ -286,4 +286,29 @@ Compiled compile(const std::string& source_text, const std::string& name, const 
     return {.object = object, .from_cache = from_cache, .seconds = elapsed.count()};
 }
 
+std::string shared_object(const std::vector<CSource>& files, const CompileOptions& options) {
+    std::vector<std::string> command = find_compiler(options.compiler);
+    const Leftover folder(new_private_folder());
+    const std::string there = folder.path().string(), object = (folder.path() / "unit.so").string();
+    for (const char* flag :
+         {"-std=c99", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math",
+          "-fvisibility=hidden", "-nostdlib", "-s", "-Wl,--build-id=none", "-pipe"})
+        command.emplace_back(flag);
+    command.push_back("-ffile-prefix-map=" + there + "=.");
+    for (const CSource& file : files) {
+        const fs::path path = folder.path() / file.name;
+        write_file(path, file.text, std::ios::trunc);
+        // g++ takes the option for the next file alone.
+        if (path.extension() == ".c") command.insert(command.end(), {"-x", "c", path.string()});
+    }
+    command.insert(command.end(), {"-o", object, "-lm", "-lc"});
+    const Finished compiler = run(command);
+    if (compiler.status != 0)
+        throw CompileError(fmt::format("the compiler failed with status {}:\n  {}\n{}", compiler.status,
+                                       joined(command, " "), compiler.output.substr(0, 8000)));
+    std::optional<std::string> bytes = read_own_file(object);
+    if (!bytes) throw CompileError("the compiler succeeded but left no " + object);
+    return *std::move(bytes);
+}
+
 }  // namespace alembert

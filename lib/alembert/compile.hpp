@@ -52,4 +52,13 @@ struct Compiled {
 /// `_` becomes `_`.
 Compiled compile(const std::string& source_text, const std::string& name, const CompileOptions& options);
 
+struct CSource {
+    std::string name, text;  ///< of a .c file, or of a header that these include
+};
+
+/// The bytes of a shared object made of C99 files by the same compiler: for every processor of this family,
+/// without paths of this machine and without the cache, so that the same files and compiler give the same bytes.
+/// Of `options` only the compiler counts.
+std::string shared_object(const std::vector<CSource>& files, const CompileOptions& options = {});
+
 }  // namespace alembert

@@ -49,8 +49,16 @@ Module load(const std::filesystem::path& object) {
     further("alembert_derivatives", derivatives);
     further("alembert_projection", projection);
     further("alembert_pack", pack);
+    const alembert_function_table* functions = nullptr;
+    further("alembert_functions", functions);
     return Module(std::shared_ptr<const alembert_solver_table>(file.handle(), table), derivatives, projection,
-                  pack);
+                  pack, functions);
+}
+
+const alembert_named_function* Module::function(const std::string& name) const {
+    for (int k = 0; functions_ != nullptr && k < functions_->count; ++k)
+        if (functions_->list[k].name == name) return &functions_->list[k];
+    return nullptr;
 }
 
 std::vector<double> prepared(const Module& module, const std::vector<double>& values) {

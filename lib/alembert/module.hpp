@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "alembert/abi.hpp"
@@ -38,16 +39,24 @@ public:
     const alembert_projection_table* projection() const { return projection_; }
     /// Null if the file was emitted without `--batch`.
     const alembert_pack_table* pack() const { return pack_; }
+    /// A function of that name (`emit --functions`); null if the file has none.
+    const alembert_named_function* function(const std::string& name) const;
 
 private:
     friend Module load(const std::filesystem::path& object);
     Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives,
-           const alembert_projection_table* projection, const alembert_pack_table* pack)
-        : table_(std::move(table)), derivatives_(derivatives), projection_(projection), pack_(pack) {}
+           const alembert_projection_table* projection, const alembert_pack_table* pack,
+           const alembert_function_table* functions)
+        : table_(std::move(table)),
+          derivatives_(derivatives),
+          projection_(projection),
+          pack_(pack),
+          functions_(functions) {}
     std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
     const alembert_derivative_table* derivatives_;        ///< in it
     const alembert_projection_table* projection_;         ///< in it
     const alembert_pack_table* pack_;                     ///< in it
+    const alembert_function_table* functions_;            ///< in it
 };
 
 Module load(const std::filesystem::path& object);

@@ -136,4 +136,11 @@ std::filesystem::path find_program(const std::string& program) {
     return {};
 }
 
+std::filesystem::path beside_this_program(const std::string& name) {
+    std::error_code failed;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
+    const std::filesystem::path beside = program.parent_path() / name;
+    return failed || !std::filesystem::exists(beside, failed) ? std::filesystem::path() : beside;
+}
+
 }  // namespace alembert

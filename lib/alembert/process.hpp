@@ -27,4 +27,7 @@ Finished run(const std::vector<std::string>& argv);
 /// $PATH. Empty if there is none.
 std::filesystem::path find_program(const std::string& program);
 
+/// A file of that name in the folder of this program; empty if there is none.
+std::filesystem::path beside_this_program(const std::string& name);
+
 }  // namespace alembert

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/show.hpp"
+#include "commands/verb.hpp"
+#include "language/say.hpp"
+#include "report/identification.hpp"
+
+namespace alembert {
+
+namespace {
+
+int run_identify(const SceneOptions& options) {
+    const Identification found = identify(scene_of(options.scene));
+    warn(found.warnings);
+    if (options.json)
+        show(as_json(found));
+    else
+        show(as_text(found));
+    return 0;
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<SceneOptions>(app, chosen,
+                                 {.name = "identify",
+                                  .about = say("tells which combinations of masses and inertias motion shows"),
+                                  .example = "alembert identify scenes/gallery/six_joint_arm.toml"},
+                                 run_identify);
+}
+
+}  // namespace alembert

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fmu/unit.hpp"
+
+#include "alembert/compile.hpp"
+#include "alembert/fingerprint.hpp"
+#include "archive/zip.hpp"
+#include "emit/emit.hpp"
+#include "fmu/description.hpp"
+#include "fmu/unit_source.hpp"
+
+namespace alembert {
+
+namespace {
+
+#if defined __aarch64__
+constexpr const char *folder_2 = "aarch64-linux", *folder_3 = "aarch64-linux";
+#else
+constexpr const char *folder_2 = "linux64", *folder_3 = "x86_64-linux";
+#endif
+
+/// 32 digits as {8-4-4-4-12}.
+std::string in_groups(const std::string& digits) {
+    std::string result = "{";
+    for (std::size_t k = 0; k < digits.size(); ++k) {
+        if (k == 8 || k == 12 || k == 16 || k == 20) result += '-';
+        result += digits[k];
+    }
+    return result + "}";
+}
+
+}  // namespace
+
+FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options) {
+    FunctionalUnit unit{unit_model(std::move(scene), options.by)};
+    unit.version = options.version;
+    unit.platform = options.version == 2 ? folder_2 : folder_3;
+    const Source equations = emit(unit.program, {.language = CodeLanguage::c});
+    unit.name = equations.file.substr(0, equations.file.size() - 2);
+    unit.variables = unit_variables(unit);
+    Fingerprint print;
+    print.add(equations.text);
+    print.add(unit_source(unit, unit.variables, options.version, "").text);
+    print.add(model_description(unit, unit.name, unit.variables, {.version = options.version, .token = ""}));
+    unit.token = in_groups(print.hex());
+    const SourceFile functions = unit_source(unit, unit.variables, options.version, unit.token);
+    const std::vector<CSource> files{{equations.file, equations.text},
+                                     {equations.header->name, equations.header->text},
+                                     {functions.name, functions.text}};
+    std::vector<ArchivedFile> archive{
+        {"modelDescription.xml",
+         model_description(unit, unit.name, unit.variables, {.version = options.version, .token = unit.token})},
+        {"binaries/" + unit.platform + "/" + unit.name + ".so", shared_object(files)}};
+    if (options.version == 3) archive.push_back({"sources/buildDescription.xml", build_description(unit.name)});
+    for (const CSource& file : files) archive.push_back({"sources/" + file.name, file.text});
+    unit.archive = stored_zip(archive);
+    return unit;
+}
+
+}  // namespace alembert

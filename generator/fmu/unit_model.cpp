@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fmu/unit_model.hpp"
+
+#include <algorithm>
+
+#include "language/say.hpp"
+#include "lower/lower.hpp"
+#include "program/differentiate.hpp"
+#include "program/switches.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+void refuse_contacts(const Mechanism& m) {
+    if (!m.unilateral.empty())
+        throw ModelError(say(
+            "a functional mock-up unit follows no contacts, because their modes change the equations, and this "
+            "scene has [[unilateral]]; use 'alembert simulate', or the library"));
+    if (!m.frictions.empty())
+        throw ModelError(
+            say("a functional mock-up unit follows no dry friction that sticks, because sticking changes the "
+                "equations, and this scene has [[friction]]; use 'alembert simulate', or the library, or "
+                "friction that is a smooth function of the velocity"));
+}
+
+/// Adds n entries for each event that has impulses.
+void add_impulses(Program& program, const UnitModel& model) {
+    const Mechanism& m = model.mechanism;
+    if (!m.has_kicks()) return;
+    if (!program.speeds.empty())
+        throw ModelError(
+            say("events with impulses can be exported only where the speeds are the rates of the coordinates; "
+                "leave [speeds] out, or the impulses"));
+    if (program.nodes_of(Group::mass).empty())
+        throw ModelError(
+            say("events with impulses can be exported only by a formalism that gives the mass matrix; name one, "
+                "as in --by lagrange"));
+    std::vector<GiNaC::ex> list;
+    for (const Mechanism::EventAction& action : m.event_actions)
+        list.insert(list.end(), action.impulse.begin(), action.impulse.end());
+    for (const int node : lower_expressions(program, in_terms_of(model.equations, m), list))
+        program.roots.push_back({Group::event_impulse, "", node});
+}
+
+/// The program with its signs held, and with derivatives where these are short enough.
+void complete(UnitModel& model, Program program) {
+    if (const std::optional<Switched> held = switched(program)) {
+        model.signs = static_cast<int>(held->frictions.size());
+        program = held->program;
+    }
+    if (auto derivatives = differentiated(program, {.parameters = true, .values = true, .budget = 100'000})) {
+        model.has_derivatives = true;
+        program = std::move(derivatives->program);
+    }
+    model.program = program.canonical();
+}
+
+}  // namespace
+
+std::size_t UnitModel::parameter(const std::string& name) const {
+    const auto found = std::find_if(program.parameters.begin(), program.parameters.end(),
+                                    [&](const Quantity& p) { return p.name == name; });
+    return static_cast<std::size_t>(found - program.parameters.begin());
+}
+
+UnitModel unit_model(Scene scene, const std::string& by) {
+    FreeInputs free = with_free_inputs(std::move(scene));
+    UnitModel model{derived(std::move(free.scene), {.by = by, .use = Use::run})};
+    model.inputs = std::move(free.inputs);
+    model.input_time = free.time;
+    refuse_contacts(model.mechanism);
+    if (!model.mechanism.impulses.empty())
+        model.warn(
+            say("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
+                "gives those after\n",
+                model.scene.file));
+    Program program = lowered(model).program;
+    add_impulses(program, model);
+    complete(model, std::move(program));
+    Start start = start_of(model.mechanism);
+    assemble(start, model.mechanism, lower_constraints(model.mechanism), {});
+    model.start = state_of(start, model.mechanism, model.equations);
+    model.start.parameters.resize(model.program.parameters.size(), 1);
+    model.duration = start.duration;
+    model.tolerance = start.tolerance;
+    model.sample = start.sample;
+    return model;
+}
+
+}  // namespace alembert

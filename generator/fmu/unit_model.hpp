@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The equations of a functional mock-up unit, with the numbers at which it starts.
+///
+///     const UnitModel model = unit_model(read_scene("scenes/textbook/cart_pole.toml"), "");
+///     model.program;                     // for emit; its last parameters are those of inputs, then signs
+///
+/// Functions with kinks (abs, sign, min, max) have a sign that is held between events, as in program/switches.hpp.
+/// Events whose impulses change the rates have these as roots of Group::event_impulse.
+
+#include <optional>
+
+#include "derive/derived.hpp"
+#include "fmu/free_inputs.hpp"
+#include "program/interpret.hpp"
+
+namespace alembert {
+
+struct UnitModel : Derived {
+    std::vector<FreeInput> inputs = {};
+    std::string input_time = {};  ///< as in FreeInputs
+    Program program = {};
+    int signs = 0;                 ///< parameters that hold a sign, the last of the program
+    bool has_derivatives = false;  ///< whether the program has the groups of program/differentiate.hpp
+    State<double> start = {};      ///< q, u, t and all parameters
+    double duration = 0, tolerance = 0, sample = 0;
+
+    std::size_t coordinates() const { return program.coordinates.size(); }
+    std::size_t speeds() const { return program.speeds.empty() ? coordinates() : program.speeds.size(); }
+    /// The place of a parameter in the program. The name must be one.
+    std::size_t parameter(const std::string& name) const;
+    /// Parameters of the scene itself, which come first.
+    std::size_t own_parameters() const {
+        return inputs.empty() ? program.parameters.size() - static_cast<std::size_t>(signs)
+                              : parameter(inputs[0].is_set);
+    }
+};
+
+/// Throws what `derived` throws; ModelError for what a unit cannot follow: contacts, dry friction, and impulses
+/// of events where the equations are in generalized speeds or have no mass matrix; IntegrationError or ModelError
+/// if the initial state cannot be made to obey the constraints.
+UnitModel unit_model(Scene scene, const std::string& by);
+
+}  // namespace alembert

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "fmu/unit_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <kainjow/mustache.hpp>
+
+#include "emit/elementary.hpp"
+#include "emit/numbers.hpp"
+#include "emit/solver_functions.hpp"
+#include "emit/templates.hpp"
+#include "emit/vocabulary.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// In the order of UnitVariable::Kind.
+constexpr const char* kind_names[] = {"is_time",   "is_state",  "is_rate",       "is_input", "is_parameter",
+                                      "is_energy", "is_output", "is_multiplier", "is_event"};
+
+std::size_t multipliers_of(const Program& p) {
+    return p.nodes_of(Group::multiplier).size();
+}
+
+std::vector<std::string> rows_of(const std::vector<UnitVariable>& variables) {
+    std::vector<std::string> rows;
+    for (const UnitVariable& v : variables)
+        rows.push_back(fmt::format("{}, {}", kind_names[static_cast<int>(v.kind)], v.place));
+    return rows;
+}
+
+std::vector<std::string> actions_of(const Mechanism& m) {
+    std::vector<std::string> rows;
+    int kicks = 0;
+    for (const Mechanism::EventAction& action : m.event_actions)
+        rows.push_back(fmt::format("{}, {}, {}", action.direction, action.stop ? 1 : 0,
+                                   action.impulse.empty() ? -1 : kicks++));
+    return rows;
+}
+
+/// The positions of the outputs that show the inputs and their derivatives.
+std::string shown_inputs(const UnitModel& model) {
+    std::string result;
+    for (const FreeInput& input : model.inputs)
+        for (const std::string& name : input.shown) {
+            int position = 0;
+            for (const Root& root : model.program.roots) {
+                if (root.group != Group::output) continue;
+                if (root.name == name) break;
+                ++position;
+            }
+            result += fmt::format("{}, ", position);
+        }
+    return result;
+}
+
+}  // namespace
+
+SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& variables, int version,
+                       const std::string& token) {
+    const Program& p = model.program;
+    const Vocabulary words(p);
+    const std::string scene = ascii_identifier(p.name);
+    const std::size_t signs = static_cast<std::size_t>(model.signs), parameters = p.parameters.size();
+    kainjow::mustache::data file;
+    const auto number = [&file](const char* name, std::size_t value) { file.set(name, std::to_string(value)); };
+    file.set("scene", scene);
+    file.set("version", ALEMBERT_VERSION);
+    file.set("token", token);
+    number("n", words.q().size());
+    number("s", words.u().size());
+    number("p", parameters);
+    number("inputs", model.inputs.size());
+    number("first_input", model.own_parameters());
+    number("signs", signs);
+    number("first_sign", parameters - signs);
+    number("events", model.mechanism.events.size());
+    number("kicks", p.nodes_of(Group::event_impulse).size() / std::max<std::size_t>(1, words.q().size()));
+    number("constraints", p.nodes_of(Group::velocity).size());
+    number("outputs", p.nodes_of(Group::output).size() + p.nodes_of(Group::speed).size());
+    number("multipliers", multipliers_of(p));
+    number("variables", variables.size());
+    file.set("table", list_of(rows_of(variables)));
+    file.set("actions", list_of(actions_of(model.mechanism)));
+    file.set("shown_inputs", shown_inputs(model));
+    std::string initial;
+    for (const auto* part : {&model.start.q, &model.start.qdot})
+        for (const double x : *part) initial += shortest(x) + ", ";
+    file.set("initial", initial);
+    file.set("start", shortest(model.start.t));
+    file.set("tolerance", shortest(model.tolerance));
+    const auto has = [&file](const char* name, const FunctionTask& task) {
+        file.set(std::string("has_") + name, !task.results.empty());
+    };
+    has("energy", energy(p)), has("outputs_at", outputs_at(p)), has("events_at", events_at(p));
+    has("multipliers_at", multipliers_at(p)), has("constraints_at", constraints_at(p));
+    has("project", project(p)), has("impulses_at", impulses_at(p));
+    has("parameter_jacobian", parameter_jacobian(p).task), has("value_gradient", value_gradient(p).task);
+    file.set("has_derivatives", !jacobian(p).task.results.empty());
+    const auto rendered = [&file](std::string_view shape) {
+        return kainjow::mustache::mustache{std::string(shape)}.render(file);
+    };
+    return {scene + "_fmu.c",
+            rendered(template_fmu_model) + rendered(version == 2 ? template_fmi2 : template_fmi3)};
+}
+
+}  // namespace alembert

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The C file of a functional mock-up unit that stands beside the emitted equations: values, events, co-simulation
+/// and the functions of FMI.
+///
+///     unit_source(model, variables, 2, "{…}").name;     // "cart_pole_fmu.c"
+
+#include "emit/emit.hpp"
+#include "fmu/unit_variables.hpp"
+
+namespace alembert {
+
+/// `version` is 2 or 3, `token` what an importer must know to make an instance.
+SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& variables, int version,
+                       const std::string& token);
+
+}  // namespace alembert

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "lower/robot_functions.hpp"
+
+#include <algorithm>
+
+#include "formalism/lagrange.hpp"
+#include "formalism/recursive.hpp"
+#include "formalism/routh.hpp"
+#include "language/say.hpp"
+#include "lower/choose.hpp"
+#include "lower/tree_functions.hpp"
+#include "model/friction.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+/// With more coordinates, Lagrange's equations never take fewer operations than the recursions over a tree.
+constexpr int most_by_lagrange = 4;
+
+/// The full matrix from its lower triangle.
+std::vector<int> mirrored(const std::vector<int>& triangle, int n) {
+    std::vector<int> full;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const int row = std::max(i, j), column = std::min(i, j);
+            full.push_back(triangle[static_cast<std::size_t>(row * (row + 1) / 2 + column)]);
+        }
+    return full;
+}
+
+/// M q'' − f
+std::vector<int> inverse_of(Program& program, const std::vector<int>& mass, const std::vector<int>& forcing) {
+    const int n = static_cast<int>(forcing.size());
+    const std::vector<int> full = mirrored(mass, n);
+    std::vector<int> loads;
+    for (int i = 0; i < n; ++i) {
+        std::vector<Program::Term> terms{{-1, forcing[static_cast<std::size_t>(i)]}};
+        for (int j = 0; j < n; ++j)
+            terms.emplace_back(1, program.product(1, {{full[static_cast<std::size_t>(i * n + j)], 1},
+                                                      {program.variable({Variable::Kind::acceleration, j}), 1}}));
+        loads.push_back(program.sum(0, terms));
+    }
+    return loads;
+}
+
+/// ∂V/∂q of gravity.
+std::vector<ex> gravity_of(const Mechanism& m) {
+    std::vector<std::pair<ex, ex>> targets;
+    for (const Part& part : m.potential)
+        if (part.origin.kind == Origin::Kind::gravity) targets.emplace_back(part.value, 1);
+    return m.z->pull_back(targets, m.q);
+}
+
+void need_gravity_of_its_own(const Mechanism& m, const std::string& name) {
+    const bool by_formula =
+        m.given_lagrangian || std::any_of(m.potential.begin(), m.potential.end(), [](const Part& part) {
+            return part.origin.kind == Origin::Kind::given_potential;
+        });
+    if (by_formula)
+        throw ModelError(say(
+            "the scene gives its potential or Lagrangian as a formula, in which gravity is not told apart from "
+            "other forces, so that there is no function '{}'; ask for 'bias', which has all of them",
+            name));
+}
+
+const char* sentence_for(const std::string& name) {
+    if (name == "inverse") return "Inverse dynamics: the loads M q'' + C q' + g - Q that bring q'' about.";
+    if (name == "mass") return "The mass matrix M(q).";
+    if (name == "bias") return "C q' + g - Q: inverse dynamics at q'' = 0.";
+    if (name == "gravity") return "g(q): the loads that hold the system at rest against gravity.";
+    return "Q: generalized forces of springs, dampers and applied loads.";
+}
+
+}  // namespace
+
+RobotFunctions::RobotFunctions(const Mechanism& mechanism, bool fold)
+    : m_(with_own_intermediates(mechanism)), fold_(fold) {
+    need_given_normal_forces(m_, "emit --functions");
+    if (Possible<JointTree> tree = loaded_tree(m_); tree.exists()) tree_ = std::move(tree).value();
+}
+
+const std::vector<std::string>& RobotFunctions::of_dynamics() {
+    static const std::vector<std::string> names{"inverse", "mass", "bias", "gravity", "loads"};
+    return names;
+}
+
+std::vector<Program> RobotFunctions::tree_forms(const std::string& name) const {
+    std::vector<Program> programs;
+    for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still}) {
+        if (!tree_ || (axes == LinkAxes::still && !has_parallel_axes(*tree_))) continue;
+        Program program = begun(m_, fold_);
+        const auto lowering = lowering_into(program, m_, {}, fold_);
+        const TreeFunctions tree(program, *tree_, axes, *m_.z, lowering);
+        std::vector<int> values;
+        if (name == "mass") {
+            values = mirrored(tree.mass(), m_.size());
+        } else {
+            using Terms = TreeFunctions::Terms;
+            values = tree.loads(name == "inverse" ? Terms::inverse
+                                : name == "bias"  ? Terms::bias
+                                                  : Terms::gravity);
+            for (std::size_t a = 0; a < values.size() && name != "gravity"; ++a)
+                values[a] = program.sum(0, {{1, values[a]}, {-1, lowering(tree_->forces[a])}});
+        }
+        programs.push_back(with_values_only(std::move(program), values));
+    }
+    return programs;
+}
+
+Program RobotFunctions::by_expressions(const std::vector<ex>& values) const {
+    Program program = begun(m_, fold_);
+    const auto lowering = lowering_into(program, m_, {}, fold_);
+    std::vector<int> nodes;
+    for (const ex& value : values) nodes.push_back(lowering(value));
+    return with_values_only(std::move(program), nodes);
+}
+
+Program RobotFunctions::from_lagrange(const std::string& name) const {
+    const Equations e = m_.constraints.empty() ? lagrange(m_) : routh(m_);
+    Program program = begun(m_, fold_);
+    std::vector<int> mass, forcing;
+    // A program for runs has an inertia along the e of each quaternion, which is not part of M.
+    if (std::any_of(m_.constraints.begin(), m_.constraints.end(), [](const auto& c) { return c.norm; })) {
+        const Mechanism own = in_terms_of(e, m_);
+        const auto lowering = lowering_into(program, own, {}, fold_);
+        for (int i = 0; i < m_.size(); ++i)
+            for (int j = 0; j <= i; ++j) mass.push_back(lowering(e.M(i, j)));
+        for (int i = 0; i < m_.size(); ++i) forcing.push_back(lowering(e.forcing(i)));
+    } else {
+        program = choose(m_, e, {.fold = fold_}).program;
+        mass = program.nodes_of(Group::mass);
+        forcing = program.nodes_of(Group::forcing);
+    }
+    std::vector<int> values = name == "mass" ? mirrored(mass, m_.size()) : forcing;
+    if (name == "inverse") values = inverse_of(program, mass, forcing);
+    if (name == "bias")
+        for (int& node : values) node = program.sum(0, {{-1, node}});
+    return with_values_only(std::move(program), values);
+}
+
+FunctionProgram RobotFunctions::dynamics(const std::string& name) const {
+    const int n = m_.size();
+    FunctionProgram result{
+        .name = name, .about = sentence_for(name), .rows = n, .columns = name == "mass" ? n : 1};
+    std::vector<Program> forms;
+    if (name == "loads" || name == "gravity") need_gravity_of_its_own(m_, name);
+    if (name != "loads") forms = tree_forms(name);
+    if (name == "loads") {
+        forms.push_back(by_expressions(forces_besides_gravity(m_)));
+    } else if (name == "gravity") {
+        std::vector<ex> loads = gravity_of(m_);
+        if (n <= most_by_lagrange || forms.empty()) {
+            forms.push_back(by_expressions(loads));
+            if (std::all_of(loads.begin(), loads.end(), [&](ex& load) {
+                    const std::optional<ex> readable = readable_form(load, m_);
+                    if (readable) load = *readable;
+                    return readable.has_value();
+                }))
+                forms.push_back(by_expressions(loads));
+        }
+    } else if (n <= most_by_lagrange || forms.empty()) {
+        forms.push_back(from_lagrange(name));
+    }
+    const auto cost = [](const Program& p) { return p.count(p.nodes_of(Group::function)).total(); };
+    result.program = *std::min_element(forms.begin(), forms.end(),
+                                       [&](const Program& a, const Program& b) { return cost(a) < cost(b); });
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The table of a run or a sweep as the bytes of a file, in the form that the name of the file asks for: `.npz`
+/// for NumPy, `.h5` or `.hdf5` for HDF5, else CSV.
+///
+///     need_table_form("run.h5");                            // before the work begins
+///     write_file("run.npz", table_file(run, "run.npz"), {});
+
+#include "archive/stored_table.hpp"
+#include "run/simulate.hpp"
+#include "run/sweep.hpp"
+
+namespace alembert {
+
+/// Throws CompileError if the form is HDF5 and the program was built without it.
+void need_table_form(const std::string& path);
+
+std::string table_file(const Run& run, const std::string& path);
+std::string table_file(const Sweep& sweep, const std::string& path);
+
+/// The columns of the CSV with their units, the scene's text (`scene`) and the version of the program (`version`).
+StoredTable stored(const Run& run);
+StoredTable stored(const Sweep& sweep);
+
+}  // namespace alembert
