@@ -209,6 +209,11 @@ void add_motion(std::string& page, const Run& run) {
     page += text_of(run.motion.events, run.mechanism);
     page += text_of(run.motion.contacts, run.contacts);
     page += text_of(run.friction_changes, run.mechanism);
+    for (std::size_t k = 0; k < std::min(run.chart_passes.size(), most_lines); ++k)
+        say_on(page, "frame {}: by a quaternion from t = {:.15g} to {:.15g}, near gimbal lock\n", run.chart_frame,
+               run.chart_passes[k].begin, run.chart_passes[k].end);
+    if (run.chart_passes.size() > most_lines)
+        say_on(page, "… and {} more\n", run.chart_passes.size() - most_lines);
     page += text_of(run.side_changes);
     say_on(page, "\nat t = {:.15g}\n", run.motion.final_time());
     const std::size_t width = column_for(run.speeds, column_for(run.coordinates, 16));
@@ -280,6 +285,8 @@ Json as_json(const Run& run) {
     for (const Run::Side& change : run.side_changes)
         result["switches"].push_back(
             {{"time", change.time}, {"name", change.name}, {"event", event_name(change.kind)}});
+    for (const ChartPass& pass : run.chart_passes)
+        result["charts"].push_back({{"frame", run.chart_frame}, {"begin", pass.begin}, {"end", pass.end}});
     if (!run.contacts.empty() || !run.mechanism.frictions.empty()) result["contacts"] = contacts_of(run);
     if (!run.contacts.empty()) result["impact_loss"] = energy.impact_loss;
     result["seconds"] = {{"derive", run.timings.derive},

@@ -46,6 +46,7 @@ struct Watch {
     PoseWatch poses = {};
     double constraint_drift = 0;
     long steps = 0;
+    bool near_lock = false;
     bool is_over = false;
 };
 
@@ -69,10 +70,10 @@ public:
         options_ = options_of(wishes_, choice_, start_);
         prepare_contacts();
         run_.timings = {.derive = run_.seconds, .emit = process_seconds() - begin};
-        Watch watch{.drift =
-                        Drift(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
+        angles_ = angles_of_frame(run_, choice_);
+        Watch watch = fresh_watch();
         LoadedModes modes(
-            wishes_, run_, start_, first_, energy_.conserved ? Work::left_out : Work::integrated, choice_,
+            wishes_, run_, start_, first_, work(), choice_,
             [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                 if (!watch.is_over) look(watch, mode, t, state, rate);
             });
@@ -97,6 +98,13 @@ public:
             if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
         };
         integrate(modes);
+        if (watch.near_lock && take_quaternion(modes)) {
+            watch = fresh_watch();
+            integrate(modes);
+            run_.chart_frame = run_.scene.frames[angles_->frame].name.text;
+            run_.chart_passes = charts_->passes();
+        }
+        add_seconds(modes);
         watch.is_over = true;
         settle_account(watch);
         if (wishes_.estimate && !run_.motion.failure && options_.duration > 0) estimate(modes, free, watch);
@@ -124,6 +132,7 @@ private:
 
     void look(Watch& watch, LoadedMode& mode, double t, std::span<const double> state,
               std::span<const double> rate) const {
+        watch.near_lock = watch.near_lock || (angles_ && angles_->evenness(state.data()) < to_quaternion);
         watch.drift(mode.module.table(), mode.par, t, state, rate);
         if (wishes_.estimate) watch.poses(t, state, start_.q.size(), first_.qdot.size());
         if (mode.contact.project)
@@ -159,6 +168,35 @@ private:
         run_.motion = followed(modes, options_, initial_);
         run_.timings.integrate = process_seconds() - begin - (making() - made_before);
         for (const Phase& phase : run_.motion.phases) modes(phase.closed).measure_sides(phase.motion);
+    }
+
+    Work work() const { return energy_.conserved ? Work::left_out : Work::integrated; }
+
+    Watch fresh_watch() const {
+        return {.drift = Drift(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
+    }
+
+    /// Prepares the run with a quaternion near gimbal lock; false if the scene does not allow it.
+    bool take_quaternion(LoadedModes& modes) {
+        ContactMode& mode = modes({}).contact;
+        if (mode.switching) return false;
+        try {
+            charts_.emplace(
+                run_, *angles_, start_.parameters, work(),
+                CompileOptions{.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}});
+        } catch (const std::runtime_error&) {
+            run_.warn(
+                say("warning: the angles of frame '{}' come near gimbal lock, and the run stays in them, because "
+                    "other "
+                    "parts of the scene name them or it cannot be derived without them\n",
+                    run_.scene.frames[angles_->frame].name.text));
+            return false;
+        }
+        mode.by = charts_->integrator();
+        return true;
+    }
+
+    void add_seconds(const LoadedModes& modes) {
         run_.timings.derive += modes.seconds().derive;
         run_.timings.emit += modes.seconds().emit;
         run_.timings.compile += modes.seconds().compile;
@@ -257,6 +295,8 @@ private:
     Contacts contacts_;
     std::vector<double> initial_;
     std::optional<JointReactions> reactions_;
+    std::optional<AnglesOfFrame> angles_;
+    std::optional<ChartRun> charts_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "alembert/phases.hpp"
+#include "run/charts.hpp"
 #include "run/estimate.hpp"
 #include "run/options.hpp"
 #include "run/rows.hpp"
@@ -66,6 +67,9 @@ struct Run : Derived {
         std::array<double, 2> direction = {0, 0};  ///< in this case, a unit vector
     };
     std::vector<FrictionChange> friction_changes = {};
+    /// The frame whose angles came near gimbal lock, and when a quaternion took their place (charts.hpp).
+    std::string chart_frame = {};
+    std::vector<ChartPass> chart_passes = {};
     EnergyAccount energy = {};
     double constraint_drift = 0;  ///< the largest residual
     std::optional<ErrorEstimate> estimate = {};

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/angles_of_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Quaternion = Eigen::Quaterniond;
+
+const char* const names_of_quaternion[] = {"chart_e0", "chart_e1", "chart_e2", "chart_e3"};
+
+/// The coordinate that an expression is; −1 if it is anything else.
+int coordinate_of(const Scene& scene, const Expression& e) {
+    if (!e.tree || e.tree->kind != Tree::Kind::name || e.tree->primes != 0) return -1;
+    for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
+        if (scene.coordinates[i].name.text == e.tree->text) return static_cast<int>(i);
+    return -1;
+}
+
+bool names_any(const TreePtr& tree, const std::vector<std::string>& names) {
+    if (!tree) return false;
+    if (tree->kind == Tree::Kind::name && std::find(names.begin(), names.end(), tree->text) != names.end())
+        return true;
+    return std::any_of(tree->args.begin(), tree->args.end(),
+                       [&](const TreePtr& arg) { return names_any(arg, names); });
+}
+
+/// `angle` and whole turns, as near to `near` as possible.
+double turned_towards(double angle, double near) {
+    constexpr double turn = 2 * std::numbers::pi;
+    return angle + turn * std::round((near - angle) / turn);
+}
+
+}  // namespace
+
+double AnglesOfFrame::evenness(const double* q) const {
+    const double b = q[angles[1]];
+    return std::abs(is_proper() ? std::sin(b) : std::cos(b));
+}
+
+std::optional<AnglesOfFrame> angles_of(const Scene& scene, std::size_t frame) {
+    const std::vector<Rotation>& rotations = scene.frames[frame].rotations;
+    if (rotations.size() != 3) return std::nullopt;
+    AnglesOfFrame found{.frame = frame, .axes = {}, .angles = {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+        found.axes[k] = rotations[k].letter - 'x';
+        found.angles[k] = coordinate_of(scene, rotations[k].angle);
+        if (rotations[k].letter == 0 || found.angles[k] < 0) return std::nullopt;
+    }
+    const auto& [a, b, c] = found.axes;
+    const auto& [p, q, r] = found.angles;
+    if (a == b || b == c || p == q || q == r || p == r) return std::nullopt;
+    return found;
+}
+
+bool named_elsewhere(const Scene& scene, const AnglesOfFrame& angles) {
+    std::vector<std::string> names;
+    for (const int k : angles.angles) names.push_back(scene.coordinates[static_cast<std::size_t>(k)].name.text);
+    bool found = false;
+    const auto look = [&](const Expression& e) { found = found || names_any(e.tree, names); };
+    const auto look_at = [&](const Vector& v) { std::for_each(v.component.begin(), v.component.end(), look); };
+    for (const Definition& d : scene.definitions) look(d.value);
+    for (std::size_t k = 0; k < scene.frames.size(); ++k)
+        for (const Rotation& r : scene.frames[k].rotations)
+            if (k != angles.frame) look(r.angle);
+    for (const Point& p : scene.points) look_at(p.position.offset);
+    for (const Particle& p : scene.particles) look_at(p.position.offset);
+    for (const Body& b : scene.bodies) look_at(b.position.offset);
+    for (const Force& f : scene.forces) look_at(f.vector);
+    for (const Torque& t : scene.torques) look_at(t.vector);
+    for (const auto* links : {&scene.springs, &scene.dampers})
+        for (const Link& link : *links)
+            for (const Expression* e : {&link.along, &link.constant, &link.length}) look(*e);
+    for (const Expression* e : {&scene.kinetic, &scene.potential, &scene.lagrangian, &scene.rayleigh}) look(*e);
+    for (const GeneralizedForce& f : scene.generalized_forces) {
+        look(f.value);
+        found = found || std::find(names.begin(), names.end(), f.coordinate.text) != names.end();
+    }
+    return found || !scene.joints.empty();
+}
+
+Scene with_quaternion(const Scene& given, const AnglesOfFrame& angles) {
+    Scene scene = given;
+    scene.on_warning = {};
+    scene.outputs.clear();
+    scene.claims.clear();
+    scene.impulses.clear();
+    scene.generalized_impulses.clear();
+    scene.coordinates.clear();
+    for (std::size_t i = 0; i < given.coordinates.size(); ++i)
+        if (std::find(angles.angles.begin(), angles.angles.end(), static_cast<int>(i)) == angles.angles.end())
+            scene.coordinates.push_back(given.coordinates[i]);
+    Frame& frame = scene.frames[angles.frame];
+    frame.rotations.clear();
+    std::vector<Diagnostic> none;
+    for (int k = 0; k < 4; ++k) {
+        Coordinate e;
+        e.name = {names_of_quaternion[k], frame.name.place};
+        e.initial = parse_expression(k == 0 ? "1" : "0", {}, none);
+        e.rate = parse_expression("0", {}, none);
+        frame.quaternion.push_back(e.name);
+        scene.coordinates.push_back(std::move(e));
+    }
+    return scene;
+}
+
+TurnedFrame::TurnedFrame(const std::array<int, 3>& axes, const Vector3d& angle) {
+    e = Quaternion::Identity();
+    for (int k = 0; k < 3; ++k) {
+        const Vector3d axis = Vector3d::Unit(axes[static_cast<std::size_t>(k)]);
+        rates.col(k) = e * axis;
+        e = e * Quaternion(Eigen::AngleAxisd(angle[k], axis));
+    }
+}
+
+Vector3d angles_near(const AnglesOfFrame& of, const Quaternion& e, const Vector3d& near) {
+    const Matrix3d R = e.normalized().toRotationMatrix();
+    const auto [i, j, k] = of.axes;
+    const double sign = (j - i + 3) % 3 == 1 ? 1 : -1;
+    std::array<Vector3d, 2> both;
+    if (of.is_proper()) {
+        const int l = 3 - i - j;
+        both[0] = {std::atan2(R(j, i), -sign * R(l, i)), std::atan2(std::hypot(R(j, i), R(l, i)), R(i, i)),
+                   std::atan2(R(i, j), sign * R(i, l))};
+        both[1] = {both[0][0] + std::numbers::pi, -both[0][1], both[0][2] + std::numbers::pi};
+    } else {
+        both[0] = {std::atan2(-sign * R(j, k), R(k, k)), std::atan2(sign * R(i, k), std::hypot(R(i, i), R(i, j))),
+                   std::atan2(-sign * R(i, j), R(i, i))};
+        both[1] = {both[0][0] + std::numbers::pi, std::numbers::pi - both[0][1], both[0][2] + std::numbers::pi};
+    }
+    for (Vector3d& angles : both)
+        for (int n = 0; n < 3; ++n) angles[n] = turned_towards(angles[n], near[n]);
+    return (both[0] - near).norm() <= (both[1] - near).norm() ? both[0] : both[1];
+}
+
+}  // namespace alembert

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Three angles that turn a frame, and the same rotation by a quaternion (charts.hpp).
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+struct AnglesOfFrame {
+    std::size_t frame;          ///< position in Scene::frames
+    std::array<int, 3> axes;    ///< 0, 1, 2 for x, y, z
+    std::array<int, 3> angles;  ///< positions of the coordinates
+
+    bool is_proper() const { return axes[0] == axes[2]; }
+    /// |sin b| or |cos b|.
+    double evenness(const double* q) const;
+};
+
+/// The angles of this frame, if it is turned by three coordinates about axes x, y or z of which no two neighbours
+/// are the same.
+std::optional<AnglesOfFrame> angles_of(const Scene& scene, std::size_t frame);
+
+/// Whether anything but the frame names the angles. Constraints, contacts, frictions, events and speeds are not
+/// looked at; outputs and claims do not change a motion. With joints the answer is yes.
+bool named_elsewhere(const Scene& scene, const AnglesOfFrame& angles);
+
+/// The scene with a quaternion in place of the angles; its coordinates come last. It has no outputs, claims and
+/// impulses.
+Scene with_quaternion(const Scene& scene, const AnglesOfFrame& angles);
+
+/// Rotation by three angles, and the axes about which their rates turn, along the parent's axes.
+struct TurnedFrame {
+    Eigen::Quaterniond e;
+    Eigen::Matrix3d rates;
+
+    TurnedFrame(const std::array<int, 3>& axes, const Eigen::Vector3d& angle);
+};
+
+/// The angles of a rotation that are the nearest to given ones.
+Eigen::Vector3d angles_near(const AnglesOfFrame& of, const Eigen::Quaterniond& e, const Eigen::Vector3d& near);
+
+}  // namespace alembert

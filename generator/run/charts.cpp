@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/charts.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/project.hpp"
+#include "alembert/run.hpp"
+#include "emit/emit.hpp"
+#include "language/say.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Quaternion = Eigen::Quaterniond;
+
+}  // namespace
+
+std::optional<AnglesOfFrame> angles_of_frame(const Derived& d, const MethodChoice& method) {
+    const Mechanism& m = d.mechanism;
+    if (!m.constraints.empty() || !m.redundant.empty() || !m.unilateral.empty() || !m.frictions.empty() ||
+        !m.events.empty() || !m.speeds.empty() || !d.equations.speeds_are_rates())
+        return std::nullopt;
+    if (!method.sundials.empty() || has_fixed_step(method.method) || uses_jacobian(method.method) ||
+        needs_canonical(method.method))
+        return std::nullopt;
+    std::optional<AnglesOfFrame> found;
+    for (std::size_t k = 0; k < d.scene.frames.size(); ++k)
+        if (const auto angles = angles_of(d.scene, k)) {
+            if (found) return std::nullopt;
+            found = angles;
+        }
+    return found;
+}
+
+class ChartRun::Parts {
+public:
+    Parts(const Derived& d, const AnglesOfFrame& angles, const std::vector<double>& parameters, Work work,
+          const CompileOptions& options)
+        : angles_(angles), n_(d.mechanism.size()) {
+        if (named_elsewhere(d.scene, angles)) throw ModelError(say("other parts of the scene name the angles"));
+        const Derived other = derived(with_quaternion(d.scene, angles), {.use = Use::run});
+        if (!other.equations.speeds_are_rates())
+            throw ModelError(
+                say("the equations are in generalized speeds (the formalism 'routh' has them in rates)"));
+        const Program program = lowered(other).program;
+        const Module module = load(compile(emit(program).text, program.name + "_quaternion", options).object);
+        projection_.emplace(module, parameters);
+        rhs_ = make_rhs(module, parameters, work);
+        if (work == Work::integrated) rhs_.extra = 0;
+        rhs_ = projection_->guarded(std::move(rhs_));
+        for (int i = 0; i < n_; ++i)
+            if (std::find(angles.angles.begin(), angles.angles.end(), i) == angles.angles.end())
+                others_.push_back(i);
+    }
+
+    Trajectory follow(const Rhs& rhs, const std::vector<double>& initial, const Options& given) {
+        passes.clear();
+        projection_->forget();
+        const double end = given.start + given.duration;
+        Options options = given;
+        options.by = {};
+        options.when_stiff = {};
+        options.rhs_when_stiff = {};
+        options.sample = sample_interval(given);
+        options.grid = given.grid.value_or(given.start);
+        Trajectory whole;
+        std::vector<double> state = initial;
+        for (bool by_quaternion = angles_.evenness(state.data()) < to_quaternion;;
+             by_quaternion = !by_quaternion) {
+            if (!whole.times.empty()) options.start = whole.times.back();
+            options.duration =
+                end - options.start > 16 * tolerance_of_time * std::abs(end) ? end - options.start : 0;
+            options.budget = std::max(1L, given.budget - whole.statistics.evaluations);
+            Trajectory piece =
+                by_quaternion ? in_angles(rhs, state, options) : integrate(rhs, state, options, leaving());
+            if (whole.times.empty())
+                whole = std::move(piece);
+            else
+                append(whole, std::move(piece), *options.grid, options.sample);
+            whole.events.clear();
+            whole.last_zeros.clear();
+            if (whole.ending != Ending::stopped_by_event) break;
+            const auto last = whole.final_state();
+            state.assign(last.begin(), last.end());
+            whole.ending = Ending::completed;
+        }
+        return whole;
+    }
+
+    std::vector<ChartPass> passes;
+
+private:
+    static constexpr double tolerance_of_time = 2.3e-16;
+
+    Events leaving() const {
+        return make_events({{.name = "lock", .stop = true, .direction = -1}},
+                           [this](double, const double* y, const double*, double* g) {
+                               g[0] = angles_.evenness(y) - to_quaternion;
+                           });
+    }
+
+    /// The evenness of a state in the other description.
+    double evenness(const double* z) const {
+        const Matrix3d R = turn_of(z).normalized().toRotationMatrix();
+        const auto [i, j, k] = angles_.axes;
+        return std::sqrt(std::max(0.0, 1 - R(i, k) * R(i, k)));
+    }
+
+    Quaternion turn_of(const double* z) const {
+        const double* const e = z + others_.size();
+        return {e[0], e[1], e[2], e[3]};
+    }
+
+    std::vector<double> to_other(const std::vector<double>& y) const {
+        Vector3d angle, rate;
+        for (int k = 0; k < 3; ++k) {
+            angle[k] = y[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])];
+            rate[k] = y[static_cast<std::size_t>(n_ + angles_.angles[static_cast<std::size_t>(k)])];
+        }
+        const TurnedFrame turned(angles_.axes, angle);
+        const Vector3d w = turned.rates * rate / 2;
+        const Quaternion change = Quaternion(0, w[0], w[1], w[2]) * turned.e;
+        std::vector<double> z;
+        for (const int i : others_) z.push_back(y[static_cast<std::size_t>(i)]);
+        z.insert(z.end(), {turned.e.w(), turned.e.x(), turned.e.y(), turned.e.z()});
+        for (const int i : others_) z.push_back(y[static_cast<std::size_t>(n_ + i)]);
+        z.insert(z.end(), {change.w(), change.x(), change.y(), change.z()});
+        z.insert(z.end(), y.begin() + 2 * n_, y.end());
+        return z;
+    }
+
+    /// The state in the scene's coordinates, with the angles nearest to those of `before`.
+    std::vector<double> to_scene(const double* z, std::size_t size, const std::vector<double>& before) const {
+        const auto half = others_.size() + 4;
+        std::vector<double> y(before.size());
+        for (std::size_t k = 0; k < others_.size(); ++k) {
+            y[static_cast<std::size_t>(others_[k])] = z[k];
+            y[static_cast<std::size_t>(n_ + others_[k])] = z[half + k];
+        }
+        const Quaternion e = turn_of(z), change = turn_of(z + half);
+        Vector3d near;
+        for (int k = 0; k < 3; ++k)
+            near[k] = before[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])];
+        const Vector3d angle = angles_near(angles_, e, near);
+        const Quaternion w = change * e.conjugate();
+        const Vector3d rate = TurnedFrame(angles_.axes, angle).rates.fullPivLu().solve(2 * w.vec());
+        for (int k = 0; k < 3; ++k) {
+            y[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])] = angle[k];
+            y[static_cast<std::size_t>(n_ + angles_.angles[static_cast<std::size_t>(k)])] = rate[k];
+        }
+        std::copy(z + 2 * half, z + size, y.begin() + 2 * n_);
+        return y;
+    }
+
+    /// A piece by quaternion, with its rows in the scene's coordinates.
+    Trajectory in_angles(const Rhs& rhs, const std::vector<double>& state, Options options) {
+        std::vector<std::pair<double, std::vector<double>>> steps;
+        options.project = projection_->after_steps();
+        if (needs_series(options.method)) options.method = Method::verner98;
+        options.on_step = [&](double t, std::span<const double> z, std::span<const double>) {
+            steps.emplace_back(t, std::vector<double>(z.begin(), z.end()));
+        };
+        const Events back = make_events(
+            {{.name = "regular", .stop = true, .direction = 1}},
+            [this](double, const double* z, const double*, double* g) { g[0] = evenness(z) - to_angles; });
+        Trajectory motion = integrate(rhs_, to_other(state), options, back);
+        passes.push_back({motion.times.front(), motion.times.back()});
+        std::vector<double> states, last = state;
+        std::size_t step = 0;
+        for (std::size_t row = 0; row < motion.rows(); ++row) {
+            for (; step < steps.size() && steps[step].first < motion.times[row]; ++step)
+                last = to_scene(steps[step].second.data(), steps[step].second.size(), last);
+            const auto z = motion.state(row);
+            last = to_scene(z.data(), z.size(), last);
+            states.insert(states.end(), last.begin(), last.end());
+        }
+        if (motion.failure) motion.failure->state = last;
+        motion.dimension = rhs.dimension;
+        motion.names = rhs.names;
+        motion.states = std::move(states);
+        return motion;
+    }
+
+    AnglesOfFrame angles_;
+    int n_;
+    std::vector<int> others_;  ///< the other coordinates
+    std::optional<Projection> projection_;
+    Rhs rhs_;
+};
+
+ChartRun::ChartRun(const Derived& derived, const AnglesOfFrame& angles, const std::vector<double>& parameters,
+                   Work work, const CompileOptions& options)
+    : parts_(std::make_unique<Parts>(derived, angles, parameters, work, options)) {}
+
+ChartRun::~ChartRun() = default;
+
+Integrator ChartRun::integrator() {
+    return [parts = parts_.get()](const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
+        return parts->follow(rhs, initial, options);
+    };
+}
+
+const std::vector<ChartPass>& ChartRun::passes() const {
+    return parts_->passes;
+}
+
+}  // namespace alembert

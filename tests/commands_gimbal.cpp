@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Runs through gimbal lock: near it a quaternion takes the place of the angles (run/charts.hpp). Held against the
+// same motions of scenes that have a quaternion from the start.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "files.hpp"
+#include "program.hpp"
+#include "scenes.hpp"
+
+namespace commands_gimbal {
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+std::string changed(const std::string& name, const std::vector<std::pair<std::string, std::string>>& edits) {
+    std::string scene = alembert::test::contents(source_path("scenes/textbook/" + name + ".toml"));
+    for (const auto& [from, to] : edits) {
+        const std::size_t at = scene.find(from);
+        REQUIRE(at != std::string::npos);
+        scene.replace(at, from.size(), to);
+    }
+    return temporary(name + "_changed.toml", scene);
+}
+
+Json simulated(const std::string& scene) {
+    const auto result = run({"simulate", scene, "--json", "--duration", "25", "--tolerance", "1e-13"});
+    CAPTURE(result.err);
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+Eigen::Matrix3d turned(const Json& motion) {
+    const Json& q = motion["final"]["coordinates"];
+    if (q.contains("e0"))
+        return Eigen::Quaterniond(q["e0"].get<double>(), q["e1"].get<double>(), q["e2"].get<double>(),
+                                  q["e3"].get<double>())
+            .toRotationMatrix();
+    const auto about = [&](const char* name, const Eigen::Vector3d& axis) {
+        return Eigen::AngleAxisd(q[name].get<double>(), axis).toRotationMatrix();
+    };
+    return about("phi", Eigen::Vector3d::UnitZ()) * about("theta", Eigen::Vector3d::UnitX()) *
+           about("psi", Eigen::Vector3d::UnitZ());
+}
+
+/// The top hangs, spins with 3 rad/s and swings from theta = 2. With `miss` = 0 its momentum about the vertical is
+/// minus that about its axis, so that it passes exactly through theta = pi.
+struct Swing {
+    double miss;
+    double precession() const { return -0.5 * 3 / (1 - std::cos(2.0)) + miss; }
+    std::string by_angles() const {
+        return changed("heavy_top",
+                       {{"initial = 0, rate = 0", fmt::format("initial = 0, rate = {:.17g}", precession())},
+                        {"initial = 1, rate = 0", "initial = 2, rate = 0"},
+                        {"initial = 0, rate = 4",
+                         fmt::format("initial = 0, rate = {:.17g}", 3 - precession() * std::cos(2.0))}});
+    }
+    std::string by_quaternion() const {
+        return changed(
+            "heavy_top_quaternion",
+            {{"theta0 = { value = 1.0", "theta0 = { value = 2.0"},
+             {"ey(F))\", initial = 0", fmt::format("ey(F))\", initial = {:.17g}", precession() * std::sin(2.0))},
+             {"initial = 4", "initial = 3"}});
+    }
+};
+
+}  // namespace
+
+TEST_CASE("gimbal lock: a gyroscope that passes through it ten times ends where its quaternion says") {
+    for (const double miss : {0.0, 1e-3}) {
+        CAPTURE(miss);
+        const Swing swing{miss};
+        const Json angles = simulated(swing.by_angles()), quaternion = simulated(swing.by_quaternion());
+        REQUIRE(angles.contains("charts"));
+        CHECK(angles["charts"].size() >= 10);
+        CHECK(angles["charts"][0]["frame"] == "F");
+        CHECK((turned(angles) - turned(quaternion)).norm() < 1e-10);
+        CHECK(angles["energy_drift"].get<double>() < 1e-12);
+        CHECK_FALSE(quaternion.contains("charts"));
+    }
+}
+
+TEST_CASE("gimbal lock: where another part of the scene names the angles, the run stays in them and says so") {
+    for (const char* more :
+         {"[forces]\ntheta = \"-theta'\"\n[[frame]]", "[energy]\npotential = \"cos(2*theta)\"\n[[frame]]",
+          "[definitions]\nlean = \"theta\"\n[[frame]]"}) {
+        CAPTURE(more);
+        const auto result = run(
+            {"simulate",
+             changed("heavy_top", {{"initial = 1, rate = 0", "initial = 0.02, rate = 0.1"}, {"[[frame]]", more}}),
+             "--duration", "0.1", "--json"});
+        CHECK(result.exit == 0);
+        CHECK(result.err.find("the angles of frame 'F' come near gimbal lock, and the run stays in them") !=
+              std::string::npos);
+        CHECK_FALSE(Json::parse(result.out).contains("charts"));
+    }
+}
+
+}  // namespace commands_gimbal
