@@ -451,6 +451,12 @@ TEST_CASE("import: friction slows a joint as its file says, and a stop ends its 
     const Json stopped = Json::parse(
         run({"simulate", temporary("driven.toml", text), "--duration", "2", "--json", "--no-estimate"}).out);
     CHECK(std::abs(stopped["final"]["coordinates"]["j"].get<double>() - 0.75) < 1e-8);
+    const std::string reversed = temporary(
+        "reversed.urdf", robot_of(link_of("a") + link_of("b", heavy) +
+                                  hinge_of("j", "revolute", "a", "b", "<limit lower=\"1\" upper=\"-1\"/>")));
+    CHECK(run({"import", reversed, "-o", scene, "--stops"})
+              .err.find("note: j has no stops, because its lower limit is above the upper one") !=
+          std::string::npos);
 }
 
 // Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and keeps its rotation, however that is described;

@@ -172,7 +172,7 @@ TEST_CASE("sweep: a scene without parameters is swept, side by side and by every
 
 TEST_CASE("sweep: the points of a file give the rows of the grid that has the same points") {
     const std::string scene = temporary("spring.toml", spring),
-                      points = temporary("points.csv", "x , k\n0.5,4\n\n 1, 2*3 \r\n\"0.5\",6\n");
+                      points = temporary("points.csv", "\xEF\xBB\xBFx , k\n0.5,4\n\n 1, 2*3 \r\n\"0.5\",6\n");
     const Json listed = sweep({scene, "--vary-from", points}),
                grid = sweep({scene, "--vary", "k=4:6:2", "--vary", "x=0.5:1:2"});
     REQUIRE(listed["rows"].size() == 3);

@@ -333,7 +333,14 @@ TEST_CASE("identify: base parameters of arms are as many as published, and their
     };
     CHECK(identify(scene_with("[0, 0, -9.81]", 6)).base.size() == 36);
     CHECK(identify(scene_with("[0, 0, -9.81]", 6)).parameters.size() == 60);
-    CHECK(identify(scene_with("[0, 0, -9.81]", 3)).base.size() == 15);
+    const Identification three = identify(scene_with("[0, 0, -9.81]", 3));
+    REQUIRE(three.base.size() == 15);
+    std::map<std::string, std::string> printed;  // zz(B1) + 0.48 my(B2) …: decimals, as the scene's points are
+    for (const BaseTerm& term : three.base[0].terms) printed[term.parameter] = term.coefficient;
+    CHECK(printed["m(B2)"] == "0.0576");                                // 0.24²
+    CHECK(printed["m(B3)"] == "0.2074");                                // (0.24 − 0.09)² + 0.43²
+    CHECK(printed["my(B3)"] == "0.3");                                  // 2 (0.24 − 0.09)
+    CHECK(printed["my(B2)"] == "0.48");                                 // 2 · 0.24
     CHECK(identify(scene_with("[3, 0, -9.81]", 6)).base.size() == 38);  // gravity is not along the first axis
     CHECK(identify(scene_with("[0, 0, 0]", 1)).base.size() == 1);
     // A planar arm of two links: z I + m l², m x + m l.

@@ -49,7 +49,7 @@ Grid grid_from_file(const std::string& path) {
                 path, number, what));
     };
     for (std::string line; std::getline(file, line);) {
-        ++number;
+        if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // the byte order mark
         if (is_blank(line)) continue;
         const std::vector<std::string> fields = fields_of(line);
         if (grid.axes.empty()) {

@@ -93,7 +93,8 @@ const std::vector<std::string>& functions_of_masses() {
 }
 
 FunctionProgram mass_function(const Scene& scene, const Mechanism& mechanism, const std::string& name, bool fold) {
-    if (const auto unknown = masses_unknown(mechanism, say("The function '{}'", name))) throw ModelError(*unknown);
+    if (const auto unknown = masses_unknown(mechanism, say("Functions such as '{}'", name)))
+        throw ModelError(*unknown);
     const int n = mechanism.size();
     Made function{.name = name, .about = "The mass centre, along N.", .rows = 3, .columns = 1, .values = {}};
     if (name == "com") {

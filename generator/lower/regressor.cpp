@@ -65,7 +65,7 @@ std::string InertialParameter::name() const {
 }
 
 Regressor regressor(const Scene& scene, const Mechanism& mechanism, bool fold) {
-    if (const auto unknown = masses_unknown(mechanism, say("The function '{}'", "regressor")))
+    if (const auto unknown = masses_unknown(mechanism, say("Functions such as '{}'", "regressor")))
         throw ModelError(*unknown);
     const Mechanism m = with_own_intermediates(mechanism);
     Program program = begun(m, fold);

@@ -41,10 +41,20 @@ std::optional<Rational> short_fraction(Prime p) {
     return Rational(cln::cl_I(static_cast<long>(t1 < 0 ? -r1 : r1))) / cln::cl_I(static_cast<long>(std::abs(t1)));
 }
 
+/// As a fraction if its denominator has three digits at the most, otherwise as decimals.
 std::string text_of(const Rational& r) {
     const cln::cl_I above = cln::numerator(r), below = cln::denominator(r);
+    if (below > 999) return fmt::format("{:.10g}", cln::double_approx(r));
     const auto digits = [](const cln::cl_I& n) { return std::to_string(cln::cl_I_to_long(n)); };
     return cln::equal(below, 1) ? digits(above) : fmt::format("{}/{}", digits(above), digits(below));
+}
+
+/// A coefficient without symbols: decimals where they end, as those of the scene do; 1/3 stays a fraction.
+std::string number_text(const Rational& r) {
+    cln::cl_I rest = cln::denominator(r);
+    for (const int factor : {2, 5})
+        while (cln::zerop(cln::mod(rest, factor))) rest = cln::exquo(rest, factor);
+    return cln::equal(rest, 1) ? fmt::format("{:.10g}", cln::double_approx(r)) : text_of(r);
 }
 
 /// The dependences among the columns of Y, as the reduced row echelon form shows them, with the columns in
@@ -159,7 +169,7 @@ std::string monomial_text(const Rational& factor, const std::vector<int>& expone
         if (exponents[k] > 0)
             text +=
                 (text.empty() ? "" : "*") + names[k] + (exponents[k] > 1 ? fmt::format("^{}", exponents[k]) : "");
-    if (text.empty()) return text_of(factor);
+    if (text.empty()) return number_text(factor);
     if (factor == Rational(1)) return text;
     return factor == Rational(-1) ? "-" + text : text_of(factor) + "*" + text;
 }
@@ -327,7 +337,7 @@ Identification identify(Scene scene) {
             constexpr double agreement = 1e-6;  // of least squares
             const bool is_short =
                 fraction && std::abs(cln::double_approx(*fraction) - number) < agreement * (1 + std::abs(number));
-            text = is_short ? text_of(*fraction) : fmt::format("{:.10g}", number);
+            text = is_short ? number_text(*fraction) : fmt::format("{:.10g}", number);
         }
         BaseParameter& base = result.base[entries[e].row];
         base.terms.push_back({result.parameters[column], text, number});

@@ -12,8 +12,9 @@
 /// all of them show only together. The rank, and which columns depend on which, are exact: Y is evaluated modulo
 /// 2⁶¹ − 1 at random states. A column that depends on others is expressed by those before it in the order second
 /// moments, first moments, masses, each from the ground outwards; these keep their parameters, which become sums.
-/// Coefficients are polynomials of degree two in the scene's parameters where these are few, else rational numbers
-/// where they are short.
+/// Coefficients are polynomials of degree two in the scene's parameters where these are few, otherwise numbers:
+/// decimals of at most ten digits, or a fraction where decimals would not end and its denominator has at most
+/// three digits.
 
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ namespace alembert {
 
 struct BaseTerm {
     std::string parameter;    ///< "m(lower)"
-    std::string coefficient;  ///< "l1^2", "1/4", or decimals
+    std::string coefficient;  ///< "l1^2", "0.25", or "1/3"
     double value = 1;         ///< of the coefficient, with the scene's parameters
 };
 

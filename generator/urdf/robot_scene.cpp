@@ -230,6 +230,8 @@ private:
         damper(joint, q);
         friction(joint, q);
         if (has_limits) stops(joint, q);
+        if (options_.stops && joint.limits && !has_limits)
+            result_.notes.push_back(say("{} has no stops, because its lower limit is above the upper one", q));
         if (options_.drives) drive(joint, q, slides);
     }
 
