@@ -643,6 +643,9 @@ TEST_CASE("fmu: what a unit cannot follow is refused, with what to do") {
     };
     refused("scenes/textbook/bouncing_ball.toml", "[[unilateral]]");
     refused("scenes/friction/block_on_slope.toml", "[[friction]]");
+    const auto named = run({"fmu", source_path("scenes/textbook/slider_crank.toml"), "-o", file_name("unit.zip")});
+    CHECK(named.exit == 3);
+    CHECK(named.err.find("call it NAME.fmu") != std::string::npos);
 }
 
 }  // namespace commands_fmu

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/table_file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "archive/hdf5.hpp"
@@ -15,7 +17,8 @@ namespace {
 enum class Form { csv, npz, hdf5 };
 
 Form form_of(const std::string& path) {
-    const std::string ending = std::filesystem::path(path).extension().string();
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
     return ending == ".npz" ? Form::npz : ending == ".h5" || ending == ".hdf5" ? Form::hdf5 : Form::csv;
 }
 
