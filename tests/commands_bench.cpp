@@ -84,8 +84,8 @@ TEST_CASE("bench: methods for separable systems are left out where the system is
         for (const Json& one : result["runs"]) names.insert(one["method"].get<std::string>());
         return names;
     };
-    const auto coupled =
-        methods(result_of({"bench", scene("double_pendulum_regular"), "--json", "--duration", "0.1"}));
+    const auto coupled = methods(result_of(
+        {"bench", scene("double_pendulum_regular"), "--json", "--duration", "0.1", "--budget", "20000"}));
     CHECK(!coupled.contains("kahanli8"));
     CHECK(coupled.contains("gauss"));
     CHECK(coupled.contains("radau"));
