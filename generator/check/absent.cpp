@@ -77,10 +77,6 @@ void add_products(const std::vector<std::string>& atoms, const std::vector<std::
         }
 }
 
-}  // namespace
-
-namespace {
-
 /// Terms that are usual in equations in the scene's speeds, as Euler's of a gyrostat: w2*w3, e1*w1, w1*sigma'.
 std::vector<std::string> products_of_speeds(const Mechanism& m) {
     if (m.speeds.empty()) return {};

@@ -86,7 +86,8 @@ private:
     std::vector<bool> resting() const;
     SteadySystem system_of(const Residuals& residuals, const Instant<long double>& at,
                            const std::vector<long double>& given, Rates rates, const Split& split) const;
-    /// linearized_at where the essential coordinates are at rest, in a fraction of the time.
+    /// linearized_at where the essential coordinates are at rest, in a fraction of the time. Their rates are no
+    /// unknowns in it.
     SteadySystem resting_system(const Instant<long double>& at, const std::vector<long double>& given,
                                 Rates rates) const;
     /// The size of an ordinary change of an unknown.
