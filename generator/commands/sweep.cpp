@@ -198,17 +198,17 @@ private:
         const auto takers = static_cast<std::size_t>(ranks_ == nullptr ? 1 : ranks_->size);
         const int threads = threads_of(verb_, ranks_);
         constexpr std::size_t lanes = 8, most_bytes = 1 << 25, most_reduced = 1 << 17;
-        const bool reduces = !verb_.reduce.empty();
+        const std::vector<Statistic> statistics = asked_statistics(verb_);
+        const bool reduces = !statistics.empty(), has_quantiles = with_quantiles(statistics);
         const std::size_t width = 8 * (end_columns(s).size() + 4);
         SweepQueue queue(parts_left(grid().size(), store_->parts()),
                          {.takers = takers,
                           .first = lanes * static_cast<std::size_t>(std::max(1, threads)),
                           .fixed = static_cast<std::size_t>(verb_.chunk),
                           .most = reduces ? most_reduced : std::clamp<std::size_t>(most_bytes / width, 1, 65536),
-                          .seconds = std::max(0.5, (reduces ? 0.02 : 0.001) * static_cast<double>(takers))});
+                          .seconds = std::max(0.5, (has_quantiles ? 0.02 : 0.001) * static_cast<double>(takers))});
         const SweepShelf shelf{.pack =
-                                   [&s, statistics = asked_statistics(verb_)](
-                                       SweepPart part, const std::vector<SweptMotion>& motions) {
+                                   [&s, &statistics](SweepPart part, const std::vector<SweptMotion>& motions) {
                                        return packed_part(s, statistics, part, motions);
                                    },
                                .keep =

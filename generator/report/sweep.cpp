@@ -23,11 +23,6 @@ std::string quoted(std::string text) {
     return result + "\"";
 }
 
-bool has_quantiles(const SweepReduction& reduction) {
-    return std::any_of(reduction.statistics().begin(), reduction.statistics().end(),
-                       [](const Statistic& s) { return s.kind == Statistic::Kind::quantile; });
-}
-
 }  // namespace
 
 Json as_json(const Sweep& s, const SweepTotals& sum) {
@@ -107,7 +102,7 @@ Json as_json(const SweepReduction& reduction) {
         Json row{{"name", quantity.name}, {"motions", quantity.motions}};
         for (std::size_t k = 0; k < quantity.values.size(); ++k)
             row[reduction.statistics()[k].name] = quantity.values[k];
-        if (has_quantiles(reduction)) row["quantile_error"] = quantity.quantile_error;
+        if (with_quantiles(reduction.statistics())) row["quantile_error"] = quantity.quantile_error;
         rows.push_back(std::move(row));
     }
     return rows;
@@ -126,7 +121,7 @@ std::string as_csv(const SweepReduction& reduction) {
 }
 
 std::string quantile_error_as_text(const SweepReduction& reduction) {
-    if (!has_quantiles(reduction)) return {};
+    if (!with_quantiles(reduction.statistics())) return {};
     double worst = 0;
     for (const ReducedQuantity& quantity : reduction.rows()) worst = std::max(worst, quantity.quantile_error);
     return worst == 0 ? say("the quantiles are exact\n")

@@ -7,6 +7,7 @@
 ///     put_bytes(bytes, 7L);
 ///     ByteReader(bytes).take<long>();      // 7
 
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -34,6 +35,12 @@ void put_list(std::string& out, const std::vector<T>& values) {
     out.append(reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size());
 }
 
+/// Seven bits in a byte, so that small numbers are short.
+inline void put_short(std::string& out, std::uint64_t value) {
+    for (; value > 127; value >>= 7U) out.push_back(static_cast<char>(value | 128U));
+    out.push_back(static_cast<char>(value));
+}
+
 /// Takes them back in the same order. Throws std::runtime_error where there are too few bytes.
 class ByteReader {
 public:
@@ -52,6 +59,15 @@ public:
         const std::string_view bytes = next(sizeof(T) * values.size());
         if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), bytes.data(), bytes.size());
         return values;
+    }
+    std::uint64_t short_number() {
+        std::uint64_t value = 0;
+        for (unsigned shift = 0; shift < 64; shift += 7) {
+            const auto byte = take<unsigned char>();
+            value |= std::uint64_t{byte & 127U} << shift;
+            if (byte < 128) break;
+        }
+        return value;
     }
     bool is_at_end() const { return rest_.empty(); }
     std::string_view rest() const { return rest_; }

@@ -31,13 +31,12 @@ std::uint64_t checksum_of(const RecordHead& head, std::string_view bytes) {
     return std::uint64_t{crc32_of(before)} << 32U | crc32_of(bytes);
 }
 
-std::string record_of(SweepPart part, std::string_view bytes) {
+std::string head_of(SweepPart part, std::string_view bytes) {
     RecordHead head{part.first, part.count, bytes.size(), 0};
     head.checksum = checksum_of(head, bytes);
-    std::string record;
-    put_bytes(record, head);
-    record += bytes;
-    return record;
+    std::string text;
+    put_bytes(text, head);
+    return text;
 }
 
 /// Nothing if so many bytes are not there.
@@ -121,7 +120,8 @@ void SweepJournal::write(std::string_view bytes) {
 }
 
 void SweepJournal::add(SweepPart part, std::string_view bytes) {
-    write(record_of(part, bytes));
+    write(head_of(part, bytes));
+    write(bytes);
     records_.push_back({part, end_ - bytes.size(), bytes.size()});
 }
 

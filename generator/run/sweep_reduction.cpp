@@ -34,6 +34,34 @@ Statistic statistic_of(const std::string& word, const std::string& list) {
     return {Kind::quantile, fmt::format("q{}", q), q};
 }
 
+/// Differences of neighbours, most of which are small, and counts, most of which are 1.
+void put_sketch(std::string& out, const QuantileSketch& sketch) {
+    put_bytes(out, sketch.dropped());
+    put_bytes(out, sketch.buckets().size());
+    std::int64_t last = 0;
+    for (const auto& [beginning, count] : sketch.buckets()) {
+        if (last == 0)
+            put_bytes(out, beginning);
+        else
+            put_short(out, static_cast<std::uint64_t>(beginning) - static_cast<std::uint64_t>(last));
+        put_short(out, static_cast<std::uint64_t>(count));
+        last = beginning;
+    }
+}
+
+void take_sketch(ByteReader& in, QuantileSketch& sketch) {
+    const int dropped = in.take<int>();
+    std::vector<QuantileSketch::Bucket> buckets(in.take<std::size_t>());
+    std::int64_t last = 0;
+    for (auto& [beginning, count] : buckets) {
+        beginning = last == 0 ? in.take<std::int64_t>()
+                              : static_cast<std::int64_t>(static_cast<std::uint64_t>(last) + in.short_number());
+        count = static_cast<std::int64_t>(in.short_number());
+        last = beginning;
+    }
+    sketch.set(dropped, std::move(buckets));
+}
+
 }  // namespace
 
 std::vector<Statistic> statistics_of(const std::string& list) {
@@ -50,10 +78,14 @@ std::vector<Statistic> statistics_of(const std::string& list) {
     return result;
 }
 
+bool with_quantiles(const std::vector<Statistic>& statistics) {
+    return std::any_of(statistics.begin(), statistics.end(),
+                       [](const Statistic& s) { return s.kind == Statistic::Kind::quantile; });
+}
+
 SweepReduction::SweepReduction(const Sweep& sweep, std::vector<Statistic> statistics)
     : statistics_(std::move(statistics)),
-      with_quantiles_(std::any_of(statistics_.begin(), statistics_.end(),
-                                  [](const Statistic& s) { return s.kind == Statistic::Kind::quantile; })),
+      with_quantiles_(with_quantiles(statistics_)),
       varied_(sweep.grid.names()) {
     const std::vector<std::string> ends = end_columns(sweep);
     for (const std::string& end : ends) names_.push_back((end == ends.back() ? "" : "final_") + end);
@@ -154,14 +186,7 @@ std::string SweepReduction::bytes() const {
         put_bytes(out, column.greatest);
         put_bytes(out, column.sum.normal());
         put_bytes(out, column.squares.normal());
-        put_bytes(out, column.sketch.dropped());
-        std::vector<std::int64_t> beginnings, counts;
-        for (const auto& [beginning, count] : column.sketch.buckets()) {
-            beginnings.push_back(beginning);
-            counts.push_back(count);
-        }
-        put_list(out, beginnings);
-        put_list(out, counts);
+        put_sketch(out, column.sketch);
     }
     return out;
 }
@@ -179,11 +204,7 @@ void SweepReduction::set(std::string_view bytes) {
         column.greatest = in.take<double>();
         column.sum.set(in.take<std::array<std::int64_t, ExactSum::digits>>());
         column.squares.set(in.take<std::array<std::int64_t, ExactSum::digits>>());
-        const int dropped = in.take<int>();
-        const auto beginnings = in.list<std::int64_t>(), counts = in.list<std::int64_t>();
-        std::vector<QuantileSketch::Bucket> buckets;
-        for (std::size_t k = 0; k < beginnings.size(); ++k) buckets.emplace_back(beginnings[k], counts.at(k));
-        column.sketch.set(dropped, std::move(buckets));
+        take_sketch(in, column.sketch);
     }
 }
 

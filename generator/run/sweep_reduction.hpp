@@ -32,6 +32,8 @@ struct Statistic {
 /// that stands there twice.
 std::vector<Statistic> statistics_of(const std::string& list);
 
+bool with_quantiles(const std::vector<Statistic>& statistics);
+
 struct ReducedQuantity {
     std::string name;
     std::int64_t motions = 0;    ///< how many had a value
