@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/process.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <spawn.h>
@@ -138,9 +139,16 @@ std::filesystem::path find_program(const std::string& program) {
 
 std::filesystem::path beside_this_program(const std::string& name) {
     std::error_code failed;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
-    const std::filesystem::path beside = program.parent_path() / name;
-    return failed || !std::filesystem::exists(beside, failed) ? std::filesystem::path() : beside;
+    std::vector<std::filesystem::path> homes = {std::filesystem::read_symlink("/proc/self/exe", failed)};
+    Dl_info library;  // in which this function is: the module of Python, for one
+    if (dladdr(reinterpret_cast<const void*>(&beside_this_program), &library) != 0 && library.dli_fname != nullptr)
+        homes.emplace_back(library.dli_fname);
+    for (const std::filesystem::path& home : homes) {
+        const std::filesystem::path beside = home.parent_path() / name;
+        if (!home.empty() && std::filesystem::exists(beside, failed))
+            return std::filesystem::absolute(beside, failed);
+    }
+    return {};
 }
 
 }  // namespace alembert
