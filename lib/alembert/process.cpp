@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/process.hpp"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
 #include <spawn.h>
@@ -20,6 +19,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/leftover.hpp"
+#include "alembert/own_file.hpp"
 
 namespace alembert {
 namespace {
@@ -139,10 +139,7 @@ std::filesystem::path find_program(const std::string& program) {
 
 std::filesystem::path beside_this_program(const std::string& name) {
     std::error_code failed;
-    std::vector<std::filesystem::path> homes = {std::filesystem::read_symlink("/proc/self/exe", failed)};
-    Dl_info library;  // in which this function is: the module of Python, for one
-    if (dladdr(reinterpret_cast<const void*>(&beside_this_program), &library) != 0 && library.dli_fname != nullptr)
-        homes.emplace_back(library.dli_fname);
+    const std::filesystem::path homes[] = {std::filesystem::read_symlink("/proc/self/exe", failed), own_file()};
     for (const std::filesystem::path& home : homes) {
         const std::filesystem::path beside = home.parent_path() / name;
         if (!home.empty() && std::filesystem::exists(beside, failed))
