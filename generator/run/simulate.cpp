@@ -184,12 +184,12 @@ private:
             charts_.emplace(
                 run_, *angles_, start_.parameters, work(),
                 CompileOptions{.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}});
-        } catch (const std::runtime_error&) {
+        } catch (const CompileError&) {
+            throw;
+        } catch (const std::runtime_error& reason) {
             run_.warn(
-                say("warning: the angles of frame '{}' come near gimbal lock, and the run stays in them, because "
-                    "other "
-                    "parts of the scene name them or it cannot be derived without them\n",
-                    run_.scene.frames[angles_->frame].name.text));
+                say("warning: the angles of frame '{}' come near gimbal lock, and the run stays in them: {}\n",
+                    run_.scene.frames[angles_->frame].name.text, reason.what()));
             return false;
         }
         mode.by = charts_->integrator();
