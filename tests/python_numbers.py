@@ -76,6 +76,11 @@ class Motions(unittest.TestCase):
             run.save(os.path.join(folder, "run.npz"))
             with np.load(os.path.join(folder, "run.npz")) as stored:
                 np.testing.assert_array_equal(stored["theta1"], run["theta1"])
+            # The library for HDF5 stands beside the module, where it was built.
+            if os.path.exists(os.path.join(os.path.dirname(alembert.__file__), "alembert-hdf5.so")):
+                run.save(os.path.join(folder, "run.h5"))
+                with open(os.path.join(folder, "run.h5"), "rb") as stored:
+                    self.assertEqual(stored.read(4), b"\x89HDF")
 
     def test_a_sweep_has_the_shape_of_its_grid(self):
         scene = alembert.Scene(PENDULUM)

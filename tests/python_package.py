@@ -9,10 +9,12 @@ import inspect
 import math
 import os
 import re
+import subprocess
 import sys
 import tempfile
 import unittest
 import warnings
+import zipfile
 
 sys.dont_write_bytecode = True
 try:
@@ -23,7 +25,7 @@ except ImportError:
 
 import alembert
 
-from python_shared import PENDULUM, SCENES, program, scene_file
+from python_shared import PENDULUM, SCENES, TESTS, program, scene_file
 from python_numbers import *  # noqa: F403 (unittest finds the tests of all three files here)
 from python_examples import *  # noqa: F403
 
@@ -164,6 +166,35 @@ class Verbs(unittest.TestCase):
         self.assertTrue(any(issubclass(one.category, alembert.SceneWarning) for one in said))
 
 
+class Wheel(unittest.TestCase):
+    def test_a_wheel_works_without_the_sources_and_lists_all_its_files(self):
+        sys.path.insert(0, os.path.join(TESTS, "../python"))
+        import backend
+
+        backend._build = lambda: os.path.dirname(alembert.__file__)
+        code = ("import alembert, os; s = alembert.Scene({'coordinates': {'x': 1}, 'parameters': {'m': 2, 'k': 8}, "
+                "'particle': [{'name': 'P', 'mass': 'm', 'position': ['x', 0]}], 'forces': {'x': '-k*x'}}); "
+                "print(alembert.__file__, s.simulate(duration=0.5, estimate=False)(0.5)[0], s.system().rhs(0.0, [1, 0])[1])")
+        with tempfile.TemporaryDirectory() as folder:
+            wheel = backend.build_wheel(folder)
+            site = os.path.join(folder, "site")
+            with zipfile.ZipFile(os.path.join(folder, wheel)) as archive:
+                archive.extractall(site)
+                names = archive.namelist()
+                (info,) = {name.split("/")[0] for name in names} - {"alembert"}
+                record = [line.split(",")[0] for line in archive.read(f"{info}/RECORD").decode().splitlines()]
+                self.assertEqual(sorted(record), sorted(names))
+                metadata = backend.prepare_metadata_for_build_wheel(os.path.join(folder, "metadata"))
+                with open(os.path.join(folder, "metadata", metadata, "METADATA"), encoding="utf-8") as file:
+                    self.assertEqual(file.read(), archive.read(f"{info}/METADATA").decode())
+            told = subprocess.run([sys.executable, "-B", "-c", code], cwd=folder, capture_output=True, text=True,
+                                  env={**os.environ, "PYTHONPATH": site})  # yapf: disable
+            where, x, acceleration = told.stdout.split()
+            self.assertTrue(where.startswith(site), told.stderr)
+            self.assertAlmostEqual(float(x), math.cos(1), places=8)
+            self.assertEqual(float(acceleration), -4)
+
+
 class Expressions(unittest.TestCase):
     def setUp(self):
         try:
@@ -176,6 +207,12 @@ class Expressions(unittest.TestCase):
         scene = alembert.Scene(scene_file("textbook/double_pendulum.toml"))
         for equation in scene.derive().equations:
             self.assertTrue(scene.check(alembert.from_sympy(equation.sympy())))
+
+    def test_functions_that_a_scene_leaves_open_go_there_and_back(self):
+        for name in ("cam_with_follower", "central_field", "bead_on_any_curve"):
+            scene = alembert.Scene(scene_file(f"functions/{name}.toml"))
+            for equation in scene.derive().equations:
+                self.assertTrue(scene.check(alembert.from_sympy(equation.sympy())).verdicts == ["proved"], equation.text)
 
     def test_sympy_derives_the_same_pendulum(self):
         sympy = self.sympy
