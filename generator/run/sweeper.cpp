@@ -56,9 +56,10 @@ std::vector<double> rates_at(const Program& program, const Module& module, const
 
 }  // namespace
 
-Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes)
+Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<std::string> along)
     : s_{derived(std::move(scene), {.by = wishes.by, .use = Use::run})}, wishes_(wishes) {
     s_.grid = std::move(grid);
+    s_.along = std::move(along);
     const Mechanism& m = s_.mechanism;
     need_smooth_motion(m);
     if (!m.impulses.empty())
@@ -105,6 +106,7 @@ void Sweeper::make_key() {
         print.add(text);
     print.add(fmt::format("{} {} {} {} {} {} {}", wishes_.duration, wishes_.tolerance, wishes_.step,
                           wishes_.max_step, wishes_.budget, wishes_.fast_math, s_.grid.size()));
+    for (const std::string& statistic : s_.along) print.add(statistic);
     for (const Axis& axis : s_.grid.axes)
         print.add(fmt::format("{} {} {} {}", axis.name, axis.from, axis.to, axis.count));
     for (const double value : s_.grid.listed) print.add(fmt::format("{}", value));
@@ -143,6 +145,7 @@ void Sweeper::compile() {
     s_.timings.compile = compiled.from_cache ? 0.0 : compiled.seconds;
     const double begin = process_seconds();
     ensemble_.emplace(Ensemble{.module = load(compiled.object)});
+    ensemble_->along = !s_.along.empty();
     ensemble_->work = s_.conserved ? Work::left_out : Work::integrated;
     for (const Mechanism::EventAction& event : s_.mechanism.event_actions) {
         ensemble_->stops.push_back(event.stop);
@@ -235,6 +238,7 @@ SweptMotion Sweeper::refused(const std::string& why) const {
             .final_coordinates = none,
             .final_rates = none,
             .final_speeds = std::vector<double>(s_.speeds.size(), nothing),
+            .along = std::vector<double>(along_columns(s_).size(), nothing),
             .time = nothing,
             .drift = nothing,
             .status = why,
@@ -248,6 +252,11 @@ SweptMotion Sweeper::motion_of(const Member& member, const Outcome& outcome, std
                   .final_rates = rates_at(program_, ensemble_->module, member, outcome.time, state),
                   .final_speeds = {}};
     if (!s_.speeds.empty()) m.final_speeds.assign(state.begin() + n, state.end());
+    for (const std::string& statistic : s_.along) {
+        const std::size_t block = statistic == "min" ? 0 : statistic == "max" ? 1 : 2;
+        const auto first = outcome.along.begin() + static_cast<std::ptrdiff_t>(block * state.size());
+        m.along.insert(m.along.end(), first, first + static_cast<std::ptrdiff_t>(state.size()));
+    }
     m.time = outcome.time;
     m.drift = s_.conserved ? outcome.energy_drift : outcome.work_balance;
     m.steps = outcome.steps;
