@@ -10,6 +10,7 @@
 #include "commands/verb.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
+#include "urdf/loops.hpp"
 #include "urdf/robot_scene.hpp"
 
 namespace alembert {
@@ -17,7 +18,7 @@ namespace alembert {
 namespace {
 
 struct ImportOptions {
-    std::string robot, output;
+    std::string robot, output, loops;
     bool floating = false, quaternion = false, drives = false, friction = false, stops = false,
          right_angles = false, json = false;
 };
@@ -25,6 +26,7 @@ struct ImportOptions {
 int run(const ImportOptions& options) {
     const std::string file = std::filesystem::path(options.robot).filename().string();
     Robot robot = read_robot(options.robot);
+    if (!options.loops.empty()) close_loops(robot, options.loops);
     const int rounded = rounded_right_angles(robot, options.right_angles);
     RobotScene scene = robot_scene(robot, {.source = file,
                                            .floating = options.floating,
@@ -56,8 +58,14 @@ int run(const ImportOptions& options) {
         result["coordinates"] = scene.coordinates;
         if (options.drives) result["drives"] = scene.drives;
         result["right_angles"] = {{"rounded", rounded}, {"made_exact", options.right_angles}};
+        if (!scene.loops.empty()) result["loops"] = scene.loops;
+        if (!scene.couplings.empty()) result["couplings"] = scene.couplings;
         result["merged"] = scene.merged;
         result["frames"] = scene.frames;
+        Json links = Json::object(), joints = Json::object();
+        for (const auto& [own, name] : scene.links) links[own] = name;
+        for (const auto& [own, name] : scene.joints) joints[own] = name;
+        result["names"] = {{"links", links}, {"joints", joints}, {"coordinates", scene.coordinates_of}};
         result["dropped"] = Json::object();
         for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
         result["warnings"] = Json::array();
@@ -68,6 +76,7 @@ int run(const ImportOptions& options) {
     }
     std::cout << say("{}\n{} bodies, {} coordinates: {}\n", options.output, scene.bodies, scene.coordinates.size(),
                      fmt::join(scene.coordinates, ", "));
+    if (!scene.loops.empty()) std::cout << say("loops closed by {}\n", fmt::join(scene.loops, ", "));
     for (const std::string& sentence : scene.merged) fmt::print("{}\n", escaped(sentence, 300));
     return 0;
 }
@@ -77,9 +86,11 @@ int run(const ImportOptions& options) {
 void add_import(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<ImportOptions>();
     Verb verb = add_verb(app, {.name = "import",
-                               .about = say("writes the scene of a robot description (URDF)"),
+                               .about = say("writes the scene of a robot description (URDF, MJCF, SDF)"),
                                .example = "alembert import tests/robots/arm6.urdf -o arm6.toml"});
-    verb.add_option("robot", options->robot, say("the robot, an .urdf file")).type_name(values::robot).required();
+    verb.add_option("robot", options->robot, say("the robot: a file in URDF, MJCF (MuJoCo) or SDF (Gazebo)"))
+        .type_name(values::robot)
+        .required();
     verb.add_option("-o,--output", options->output, say("the scene to be written"))
         .type_name(values::file)
         .required();
@@ -87,7 +98,10 @@ void add_import(CLI::App& app, Chosen& chosen) {
     verb.add_flag("--quaternion", options->quaternion, say("what floats turns by a quaternion"));
     verb.add_flag("--friction", options->friction, say("the Coulomb friction of the joints"));
     verb.add_flag("--stops", options->stops, say("contacts at the limits of the joints"));
-    verb.add_flag("--drives", options->drives, say("an input for the torque or force of each joint"));
+    verb.add_flag("--drives", options->drives,
+                  say("an input for the torque or force of each joint, or for each motor of the file"));
+    verb.add_option("--loops", options->loops, say("a file of [[joint]]s between links, which close loops"))
+        .type_name(values::file);
     verb.add_flag("--right-angles", options->right_angles, say("1.5708 and the like become right angles"));
     verb.add_flag("--json", options->json, say("print one JSON object"));
     verb.callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });

@@ -46,7 +46,9 @@ struct TreeLink {
     Triple<S> p = no_vector<S>();  ///< R, p: the link's axes and origin in the parent's own axes when the joint is
                                    ///< at 0; constant
     Triple<S> slide = no_vector<S>();  ///< the direction of a sliding link, in its own axes; constant
-    RigidBody<S> body{};               ///< along the link's own axes; constant
+    bool has_rotor = false;
+    S rotor = S(0);       ///< the inertia about or along the joint of what moves with w alone; a motor
+    RigidBody<S> body{};  ///< along the link's own axes; constant
 
     bool about_x = false;  ///< whether R is a turn about x
     S angle = S(0), cosine = S(1),
@@ -328,6 +330,7 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
                   {-b.first[1], b.first[0], S(0)}};
         }
         M[j][j] = along_joint(tree, *link, on);
+        if (link->has_rotor) M[j][j] = M[j][j] + link->rotor;
         for (int i = j; link->parent >= 0; link = &tree.links[i]) {
             if (i <= middle) {
                 for (int a = 0; a < i; ++a) M[j][a] = dot(twists[i][a].n, on.n) + dot(twists[i][a].f, on.f);
@@ -370,8 +373,9 @@ Articulated<S> articulated(const RigidBody<S>& b) {
 }
 
 /// w' of M w' + joint_loads(wrenches) = Q. Inwards: U = I s, D = s·U; I − U Uᵀ/D and the wrench plus U (Q −
-/// s·wrench)/D are passed to the parent. Outwards: w' = (Q − s·wrench − U·acceleration)/D. A turning joint passes
-/// Q and no inertia about its axis; these are set exactly, not computed.
+/// s·wrench)/D are passed to the parent. The inertia of a rotor is added to D. Outwards: w' = (Q − s·wrench −
+/// U·acceleration)/D. A turning joint without a rotor passes Q and no inertia about its axis; these are set
+/// exactly, not computed.
 template <typename S>
 std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches,
                                   const std::vector<S>& Q) {
@@ -393,7 +397,8 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
             column = {{own.A[5], own.A[4], own.A[2]}, own.B[2]};
         }
         const S u = Q[j] - along_joint(tree, link, w);
-        const S inverse = S(1) / along_joint(tree, link, column);
+        const S own_inertia = along_joint(tree, link, column);
+        const S inverse = S(1) / (link.has_rotor ? own_inertia + link.rotor : own_inertia);
         free[j] = u * inverse;
         U[j] = {inverse * column.n, inverse * column.f};
         if (link.parent < 0) continue;
@@ -412,7 +417,7 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
             for (int k = 0; k < 3; ++k) own.B[i][k] = own.B[i][k] - over(column.n[i], U[j].n[i], column.f[k]);
         }
         w = {w.n + u * U[j].n, w.f + u * U[j].f};
-        if (!link.slides) {
+        if (!link.slides && !link.has_rotor) {
             own.A[2] = own.A[4] = own.A[5] = own.B[2][0] = own.B[2][1] = own.B[2][2] = S(0);
             w.n[2] = Q[j];
         }
@@ -451,9 +456,12 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
             epsilon = tree.from_parent(link, e[link.parent]);
             acceleration = tree.from_parent(link, a[link.parent] + cross(e[link.parent], arms[j]));
         }
-        if (link.slides) {
+        if (link.slides || link.has_rotor) {
             const S rate = free[j] - (dot(U[j].n, epsilon) + dot(U[j].f, acceleration));
-            acceleration = acceleration + rate * tree.direction(link);
+            if (link.slides)
+                acceleration = acceleration + rate * tree.direction(link);
+            else
+                epsilon[2] = epsilon[2] + rate;
             result.push_back(rate);
         } else {  // U_z/D = 1, so the result is the whole of ε_z
             const S whole =
