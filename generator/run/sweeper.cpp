@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
@@ -213,6 +214,9 @@ std::optional<Member> Sweeper::member(std::size_t k, const SweepDesk& desk) {
                       .parameters = start.parameters,
                       .start = start.t,
                       .duration = wishes_.duration >= 0 ? wishes_.duration : start.duration};
+        if (!std::isfinite(member.duration) || member.duration < 0)
+            throw ModelError(
+                say("the motion would take {} s; expected a finite number, zero or more", member.duration));
         member.state.insert(member.state.end(), first.qdot.begin(), first.qdot.end());
         if (variants_) member.quick_times = variants_->quick_times(start);
         return member;
