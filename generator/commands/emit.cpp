@@ -40,9 +40,7 @@ int run(const EmitVerb& options) {
         paths.push_back((std::filesystem::path(options.folder) / name).string());
         write_file(paths.back(), text, {options.scene});
     };
-    write(e.source.file, e.source.text);
-    if (e.source.header) write(e.source.header->name, e.source.header->text);
-    if (e.main) write(e.main->name, e.main->text);
+    for (const SourceFile& file : files_of(e)) write(file.name, file.text);
     if (options.json)
         show(as_json(e, paths));
     else
@@ -67,6 +65,8 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                 .one_of({"cpp", "c"});
             verb.add_flag("--standalone", options.emission.standalone,
                           say("also a main program that integrates and prints"));
+            verb.add_flag("--casadi", options.emission.casadi,
+                          say("with --language c: also functions for CasADi"));
             verb.add_flag("--fold", options.emission.fold, say("parameters as constants"));
             verb.add_flag("--jacobian", options.emission.jacobian,
                           say("also the derivatives of the right-hand side"));

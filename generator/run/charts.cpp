@@ -14,13 +14,9 @@
 
 namespace alembert {
 
-namespace {
-
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Quaternion = Eigen::Quaterniond;
-
-}  // namespace
 
 std::optional<AnglesOfFrame> angles_of_frame(const Derived& d, const MethodChoice& method) {
     const Mechanism& m = d.mechanism;

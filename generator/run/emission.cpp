@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "emit/casadi.hpp"
 #include "emit/names.hpp"
 #include "emit/standalone.hpp"
 #include "language/say.hpp"
@@ -46,11 +47,8 @@ void check_functions(const Emission& e, const EmissionOptions& options) {
         throw ModelError(say(
             "functions such as 'inverse' take coordinates and their rates, and the equations are in other speeds; "
             "leave out the table [speeds], and choose no formalism that has speeds of its own"));
-    std::vector<std::string> known = RobotFunctions::of_dynamics();
-    known.insert(known.end(), functions_of_masses().begin(), functions_of_masses().end());
-    known.emplace_back("regressor");
+    const std::vector<std::string>& known = all_functions();
     const std::vector<std::string>& of_frames = functions_of_operational_space();
-    known.insert(known.end(), of_frames.begin(), of_frames.end());
     for (const std::string& name : options.functions)
         if (!holds(known, name))
             throw ModelError(say("there is no function {} to emit; expected some of: {}", in_quotes(name),
@@ -97,13 +95,31 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
 
 }  // namespace
 
+const std::vector<std::string>& all_functions() {
+    static const std::vector<std::string> known = [] {
+        std::vector<std::string> names = RobotFunctions::of_dynamics();
+        names.insert(names.end(), functions_of_masses().begin(), functions_of_masses().end());
+        names.emplace_back("regressor");
+        names.insert(names.end(), functions_of_operational_space().begin(), functions_of_operational_space().end());
+        return names;
+    }();
+    return known;
+}
+
+std::vector<SourceFile> files_of(const Emission& e) {
+    std::vector<SourceFile> files = {{e.source.file, e.source.text}};
+    for (const std::optional<SourceFile>* other : {&e.source.header, &e.main, &e.casadi})
+        if (*other) files.push_back(**other);
+    return files;
+}
+
 Emission emission(Scene scene, const EmissionOptions& options) {
     for (const std::string& place : options.wrenches) with_wrench(scene, place, ascii_identifier(place));
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
     e.choice = lowered(e, options.fold);
-    if (options.jacobian) {
-        e.derivatives = differentiated(e.choice.program, {.parameters = true, .power = true});
-        if (!e.derivatives)
+    if (options.jacobian || options.casadi) {
+        e.derivatives = derivatives_of(e, e.choice.program, {.parameters = true, .power = true}, options.fold);
+        if (!e.derivatives && options.jacobian)
             throw ModelError(say(
                 "the derivatives of the right-hand side are too long to be written out; leave the Jacobian out"));
     }
@@ -111,6 +127,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     e.functions = named_functions(program, e, options);
     e.source = emit(program, {.batch = options.batch, .language = options.language, .functions = e.functions});
     if (options.standalone) e.main = main_program(e, program, options.language);
+    if (options.casadi)
+        e.casadi = casadi_functions(program, {.language = options.language, .functions = e.functions});
     return e;
 }
 

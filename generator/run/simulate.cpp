@@ -66,6 +66,7 @@ public:
         start_ = start_of(run_.mechanism);
         run_.adjusted = assemble(start_, run_.mechanism, lower_constraints(run_.mechanism), {});
         first_ = state_of(start_, run_.mechanism, run_.equations);
+        if (!wishes_.sensitivity.empty()) sensitivities_.emplace(run_, program, start_, wishes_.sensitivity);
         choice_ = method_for(wishes_, run_, program, start_);
         options_ = options_of(wishes_, choice_, start_);
         prepare_contacts();
@@ -108,6 +109,8 @@ public:
         watch.is_over = true;
         settle_account(watch);
         if (wishes_.estimate && !run_.motion.failure && options_.duration > 0) estimate(modes, free, watch);
+        if (sensitivities_ && !run_.motion.failure)
+            run_.sensitivity = sensitivities_->at(run_.motion.final_time(), options_.tolerance, wishes_.budget);
         describe(modes, free);
     }
 
@@ -184,12 +187,12 @@ private:
             charts_.emplace(
                 run_, *angles_, start_.parameters, work(),
                 CompileOptions{.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}});
-        } catch (const std::runtime_error&) {
+        } catch (const CompileError&) {
+            throw;
+        } catch (const std::runtime_error& reason) {
             run_.warn(
-                say("warning: the angles of frame '{}' come near gimbal lock, and the run stays in them, because "
-                    "other "
-                    "parts of the scene name them or it cannot be derived without them\n",
-                    run_.scene.frames[angles_->frame].name.text));
+                say("warning: the angles of frame '{}' come near gimbal lock, and the run stays in them: {}\n",
+                    run_.scene.frames[angles_->frame].name.text, reason.what()));
             return false;
         }
         mode.by = charts_->integrator();
@@ -297,6 +300,7 @@ private:
     std::optional<JointReactions> reactions_;
     std::optional<AnglesOfFrame> angles_;
     std::optional<ChartRun> charts_;
+    std::optional<Sensitivities> sensitivities_;
 };
 
 }  // namespace
