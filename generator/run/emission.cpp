@@ -100,7 +100,8 @@ const std::vector<std::string>& all_functions() {
         std::vector<std::string> names = RobotFunctions::of_dynamics();
         names.insert(names.end(), functions_of_masses().begin(), functions_of_masses().end());
         names.emplace_back("regressor");
-        names.insert(names.end(), functions_of_operational_space().begin(), functions_of_operational_space().end());
+        names.insert(names.end(), functions_of_operational_space().begin(),
+                     functions_of_operational_space().end());
         return names;
     }();
     return known;
