@@ -3,7 +3,7 @@
 # Sourced by run.sh and test.sh, in the root of the repository: installs what is missing, configures, builds.
 
 packages="g++ cmake ninja-build pkg-config libginac-dev libcln-dev libeigen3-dev libfmt-dev libtomlplusplus-dev
-    libcli11-dev libkainjow-mustache-dev nlohmann-json3-dev liburdfdom-dev doctest-dev gettext"
+    libcli11-dev libkainjow-mustache-dev nlohmann-json3-dev liburdfdom-dev libtinyxml2-dev doctest-dev gettext"
 
 # What failed is the environment, not the scene (shared with the exit codes of alembert).
 fail() {

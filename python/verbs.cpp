@@ -305,7 +305,7 @@ Answer import_robot(const std::string& file, const Asked& asked) {
                                                    .drives = asked.flag("drives"),
                                                    .friction = asked.flag("friction"),
                                                    .stops = asked.flag("stops")},
-                                                  asked.flag("right_angles"));
+                                                  asked.flag("right_angles"), asked.text("loops"));
     return {.json = as_json(imported, file), .files = {{"scene", imported.scene.text}}};
 }
 

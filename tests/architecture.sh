@@ -43,7 +43,7 @@ forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
 forbid 'GiNaC in the rooms program and emit' '#include.*(ginac|"(symbolic|notation|model|formalism|lower)/)' "${graph[@]}"
 forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
 forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
-mapfile -t not_options < <(files lib generator | grep -v -e '^generator/main.cpp' -e '^generator/commands/\(verb.cpp\|help\)')
+mapfile -t not_options < <(files lib generator | grep -v -e '^generator/commands/\(verb.cpp\|help\|command_line.cpp\)')
 forbid 'CLI11 outside the files that walk through all verbs' '#include.*CLI' "${not_options[@]}"
 mapfile -t not_urdf < <(files lib generator | grep -v '^generator/urdf/')
 forbid 'urdfdom outside its reader' '#include.*(urdf_|tinyxml|console_bridge)' "${not_urdf[@]}"

@@ -398,7 +398,9 @@ TEST_CASE("import: omitted and merged parts are reported, and the scene has limi
     for (const char* line :
          {"dropped: <visual>: base_link, shoulder-1, forearm\n", "dropped: <collision>: base_link\n",
           "dropped: <transmission>: t1, t2\n", "dropped: <gazebo>: flange\n",
-          "dropped: Coulomb friction, <dynamics friction=…>: j1, j4\n", "dropped: <limit>: j1, j2, j3, j5, j6\n",
+          "dropped: Coulomb friction of joints, without --friction: j1, j4\n",
+          "dropped: limits of joints, without --stops: j1, j2, j3, j5, j6\n",
+          "dropped: <limit effort=…>: j1, j2, j3, j5, j6\n", "dropped: <limit velocity=…>: j1, j2, j3, j5, j6\n",
           "dropped: <safety_controller>: j5\n", "dropped: mass that is fixed to the ground: base_link\n",
           "note: 'shoulder-1' is called shoulder_1", "note: j3 starts at 0, outside its limits"})
         CHECK(result.err.find(line) != std::string::npos);
@@ -436,7 +438,7 @@ TEST_CASE("import: friction slows a joint as its file says, and a stop ends its 
                                           "velocity=\"1\"/><dynamics friction=\"0.3\"/>")));
     const std::string scene = temporary("stopped.toml", "");
     const auto plain = run({"import", file, "-o", scene});
-    CHECK(plain.err.find("dropped: Coulomb friction, <dynamics friction=…>: j\n") != std::string::npos);
+    CHECK(plain.err.find("dropped: Coulomb friction of joints, without --friction: j\n") != std::string::npos);
     const auto whole = run({"import", file, "-o", scene, "--friction", "--stops", "--drives"});
     REQUIRE(whole.exit == 0);
     CHECK(whole.err.find("Coulomb") == std::string::npos);
@@ -508,7 +510,7 @@ TEST_CASE("import: a file that is no robot gives one message, and nothing is wri
     refused("", "this is no XML");
     refused("title = \"a scene\"\n", "this is no XML");
     refused("<robot name=\"r\"><link name=\"a\"></robot>", "this is no XML");
-    refused("<sdf version=\"1.6\"/>", "the outermost element is <sdf>; expected <robot>");
+    refused("<sdf version=\"1.6\"/>", "no <model> is found; expected one, or some in a <world>");
     refused(nested, "elements stand inside each other");
     refused(robot_of("<xacro:leg name=\"a\"/>"), "is a macro of xacro");
     refused(robot_of(""), "urdfdom refuses it");

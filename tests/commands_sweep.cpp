@@ -135,15 +135,15 @@ TEST_CASE(
 
 TEST_CASE("sweep: mistakes in --vary are reported, with exit code 3") {
     const std::string scene = temporary("spring.toml", spring);
-    for (const auto& [vary, words] :
-         std::vector<std::pair<std::string, std::string>>{{"kk=0:1:2", "no coordinate, rate, parameter"},
-                                                          {"k=0:1", "is no range"},
-                                                          {"k", "no NAME="},
-                                                          {"k=0:1:0", "nothing to do"},
-                                                          {"k=0:1:-3", "nothing to do"},
-                                                          {"k=0:inf:3", "no finite number"},
-                                                          {"k=0:1:2.5", "no whole number"},
-                                                          {"k=0:1:99999999", "more than 1000000"}}) {
+    for (const auto& [vary, words] : std::vector<std::pair<std::string, std::string>>{
+             {"kk=0:1:2", "no coordinate, rate, parameter"},
+             {"k=0:1", "is no range"},
+             {"k", "no NAME="},
+             {"k=0:1:0", "nothing to do"},
+             {"k=0:1:-3", "nothing to do"},
+             {"k=0:inf:3", "no finite number"},
+             {"k=0:1:2.5", "no whole number"},
+             {"k=0:1:9999999999999999", "more than 1000000000000000"}}) {
         const auto result = run({"sweep", scene, "--vary", vary});
         CHECK(result.exit == 3);
         CHECK(result.err.find(words) != std::string::npos);
@@ -182,14 +182,18 @@ TEST_CASE("sweep: the points of a file give the rows of the grid that has the sa
     CHECK(listed["vary_from"] == points);
 
     const auto refused = [&](const char* text, const char* words) {
-        const auto result = run({"sweep", scene, "--vary-from", temporary("wrong.csv", text)});
+        const std::string table = temporary("wrong.csv", text);
+        const auto result = run({"sweep", scene, "--vary-from", table});
         CHECK(result.exit == 3);
+        if (words != std::string("'y'"))
+            CHECK(result.err.starts_with(table));  // the place of the mistake comes first
         CHECK_MESSAGE(result.err.find(words) != std::string::npos, result.err);
     };
     refused("x\n1\n1,2\n", "wrong.csv:3: there are 2 values for 1 names");
     refused("x,x\n", "wrong.csv:1: 'x' stands there twice");
     refused("x\nmany\n", "'many' is no finite number");
-    refused("x\n", "there are no points");
+    refused("x\n", "wrong.csv:1: there are no points");
+    refused("", "wrong.csv: the table is empty");
     refused("y\n1\n", "'y'");
     CHECK(run({"sweep", scene, "--vary", "x=0:1:2", "--vary-from", points}).exit == 3);
     CHECK(run({"sweep", scene, "--vary-from", points, "-o", points}).exit == 3);

@@ -82,8 +82,9 @@ std::string chain(int n) {
     return text;
 }
 
-/// A tree in space: every third body hangs on the one before the last.
-std::string tree_in_space(int n) {
+/// A tree in space: every third body hangs on the one before the last. Every joint but the second may have a
+/// rotor.
+std::string tree_in_space(int n, bool with_rotors = false) {
     std::string text = "gravity = [1, 2, -9.81]\n";
     for (int k = 1; k <= n; ++k) {
         const int up = k % 3 == 0 ? k - 2 : k - 1;
@@ -96,6 +97,7 @@ std::string tree_in_space(int n) {
             "[0.1, 0.2, 0.3]\n"
             "child_point = [-0.2, 0.1, -0.3]\naxis = \"{2}\"\ncoordinates = {{ q{0} = {{ initial = 0.2 }} }}\n",
             k, up > 0 ? fmt::format("B{}", up) : "N", "xyz"[k % 3]);
+        if (with_rotors && k != 2) text += fmt::format("armature = {{ q{0} = 0.{0} }}\n", k);
     }
     return text;
 }
@@ -297,6 +299,7 @@ TEST_CASE(
 TEST_CASE("recursive: chains and trees accelerate as by Lagrange, exactly") {
     check_exactly(from_text(chain(4)));
     check_exactly(from_text(tree_in_space(5)));
+    check_exactly(from_text(tree_in_space(5, true)));
     for (const char* name :
          {"scenes/gallery/gimballed_gyroscope.toml", "scenes/gallery/universal_double_pendulum.toml",
           "scenes/textbook/double_pendulum_joints.toml"}) {

@@ -110,6 +110,7 @@ TEST_CASE("functions: inverse, mass, bias, gravity and loads are those of Schieh
     for (const char* name : {"benchmark/trees/arm7", "benchmark/trees/pend8", "gallery/six_joint_arm",
                              "gallery/universal_double_pendulum", "gallery/furuta_joints", "gallery/rssr"})
         files.push_back(test::source_path(fmt::format("scenes/{}.toml", name)));
+    files.push_back(test::source_path("tests/odd/armature.toml"));
     const unsigned seed = 20261123;
     CAPTURE(seed);
     std::mt19937_64 random(seed);
@@ -274,10 +275,11 @@ TEST_CASE("identify: the regressor times the parameters is inverse dynamics with
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     for (const char* file :
-         {"gallery/six_joint_arm", "benchmark/trees/arm7g", "textbook/double_pendulum_joints", "textbook/crane",
-          "gallery/gimballed_gyroscope", "textbook/cart_rod", "gallery/universal_double_pendulum"}) {
+         {"scenes/gallery/six_joint_arm", "scenes/benchmark/trees/arm7g", "scenes/textbook/double_pendulum_joints",
+          "scenes/textbook/crane", "scenes/gallery/gimballed_gyroscope", "scenes/textbook/cart_rod",
+          "scenes/gallery/universal_double_pendulum", "tests/odd/armature"}) {
         CAPTURE(file);
-        const Scene scene = read_scene(test::source_path(fmt::format("scenes/{}.toml", file)));
+        const Scene scene = read_scene(test::source_path(fmt::format("{}.toml", file)));
         const Mechanism m = prepared(scene).mechanism;
         const State<double> state = random_motion(m, random);
         const Regressor y = regressor(scene, m, false);

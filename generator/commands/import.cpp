@@ -12,19 +12,20 @@
 #include "commands/verb.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
+#include "urdf/loops.hpp"
 
 namespace alembert {
 
 namespace {
 
 struct ImportVerb {
-    std::string robot, output;
+    std::string robot, output, loops;
     RobotSceneOptions scene;
     bool right_angles = false, json = false;
 };
 
 int run(const ImportVerb& verb) {
-    const ImportedRobot imported = imported_robot(verb.robot, verb.scene, verb.right_angles);
+    const ImportedRobot imported = imported_robot(verb.robot, verb.scene, verb.right_angles, verb.loops);
     const RobotScene& scene = imported.scene;
     parse_scene(scene.text, verb.output);  // a scene that is refused is not written
     write_file(verb.output, scene.text, {verb.robot});
@@ -43,14 +44,17 @@ int run(const ImportVerb& verb) {
     }
     std::cout << say("{}\n{} bodies, {} coordinates: {}\n", verb.output, scene.bodies, scene.coordinates.size(),
                      fmt::join(scene.coordinates, ", "));
+    if (!scene.loops.empty()) std::cout << say("loops closed by {}\n", fmt::join(scene.loops, ", "));
     for (const std::string& sentence : scene.merged) fmt::print("{}\n", escaped(sentence, 300));
     return 0;
 }
 
 }  // namespace
 
-ImportedRobot imported_robot(const std::string& file, RobotSceneOptions options, bool right_angles) {
+ImportedRobot imported_robot(const std::string& file, RobotSceneOptions options, bool right_angles,
+                             const std::string& loops) {
     Robot robot = read_robot(file);
+    if (!loops.empty()) close_loops(robot, loops);
     options.source = std::filesystem::path(file).filename().string();
     const int rounded = rounded_right_angles(robot, right_angles);
     ImportedRobot result{.scene = robot_scene(robot, options),
@@ -75,8 +79,14 @@ Json as_json(const ImportedRobot& imported, const std::string& file) {
     result["coordinates"] = scene.coordinates;
     if (imported.has_drives) result["drives"] = scene.drives;
     result["right_angles"] = {{"rounded", imported.rounded}, {"made_exact", imported.made_exact}};
+    if (!scene.loops.empty()) result["loops"] = scene.loops;
+    if (!scene.couplings.empty()) result["couplings"] = scene.couplings;
     result["merged"] = scene.merged;
     result["frames"] = scene.frames;
+    Json links = Json::object(), joints = Json::object();
+    for (const auto& [own, name] : scene.links) links[own] = name;
+    for (const auto& [own, name] : scene.joints) joints[own] = name;
+    result["names"] = {{"links", links}, {"joints", joints}, {"coordinates", scene.coordinates_of}};
     result["dropped"] = Json::object();
     for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
     result["warnings"] = Json::array();
@@ -88,9 +98,11 @@ Json as_json(const ImportedRobot& imported, const std::string& file) {
 void add_import(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<ImportVerb>();
     Verb verb = add_verb(app, {.name = "import",
-                               .about = say("writes the scene of a robot description (URDF)"),
+                               .about = say("writes the scene of a robot description (URDF, MJCF, SDF)"),
                                .example = "alembert import tests/robots/arm6.urdf -o arm6.toml"});
-    verb.add_option("robot", options->robot, say("the robot, an .urdf file")).type_name(values::robot).required();
+    verb.add_option("robot", options->robot, say("the robot: a file in URDF, MJCF (MuJoCo) or SDF (Gazebo)"))
+        .type_name(values::robot)
+        .required();
     verb.add_option("-o,--output", options->output, say("the scene to be written"))
         .type_name(values::file)
         .required();
@@ -99,7 +111,10 @@ void add_import(CLI::App& app, Chosen& chosen) {
     verb.add_flag("--quaternion", options->scene.quaternion, say("what floats turns by a quaternion"));
     verb.add_flag("--friction", options->scene.friction, say("the Coulomb friction of the joints"));
     verb.add_flag("--stops", options->scene.stops, say("contacts at the limits of the joints"));
-    verb.add_flag("--drives", options->scene.drives, say("an input for the torque or force of each joint"));
+    verb.add_flag("--drives", options->scene.drives,
+                  say("an input for the torque or force of each joint, or for each motor of the file"));
+    verb.add_option("--loops", options->loops, say("a file of [[joint]]s between links, which close loops"))
+        .type_name(values::file);
     verb.add_flag("--right-angles", options->right_angles, say("1.5708 and the like become right angles"));
     verb.add_flag("--json", options->json, say("print one JSON object"));
     verb.callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });

@@ -20,8 +20,10 @@ struct ImportedRobot {
 };
 
 /// `source` of the options is set to the name of the file. With `right_angles`, 1.5708 and the like become right
-/// angles. Throws what `read_robot` and `robot_scene` throw.
-ImportedRobot imported_robot(const std::string& file, RobotSceneOptions options, bool right_angles);
+/// angles. `loops` is a file of joints that close loops (urdf/loops.hpp), or empty. Throws what `read_robot`,
+/// `close_loops` and `robot_scene` throw.
+ImportedRobot imported_robot(const std::string& file, RobotSceneOptions options, bool right_angles,
+                             const std::string& loops = {});
 
 /// What `import --json` prints; `file` is the name of the scene.
 Json as_json(const ImportedRobot& imported, const std::string& file);

@@ -127,14 +127,22 @@ int write_all(int descriptor, std::string_view text) {
     return error;
 }
 
-void write_to_device(const std::string& path, const fs::path& file, const std::string& text) {
+using Producer = std::function<void(const PieceTaker&)>;
+
+PieceTaker to_descriptor(const std::string& path, int descriptor) {
+    return [&path, descriptor](std::string_view piece) {
+        if (const int error = write_all(descriptor, piece); error != 0) fail(path, std::strerror(error));
+    };
+}
+
+void write_to_device(const std::string& path, const fs::path& file, const Producer& produce) {
     Descriptor opened(open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
     if (opened.number < 0) fail(path, std::strerror(errno));
-    if (const int error = write_all(opened.number, text); error != 0) fail(path, std::strerror(error));
+    produce(to_descriptor(path, opened.number));
 }
 
 /// `before` is the status of the file that is replaced.
-void write_beside(const std::string& path, const fs::path& file, const std::string& text,
+void write_beside(const std::string& path, const fs::path& file, const Producer& produce,
                   const std::optional<struct stat>& before) {
     fs::path part;
     int made = -1;
@@ -151,22 +159,21 @@ void write_beside(const std::string& path, const fs::path& file, const std::stri
         std::ignore = fchown(made, before->st_uid, before->st_gid);
         if (fchmod(made, before->st_mode & 0777) != 0) fail(path, std::strerror(errno));
     }
-    if (const int error = write_all(made, text); error != 0) fail(path, std::strerror(error));
+    produce(to_descriptor(path, made));
     opened.number = -1;
     // Some file systems notice only now that they are full.
     if (close(made) != 0) fail(path, std::strerror(errno));
     if (rename(part.c_str(), file.c_str()) != 0) fail(path, std::strerror(errno));
 }
 
-void write_to_descriptor(const std::string& path, int descriptor, const std::string& text) {
+void write_to_descriptor(const std::string& path, int descriptor, const Producer& produce) {
     std::FILE* const stream = descriptor == STDOUT_FILENO   ? stdout
                               : descriptor == STDERR_FILENO ? stderr
                                                             : nullptr;
-    if (stream == nullptr) {
-        if (const int error = write_all(descriptor, text); error != 0) fail(path, std::strerror(error));
-    } else if (std::fwrite(text.data(), 1, text.size(), stream) != text.size()) {
-        fail(path, std::strerror(errno));
-    }
+    if (stream == nullptr) return produce(to_descriptor(path, descriptor));
+    produce([&](std::string_view piece) {
+        if (std::fwrite(piece.data(), 1, piece.size(), stream) != piece.size()) fail(path, std::strerror(errno));
+    });
 }
 
 }  // namespace
@@ -176,15 +183,26 @@ void check_output(const std::string& path, const std::vector<std::string>& input
 }
 
 void write_file(const std::string& path, const std::string& text, const std::vector<std::string>& inputs) {
+    write_file(
+        path, [&](const PieceTaker& put) { put(text); }, inputs);
+}
+
+void write_file(const std::string& path, const Producer& produce, const std::vector<std::string>& inputs) {
     const Target target = target_of(path);
     check(path, target, inputs);
     const std::optional<struct stat> before = status_of(target);
     if (target.descriptor)
-        write_to_descriptor(path, *target.descriptor, text);
+        write_to_descriptor(path, *target.descriptor, produce);
     else if (before && !S_ISREG(before->st_mode))
-        write_to_device(path, target.file, text);
+        write_to_device(path, target.file, produce);
     else
-        write_beside(path, target.file, text, before);
+        write_beside(path, target.file, produce, before);
+}
+
+bool is_ordinary_file(const std::string& path) {
+    const Target target = target_of(path);
+    const std::optional<struct stat> here = status_of(target);
+    return !target.descriptor && (!here || S_ISREG(here->st_mode));
 }
 
 }  // namespace alembert

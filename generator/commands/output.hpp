@@ -3,7 +3,9 @@
 
 /// Writes the files that a user requests (-o, --csv, --svg).
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace alembert {
@@ -19,5 +21,13 @@ void check_output(const std::string& path, const std::vector<std::string>& input
 /// Throws ModelError (the input is wrong) if the file is one of `inputs`, under any name; CompileError (the
 /// environment failed) with the reason if it cannot be written, or is read-only by its mode.
 void write_file(const std::string& path, const std::string& text, const std::vector<std::string>& inputs);
+
+/// The same piece by piece, for what is larger than memory: `produce` gives each piece to its argument.
+using PieceTaker = std::function<void(std::string_view)>;
+void write_file(const std::string& path, const std::function<void(const PieceTaker&)>& produce,
+                const std::vector<std::string>& inputs);
+
+/// Is the path that of an ordinary file, or of none yet?
+bool is_ordinary_file(const std::string& path);
 
 }  // namespace alembert

@@ -6,17 +6,21 @@
 ///     Progress progress;
 ///     progress.at("integrating", 0.3);              // as often as you like: it looks at the clock
 ///
+/// Of processes that share a sweep, the first one shows the bar of all. A launcher takes its standard error, so
+/// that it writes to the terminal of the session, if there is one.
+///
 /// The bar is erased when the object goes out of scope.
 
 #include <chrono>
+#include <string>
 #include <string_view>
 
 namespace alembert {
 
 class Progress {
 public:
-    Progress();
-    ~Progress() { wipe(); }
+    explicit Progress(bool is_shared = false);
+    ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
@@ -28,7 +32,9 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
+    void write(const std::string& text) const;
     bool on_terminal_, drawn_ = false;
+    int terminal_ = -1;  ///< a descriptor of its own; negative for standard error
     Clock::time_point next_;
 };
 

@@ -6,11 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <tuple>
 
 #include "alembert/leftover.hpp"
 #include "commands/terminal.hpp"
@@ -117,8 +119,14 @@ void keep_descriptors() {
             return;
 }
 
+constexpr std::size_t longest_note = 1000;
+char notes[2][longest_note + 1];  // one is written while the other is shown
+std::atomic<const char*> note_at_signal{nullptr};
+
 extern "C" void end_by_signal(int signal) {
     remove_leftovers();
+    if (const char* const note = note_at_signal.load(); note != nullptr)
+        std::ignore = write(STDERR_FILENO, note, std::strlen(note));
     std::signal(signal, SIG_DFL);
     raise(signal);
 }
@@ -181,6 +189,13 @@ int finished(int code) {
     if (!output_failed()) return code;
     std::cerr << say("cannot write to the standard output: ") << std::strerror(out.error) << "\n";
     return 5;
+}
+
+void tell_at_signal(const std::string& text) {
+    const std::string note = harmless(text).substr(0, longest_note);
+    char* const free = note_at_signal.load() == notes[0] ? notes[1] : notes[0];
+    std::memcpy(free, note.c_str(), note.size() + 1);
+    note_at_signal = note.empty() ? nullptr : free;
 }
 
 void raw_to_terminal(std::string_view text) {

@@ -32,6 +32,9 @@ bool output_failed();
 /// UTF-8.
 std::string harmless(std::string_view text);
 
+/// What a signal that ends the process writes to standard error; empty for nothing. May be called again and again.
+void tell_at_signal(const std::string& text);
+
 /// Writes to standard error without escaping, for our own escape sequences (progress bars).
 void raw_to_terminal(std::string_view text);
 

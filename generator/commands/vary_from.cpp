@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/vary_from.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -31,6 +33,8 @@ std::vector<std::string> fields_of(const std::string& line) {
     return fields;
 }
 
+constexpr std::size_t most_listed = 100'000'000;
+
 bool is_blank(const std::string& line) {
     return line.find_first_not_of(" \t\r") == std::string::npos;
 }
@@ -43,10 +47,12 @@ Grid grid_from_file(const std::string& path) {
     Grid grid;
     std::size_t number = 0, points = 0;
     const auto wrong = [&](const std::string& what) {
-        return ModelError(
-            say("{}:{}: {}; expected names with commas between in the first line, and a number for each "
-                "of them in each other line",
-                path, number, what));
+        const std::string place = number == 0 ? path : fmt::format("{}:{}", path, number);
+        return SceneError(
+            say("{}: {}; expected names with commas between in the first line, and a number for each of "
+                "them in each other line",
+                place, what),
+            {});
     };
     for (std::string line; std::getline(file, line);) {
         if (++number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // the byte order mark
@@ -63,7 +69,7 @@ Grid grid_from_file(const std::string& path) {
         }
         if (fields.size() != grid.axes.size())
             throw wrong(say("there are {} values for {} names", fields.size(), grid.axes.size()));
-        if (++points > most_points) throw wrong(say("there are more than {} points", most_points));
+        if (++points > most_listed) throw wrong(say("there are more than {} points", most_listed));
         for (std::size_t k = 0; k < fields.size(); ++k) {
             double value = NAN;
             try {
@@ -77,6 +83,7 @@ Grid grid_from_file(const std::string& path) {
             grid.listed.push_back(value);
         }
     }
+    if (number == 0) throw wrong(say("the table is empty"));
     if (points == 0) throw wrong(say("there are no points"));
     for (Axis& axis : grid.axes) axis.count = points;
     return grid;

@@ -10,8 +10,9 @@
 
 namespace alembert {
 
-/// Throws ModelError for a file that cannot be read, and with the line for what is no table of finite numbers; for
-/// a name that stands there twice, and for more than a million points.
+/// Throws ModelError for a file that cannot be read; SceneError with the table's name and the line for what is no
+/// table of finite numbers, for a name that stands there twice, and for more than 10⁸ points, which are kept in
+/// memory.
 Grid grid_from_file(const std::string& path);
 
 }  // namespace alembert

@@ -37,6 +37,10 @@ ex acceleration_energy(const Mechanism& m, const InSpeeds& motion) {
         const Vector3 gyroscopic = cross(w, inertia_times(I, w, z), z);
         S.push_back(z.name(dot(alpha, inertia_times(I, alpha, z), z) / 2 + dot(alpha, gyroscopic, z)));
     }
+    for (const Rotor& rotor : m.rotors) {
+        const ex a = motion.derivative(motion.short_in_speeds(std::vector<ex>{m.qdot[rotor.coordinate]}))[0];
+        S.push_back(z.name(rotor.inertia * a * a / 2));
+    }
     return z.name(GiNaC::add(std::move(S)));
 }
 

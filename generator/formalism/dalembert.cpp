@@ -51,6 +51,11 @@ Moving moving(const Mechanism& m) {
             couple(e[(k + 1) % 3], e[k], J);
         }
     }
+    for (const Rotor& rotor : m.rotors) {  // −J q'' δq
+        result.couples.push_back({result.places.size(), result.places.size()});
+        result.masses.push_back(rotor.inertia);
+        result.places.push_back(m.q[rotor.coordinate]);
+    }
     result.accelerations = m.time_derivative(m.time_derivative(result.places));
     std::vector<GiNaC::exvector> force(result.places.size());
     for (std::size_t c = 0; c < result.couples.size(); ++c)

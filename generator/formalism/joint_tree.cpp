@@ -53,6 +53,8 @@ public:
             add(body);
             if (obstacle_) return *obstacle_;
         }
+        for (const Rotor& rotor : m_.rotors) add(rotor);
+        if (obstacle_) return *obstacle_;
         return std::move(tree_);
     }
 
@@ -323,6 +325,22 @@ private:
         whole = whole + added;
     }
 
+    /// Gives the rotor to a joint that moves with its coordinate alone.
+    void add(const Rotor& rotor) {
+        const auto moves_alone = [&](const TreeJoint& joint) {
+            for (std::size_t a = 0; a < joint.row.size(); ++a)
+                if (joint.row[a].is_zero() == (static_cast<int>(a) == rotor.coordinate)) return false;
+            return true;
+        };
+        const auto joint = std::find_if(tree_.joints.begin(), tree_.joints.end(), moves_alone);
+        if (joint == tree_.joints.end())
+            return refuse(say("no joint moves with {} alone, so that none has its armature",
+                              in_quotes(m_.q[rotor.coordinate].get_name())));
+        const GiNaC::numeric& s = joint->row[static_cast<std::size_t>(rotor.coordinate)];
+        joint->rotor = z_.name(joint->rotor + rotor.inertia / (s * s));
+        tree_.rotors.push_back(rotor);
+    }
+
     const Mechanism& m_;
     Intermediates& z_;
     const std::vector<GiNaC::symbol> moving_ = m_.moving();
@@ -341,7 +359,7 @@ Possible<JointTree> joint_tree(const Mechanism& m) {
 
 std::vector<Dress> dress(const JointTree& tree, LinkAxes axes) {
     std::vector<Dress> result(tree.joints.size());
-    if (axes == LinkAxes::own) return result;
+    if (axes == LinkAxes::own || !tree.rotors.empty()) return result;
     std::vector<char> turns(result.size(), 1);  // whether the link turns relative to the ground
     for (std::size_t j = 0; j < result.size(); ++j) {
         const TreeLink<Named>& link = tree.joints[j].link;

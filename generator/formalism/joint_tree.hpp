@@ -9,7 +9,8 @@
 /// A link consists of everything that is fixed to a turning frame or to a shifted point. Each turn with a variable
 /// angle and each coordinate in an offset is a joint. The rates of joints are w = S q' + w₀ with rational S: a
 /// frame whose angle θ₂ counts from N, on a body that turns by θ₁, has w = θ₂' − θ₁'. In a chain of parallel axes
-/// that begins at the ground, angles and rates relative to the ground may be used instead (`LinkAxes::still`).
+/// that begins at the ground, angles and rates relative to the ground may be used instead (`LinkAxes::still`),
+/// except where rotors turn with joints.
 
 #include <functional>
 
@@ -25,6 +26,7 @@ struct TreeJoint {
     TreeLink<Named> link;             ///< without the values that depend on the state
     GiNaC::ex position, rate, drift;  ///< angle or shift, w, w' at q'' = 0
     std::vector<GiNaC::numeric> row;  ///< the joint's row of S
+    GiNaC::ex rotor = 0;              ///< the inertia that w alone drives: J/s² for a rotor of q with w = s q'
     bool parallel = false;            ///< whether its axes differ from those of the parent by a turn about z only
 };
 
@@ -32,6 +34,7 @@ struct JointTree {
     std::vector<TreeJoint> joints;
     Triple<Named> gravity;
     int coordinates = 0;
+    std::vector<Rotor> rotors = {};
     std::vector<GiNaC::ex> forces =
         {};  ///< generalized forces without gravity and inertia, if the formalism has set them
 };
@@ -68,6 +71,8 @@ BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
         const TreeLink<Named>& l = joint.link;
         TreeLink<S> link{.parent = l.parent, .slides = l.slides, .p = vector(l.p), .slide = vector(l.slide)};
         for (int i = 0; i < 3; ++i) link.R[i] = vector(l.R[i]);
+        link.has_rotor = !joint.rotor.is_zero();
+        if (link.has_rotor) link.rotor = value(joint.rotor);
         link.body.mass = value(l.body.mass.e);
         link.body.first = vector(l.body.first);
         for (int i = 0; i < 6; ++i) link.body.second[i] = value(l.body.second[i].e);

@@ -84,6 +84,7 @@ Equations lagrange1(const Mechanism& mechanism) {
     const std::vector<const MassElement*> owner = owners(m).value();
     Equations equations = equations_without_terms("lagrange1", m);
     for (int i = 0; i < m.size(); ++i) equations.M(i, i) = owner[i]->mass;
+    for (const Rotor& rotor : m.rotors) equations.M(rotor.coordinate, rotor.coordinate) += rotor.inertia;
 
     // In these coordinates the generalized force of a force is the force itself; a force along an expression acts
     // along the gradient of that expression.

@@ -43,6 +43,7 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
             motion.J_R, [&](const Vector3& v) { return inertia_times(I, v, z); },
             scale(-1, add(inertia_times(I, motion.alpha_bar, z), gyroscopic, z), z));
     }
+    for (const Rotor& rotor : m.rotors) mass[rotor.coordinate * n + rotor.coordinate].push_back(rotor.inertia);
     Equations equations = equations_without_terms(formalism, m);
     equations.dissipative = work_of_loads(m, true);
     equations.applied = work_of_loads(m, false);

@@ -63,6 +63,15 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
     return result;
 }
 
+void add_rotors(Program& program, const JointTree& joints, Intermediates& z,
+                const std::vector<GiNaC::symbol>& qddot, const std::function<int(const GiNaC::ex&)>& lowering,
+                std::vector<int>& loads) {
+    for (const Rotor& rotor : joints.rotors) {
+        const auto a = static_cast<std::size_t>(rotor.coordinate);
+        loads[a] = program.sum(0, {{1, loads[a]}, {1, lowering(z.name(rotor.inertia * qddot[a]))}});
+    }
+}
+
 std::vector<int> inverse_recursion(Program& program, const JointTree& joints, Intermediates& z,
                                    const std::vector<GiNaC::symbol>& qddot,
                                    const std::function<int(const GiNaC::ex&)>& lowering) {
@@ -78,6 +87,7 @@ std::vector<int> inverse_recursion(Program& program, const JointTree& joints, In
     std::vector<int> loads;
     for (const Symbolic& s : joint_loads(tree, Bias<Symbolic>(tree).wrenches)) loads.push_back(s.node(program));
     loads = JointChange(program, joints, LinkAxes::own).forces(loads);
+    add_rotors(program, joints, z, qddot, lowering, loads);
     for (std::size_t a = 0; a < loads.size(); ++a)
         loads[a] = program.sum(0, {{1, loads[a]}, {-1, lowering(joints.forces[a])}});
     return loads;

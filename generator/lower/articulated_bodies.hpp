@@ -35,4 +35,8 @@ std::vector<int> inverse_recursion(Program& program, const JointTree& tree, Inte
                                    const std::vector<GiNaC::symbol>& qddot,
                                    const std::function<int(const GiNaC::ex&)>& lowering);
 
+/// Adds J q'' of the tree's rotors to the loads along the coordinates.
+void add_rotors(Program& program, const JointTree& tree, Intermediates& z, const std::vector<GiNaC::symbol>& qddot,
+                const std::function<int(const GiNaC::ex&)>& lowering, std::vector<int>& loads);
+
 }  // namespace alembert

@@ -9,8 +9,8 @@
 /// Let x be the solution for f and y_k that for c_k alone, all with one factorization. Then u' and λ are x + Σ N_k
 /// y_k, and the N follow from as many equations (1 − S D) N = S λ(x), where D are the multipliers in y. s is 1 for
 /// a contact, which only presses; for a constraint it is the sign of λ, which is that of λ(x) as long as 1 − s D >
-/// 0. If a determinant of 1 − S D is not positive, the reaction has no value or more than one (Painlevé, Leçons
-/// sur le frottement, 1895; Génot & Brogliato, Eur. J. Mech. A 18 (1999) 653).
+/// 0 if the friction is on it alone. If a determinant of 1 − S D is not positive, the reaction has no value or
+/// more than one (Painlevé, Leçons sur le frottement, 1895; Génot & Brogliato, Eur. J. Mech. A 18 (1999) 653).
 
 #include "formalism/equations.hpp"
 #include "lower/lowering.hpp"
@@ -19,8 +19,7 @@ namespace alembert {
 
 class NormalForces {
 public:
-    /// Throws ModelError if the equations do not have a multiplier, or if several constraints that may pull as
-    /// well as press have friction.
+    /// Throws ModelError if the equations do not have a multiplier.
     NormalForces(const Mechanism& m, const Equations& e);
 
     bool any() const { return !pressed_.empty(); }
@@ -40,6 +39,8 @@ private:
         bool may_pull;
         std::vector<const Mechanism::Friction*> frictions = {};
     };
+
+    std::vector<int> forces(Program& program, const std::vector<std::vector<int>>& found) const;
 
     const Equations& e_;
     std::vector<Pressed> pressed_;

@@ -19,7 +19,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr const char* parameter_names[] = {"m", "mx", "my", "mz", "xx", "yy", "zz", "xy", "yz", "zx"};
+constexpr const char* parameter_names[] = {"m", "mx", "my", "mz", "xx", "yy", "zz", "xy", "yz", "zx", "rotor"};
 
 /// A wrench about the origin, along the body's axes.
 struct UnitWrench {
@@ -96,6 +96,13 @@ Regressor regressor(const Scene& scene, const Mechanism& mechanism, bool fold) {
         const std::array<ex, 10> pi = parameters_about(mass, origin.centre, *m.z);
         result.values.insert(result.values.end(), pi.begin(), pi.end());
         result.centres.emplace_back(body, origin.centre);
+    }
+    for (const Rotor& rotor : m.rotors) {
+        columns.emplace_back(static_cast<std::size_t>(m.size()), Symbolic(0));
+        columns.back()[static_cast<std::size_t>(rotor.coordinate)] =
+            Symbolic(program, program.variable({Variable::Kind::acceleration, rotor.coordinate}));
+        result.columns.push_back({rotor.origin.name, InertialParameter::rotor});
+        result.values.push_back(rotor.inertia);
     }
     std::vector<int> nodes;
     for (std::size_t k = 0; k < static_cast<std::size_t>(m.size()); ++k)

@@ -10,7 +10,8 @@
 /// Ten parameters of each body, along its own axes about its origin: m, the first moments mx my mz = m c, and the
 /// elements xx yy zz xy yz zx of the tensor of inertia (of the matrix: xy is −∫ x y dm). A particle has m alone.
 /// The origin of a body is the farthest point towards the ground that is fixed to it, the joint that places it, or
-/// else its mass centre (Khalil & Dombre, Modeling, Identification and Control of Robots (2002), chapter 12).
+/// else its mass centre. The rotor of a joint has its inertia, rotor(q1) (Khalil & Dombre, Modeling,
+/// Identification and Control of Robots (2002), chapter 12).
 
 #include <array>
 
@@ -22,7 +23,9 @@ namespace alembert {
 
 struct InertialParameter {
     std::string body;
-    int which = 0;  ///< 0: m; 1 to 3: first moments; 4 to 9: xx yy zz xy yz zx
+    static constexpr int rotor = 10;
+    int which =
+        0;  ///< 0: m; 1 to 3: first moments; 4 to 9: xx yy zz xy yz zx; 10: the rotor of the coordinate `body`
     std::string name() const;
 };
 

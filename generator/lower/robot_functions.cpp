@@ -7,6 +7,7 @@
 #include "formalism/recursive.hpp"
 #include "formalism/routh.hpp"
 #include "language/say.hpp"
+#include "lower/articulated_bodies.hpp"
 #include "lower/choose.hpp"
 #include "lower/tree_functions.hpp"
 #include "model/friction.hpp"
@@ -112,6 +113,7 @@ std::vector<Program> RobotFunctions::tree_forms(const std::string& name) const {
             values = tree.loads(name == "inverse" ? Terms::inverse
                                 : name == "bias"  ? Terms::bias
                                                   : Terms::gravity);
+            if (name == "inverse") add_rotors(program, *tree_, *m_.z, m_.qddot, lowering, values);
             for (std::size_t a = 0; a < values.size() && name != "gravity"; ++a)
                 values[a] = program.sum(0, {{1, values[a]}, {-1, lowering(tree_->forces[a])}});
         }

@@ -140,6 +140,8 @@ void check_values(Building& here) {
             require(here, b.inertia->tensor[k], what,
                     k < 3 ? std::optional(-rounded_moment * largest) : std::nullopt);
     }
+    for (const Armature& rotor : here.scene.armatures)
+        require(here, rotor.inertia, say("the armature of '{}'", rotor.coordinate.text), 0);
     if (!here.mistakes.empty()) fail(here.scene, here.mistakes);
 }
 

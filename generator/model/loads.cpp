@@ -192,6 +192,16 @@ void add_generalized(Building& here, std::vector<Load>& to, const GeneralizedFor
                 {origin, false, {{here.m.qdot[i], here.m.z->name(here.translator.scalar(f.value)), here.m.q[i]}}});
 }
 
+// T = ½ J q'²
+void add_rotor(Building& here, const Armature& armature, const Origin& origin) {
+    const ex J = here.m.z->name(here.translator.scalar(armature.inertia));
+    for (int i = 0; i < here.m.size(); ++i) {
+        if (here.m.q[i].get_name() != armature.coordinate.text) continue;
+        here.m.kinetic.push_back({origin, here.m.z->name(J / 2 * pow(here.m.qdot[i], 2))});
+        here.m.rotors.push_back({origin, i, J});
+    }
+}
+
 void add_rayleigh(Building& here, const Expression& function, const Origin& origin) {
     const ex R = here.m.z->name(here.translator.scalar(function));
     const std::vector<ex> gradient = here.m.z->pull_back({{R, 1}}, here.m.qdot);
@@ -254,6 +264,7 @@ void add_loads(Building& here) {
     };
     each(here, Kind::particle, s.particles, name, add_particle);
     each(here, Kind::body, s.bodies, name, add_body);
+    each(here, Kind::armature, s.armatures, coordinate, add_rotor);
     add_joints(here);
     each(here, Kind::spring, s.springs, none, add_spring);
     each(here, Kind::damper, s.dampers, none, add_damper);

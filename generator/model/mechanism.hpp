@@ -89,6 +89,13 @@ struct SpringElement {
     std::optional<GiNaC::ex> extension = {};
 };
 
+/// A rotor that turns with a coordinate: it adds ½ J q'² to T and nothing to the momentum of the bodies.
+struct Rotor {
+    Origin origin;
+    int coordinate;  ///< position in Mechanism::q
+    GiNaC::ex inertia;
+};
+
 struct Mechanism {
     struct Parameter {
         GiNaC::symbol symbol;
@@ -178,7 +185,8 @@ struct Mechanism {
     std::vector<Load> loads;
     std::vector<Load> impulses;  ///< ∫load dt of the impulses that act at the start; not among `loads`
     std::vector<MassElement>
-        masses;  ///< the masses to which the parts of `kinetic` belong, except those of [energy]
+        masses;  ///< the masses to which the parts of `kinetic` belong, except those of [energy] and of rotors
+    std::vector<Rotor> rotors;  ///< the rotors of joints; not among `masses`
     std::vector<SpringElement> springs;
     std::vector<JointArc> joints;  ///< in the order of the scene
     Skeleton skeleton;             ///< how frames and points are connected

@@ -45,6 +45,8 @@ const char* pattern(const Origin& origin) {
             return "[dissipation]";
         case Kind::friction:
             return to_say("friction {1}");
+        case Kind::armature:
+            return to_say("armature of {1}");
     }
     return "";
 }

@@ -28,6 +28,7 @@ struct Origin {
         given_lagrangian,
         rayleigh,  ///< [dissipation]
         friction,  ///< dry friction
+        armature,  ///< the rotor of a joint
     };
     Kind kind = Kind::body;
     /// Position in the scene's table of that kind; for gravity, in the table of the mass on which it acts.

@@ -25,8 +25,7 @@ std::string quoted(std::string text) {
 
 }  // namespace
 
-Json as_json(const Sweep& s) {
-    const SweepTotals sum = totals_of(s);
+Json as_json(const Sweep& s, const SweepTotals& sum) {
     Json result;
     result["members"] = s.grid.size();
     result["failed"] = sum.failed;
@@ -48,9 +47,9 @@ Json as_json(const Sweep& s) {
     return result;
 }
 
-Json rows_as_json(const Sweep& s) {
+Json rows_as_json(const Sweep& s, const std::vector<SweptMotion>& motions) {
     Json rows = Json::array();
-    for (const SweptMotion& m : s.members) {
+    for (const SweptMotion& m : motions) {
         Json row;
         row["varied"] = by_name(s.grid.names(), m.varied);
         row["final"] = {{"time", m.time},
@@ -67,13 +66,17 @@ Json rows_as_json(const Sweep& s) {
     return rows;
 }
 
-std::string as_csv(const Sweep& s) {
+std::string csv_header(const Sweep& s) {
     std::string text;
     for (const Axis& axis : s.grid.axes) text += axis.name + ",";
     const std::vector<std::string> columns = end_columns(s);
     for (const std::string& column : columns) text += (column == columns.back() ? "" : "final_") + column + ",";
-    text += "steps,rejected,evaluations,status\n";
-    for (const SweptMotion& m : s.members) {
+    return text + "steps,rejected,evaluations,status\n";
+}
+
+std::string csv_rows(const std::vector<SweptMotion>& motions) {
+    std::string text;
+    for (const SweptMotion& m : motions) {
         for (const std::vector<double>& part : {m.varied, end_values(m)})
             for (const double x : part) put(text, "{:.17g},", x);
         put(text, "{},{},{},{}\n", m.steps, m.rejected, m.evaluations, quoted(m.status));
@@ -81,8 +84,7 @@ std::string as_csv(const Sweep& s) {
     return text;
 }
 
-std::string as_text(const Sweep& s) {
-    const SweepTotals sum = totals_of(s);
+std::string as_text(const Sweep& s, const SweepTotals& sum) {
     std::string page;
     say_on(page,
            "{} with {}: {} motions{} on {} thread{}, {} steps, {} rejected, {} evaluations of {} operations, {} "
@@ -92,6 +94,38 @@ std::string as_text(const Sweep& s) {
            s.conserved ? say("energy drift") : say("work balance"), sum.drift);
     say_on(page, "integrated in {:.3f} s of processor time\n", s.timings.integrate);
     return page;
+}
+
+Json as_json(const SweepReduction& reduction) {
+    Json rows = Json::array();
+    for (const ReducedQuantity& quantity : reduction.rows()) {
+        Json row{{"name", quantity.name}, {"motions", quantity.motions}};
+        for (std::size_t k = 0; k < quantity.values.size(); ++k)
+            row[reduction.statistics()[k].name] = quantity.values[k];
+        if (with_quantiles(reduction.statistics())) row["quantile_error"] = quantity.quantile_error;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::string as_csv(const SweepReduction& reduction) {
+    std::string text = "quantity,motions";
+    for (const Statistic& statistic : reduction.statistics()) text += "," + statistic.name;
+    text += "\n";
+    for (const ReducedQuantity& quantity : reduction.rows()) {
+        put(text, "{},{}", quoted(quantity.name), quantity.motions);
+        for (const double value : quantity.values) put(text, ",{:.17g}", value);
+        text += "\n";
+    }
+    return text;
+}
+
+std::string quantile_error_as_text(const SweepReduction& reduction) {
+    if (!with_quantiles(reduction.statistics())) return {};
+    double worst = 0;
+    for (const ReducedQuantity& quantity : reduction.rows()) worst = std::max(worst, quantity.quantile_error);
+    return worst == 0 ? say("the quantiles are exact\n")
+                      : say("the relative error of quantiles is at most {:.1e}\n", worst);
 }
 
 }  // namespace alembert

@@ -3,15 +3,23 @@
 
 #include "report/json.hpp"
 #include "run/sweep.hpp"
+#include "run/sweep_reduction.hpp"
 
 namespace alembert {
 
 /// Everything except the rows.
-Json as_json(const Sweep& sweep);
-/// One row for each member.
-Json rows_as_json(const Sweep& sweep);
-std::string as_csv(const Sweep& sweep);
+Json as_json(const Sweep& sweep, const SweepTotals& totals);
+/// One row for each of the motions.
+Json rows_as_json(const Sweep& sweep, const std::vector<SweptMotion>& motions);
+std::string csv_header(const Sweep& sweep);
+std::string csv_rows(const std::vector<SweptMotion>& motions);
 /// A summary in a few lines.
-std::string as_text(const Sweep& sweep);
+std::string as_text(const Sweep& sweep, const SweepTotals& totals);
+
+/// One row for each quantity: its name, how many motions have it, and the statistics.
+Json as_json(const SweepReduction& reduction);
+std::string as_csv(const SweepReduction& reduction);
+/// The error of quantiles, in a line; empty if there are none.
+std::string quantile_error_as_text(const SweepReduction& reduction);
 
 }  // namespace alembert

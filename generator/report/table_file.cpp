@@ -62,24 +62,32 @@ StoredTable stored(const Run& run) {
     return table;
 }
 
-StoredTable stored(const Sweep& s) {
+StoredTable stored(const Sweep& s, const MotionsOf& rows) {
     StoredTable table{.columns = {}, .texts = texts_of(s.scene)};
-    const auto add = [&](const std::string& name, const std::string& unit, const auto& value) {
-        std::vector<std::decay_t<decltype(value(s.members[0]))>> values;
-        for (const SweptMotion& m : s.members) values.push_back(value(m));
-        table.columns.push_back({name, unit, std::move(values)});
-    };
     const std::vector<std::string> varied = s.grid.names(), ends = end_columns(s);
-    for (std::size_t k = 0; k < varied.size(); ++k)
-        add(varied[k], unit_of_varied(s.mechanism, varied[k]), [k](const SweptMotion& m) { return m.varied[k]; });
-    for (std::size_t k = 0; k < ends.size(); ++k)
-        add(k + 1 < ends.size() ? "final_" + ends[k] : ends[k], unit_of_varied(s.mechanism, ends[k]),
-            [k](const SweptMotion& m) { return end_values(m)[k]; });
-    add("steps", "", [](const SweptMotion& m) { return m.steps; });
-    add("rejected", "", [](const SweptMotion& m) { return m.rejected; });
-    add("evaluations", "", [](const SweptMotion& m) { return m.evaluations; });
-    add("status", "", [](const SweptMotion& m) { return m.status; });
+    for (const std::string& name : varied)
+        table.columns.push_back({name, unit_of_varied(s.mechanism, name), std::vector<double>()});
+    for (const std::string& end : ends)
+        table.columns.push_back(
+            {(end == ends.back() ? "" : "final_") + end, unit_of_varied(s.mechanism, end), std::vector<double>()});
+    for (const char* const name : {"steps", "rejected", "evaluations"})
+        table.columns.push_back({name, "", std::vector<long>()});
+    table.columns.push_back({"status", "", std::vector<std::string>()});
+    rows([&](const std::vector<SweptMotion>& motions) {
+        for (const SweptMotion& m : motions) {
+            auto column = table.columns.begin();
+            for (const std::vector<double>& part : {m.varied, end_values(m)})
+                for (const double x : part) std::get<std::vector<double>>((column++)->values).push_back(x);
+            for (const long count : {m.steps, m.rejected, m.evaluations})
+                std::get<std::vector<long>>((column++)->values).push_back(count);
+            std::get<std::vector<std::string>>(column->values).push_back(m.status);
+        }
+    });
     return table;
+}
+
+bool is_csv(const std::string& path) {
+    return form_of(path) == Form::csv;
 }
 
 void need_table_form(const std::string& path) {
@@ -91,9 +99,25 @@ std::string table_file(const Run& run, const std::string& path) {
     return form == Form::csv ? as_csv(run.rows) : in_form(form, stored(run));
 }
 
-std::string table_file(const Sweep& sweep, const std::string& path) {
+std::string table_file(const Sweep& sweep, const MotionsOf& rows, const std::string& path) {
+    return in_form(form_of(path), stored(sweep, rows));
+}
+
+std::string table_file(const Sweep& sweep, const SweepReduction& reduction, const std::string& path) {
     const Form form = form_of(path);
-    return form == Form::csv ? as_csv(sweep) : in_form(form, stored(sweep));
+    if (form == Form::csv) return as_csv(reduction);
+    StoredTable table{
+        .columns = {{"quantity", "", std::vector<std::string>()}, {"motions", "", std::vector<long>()}},
+        .texts = texts_of(sweep.scene)};
+    for (const Statistic& statistic : reduction.statistics())
+        table.columns.push_back({statistic.name, "", std::vector<double>()});
+    for (const ReducedQuantity& quantity : reduction.rows()) {
+        std::get<std::vector<std::string>>(table.columns[0].values).push_back(quantity.name);
+        std::get<std::vector<long>>(table.columns[1].values).push_back(quantity.motions);
+        for (std::size_t k = 0; k < quantity.values.size(); ++k)
+            std::get<std::vector<double>>(table.columns[k + 2].values).push_back(quantity.values[k]);
+    }
+    return in_form(form, table);
 }
 
 }  // namespace alembert

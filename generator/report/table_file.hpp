@@ -7,20 +7,29 @@
 ///     need_table_form("run.h5");                            // before the work begins
 ///     write_file("run.npz", table_file(run, "run.npz"), {});
 
+#include <functional>
+
 #include "archive/stored_table.hpp"
 #include "run/simulate.hpp"
 #include "run/sweep.hpp"
+#include "run/sweep_reduction.hpp"
 
 namespace alembert {
 
 /// Throws CompileError if the form is HDF5 and the program was built without it.
 void need_table_form(const std::string& path);
 
+/// Is the form CSV, which can be written row by row?
+bool is_csv(const std::string& path);
+
 std::string table_file(const Run& run, const std::string& path);
-std::string table_file(const Sweep& sweep, const std::string& path);
+/// `rows` gives the motions, some at a time, to its argument. Not for CSV.
+using MotionsOf = std::function<void(const std::function<void(const std::vector<SweptMotion>&)>&)>;
+std::string table_file(const Sweep& sweep, const MotionsOf& rows, const std::string& path);
+std::string table_file(const Sweep& sweep, const SweepReduction& reduction, const std::string& path);
 
 /// The columns of the CSV with their units, the scene's text (`scene`) and the version of the program (`version`).
 StoredTable stored(const Run& run);
-StoredTable stored(const Sweep& sweep);
+StoredTable stored(const Sweep& sweep, const MotionsOf& rows);
 
 }  // namespace alembert

@@ -247,11 +247,14 @@ Eigen::MatrixXd coefficients_in_doubles(const Regressor& y, const std::vector<st
     return kept.colPivHouseholderQr().solve(W);
 }
 
-/// Second moments, then first moments, then masses.
+/// Second moments, then first moments, then masses, then rotors.
 std::vector<std::size_t> order_of(const std::vector<InertialParameter>& columns) {
     std::vector<std::size_t> order(columns.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto kind = [&](std::size_t k) { return columns[k].which == 0 ? 2 : columns[k].which < 4 ? 1 : 0; };
+    const auto kind = [&](std::size_t k) {
+        const int which = columns[k].which;
+        return which == InertialParameter::rotor ? 3 : which == 0 ? 2 : which < 4 ? 1 : 0;
+    };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return kind(a) < kind(b); });
     return order;
 }

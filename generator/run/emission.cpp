@@ -107,7 +107,7 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
     e.choice = lowered(e, options.fold);
     if (options.jacobian || options.casadi) {
-        e.derivatives = differentiated(e.choice.program, {.parameters = true, .power = true});
+        e.derivatives = derivatives_of(e, e.choice.program, {.parameters = true, .power = true}, options.fold);
         if (!e.derivatives && options.jacobian)
             throw ModelError(say(
                 "the derivatives of the right-hand side are too long to be written out; leave the Jacobian out"));

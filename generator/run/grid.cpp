@@ -6,7 +6,7 @@
 namespace alembert {
 
 std::size_t Grid::size() const {
-    if (is_listed()) return listed.size() / axes.size();
+    if (is_listed()) return axes.front().count;
     std::size_t points = 1;
     for (const Axis& axis : axes) points *= axis.count;
     return points;
@@ -14,6 +14,12 @@ std::size_t Grid::size() const {
 
 std::vector<double> Grid::point(std::size_t k) const {
     std::vector<double> values(axes.size());
+    if (samples) {
+        samples(k, values);
+        for (std::size_t i = 0; i < axes.size(); ++i)
+            values[i] = axes[i].from + (axes[i].to - axes[i].from) * values[i];
+        return values;
+    }
     if (is_listed()) {
         std::copy_n(listed.begin() + static_cast<std::ptrdiff_t>(k * axes.size()), axes.size(), values.begin());
         return values;

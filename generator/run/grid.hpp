@@ -9,6 +9,8 @@
 /// `count` evenly spaced values from `from` to `to`, both included; a single value is `from`. A grid may have a
 /// list of points in place of these, as from a file or random (run/samples.hpp).
 
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,11 +25,15 @@ struct Axis {
 struct Grid {
     std::vector<Axis> axes;
     std::vector<double> listed = {};  ///< if not empty, the points, one value for each axis, point after point
+    /// If not empty, it sets where a point lies in the range of each axis, from 0 to 1 (run/samples.hpp); there
+    /// are as many points as the first axis counts. It is called by one thread at a time, the quickest in the
+    /// order of the points.
+    std::function<void(std::size_t k, std::span<double> fractions)> samples = {};
 
     std::size_t size() const;
     std::vector<double> point(std::size_t k) const;
     std::vector<std::string> names() const;
-    bool is_listed() const { return !listed.empty(); }
+    bool is_listed() const { return !listed.empty() || samples; }  ///< whether it is no grid
 };
 
 }  // namespace alembert

@@ -37,9 +37,13 @@ struct Sweep : Derived {
     Timings timings = {};  ///< processor time, s
 };
 
-/// `threads` is 0 for as many as there are cores. Throws what `derived` throws; ModelError for scenes with
-/// contacts or impulses at events, and for methods that need more than the right-hand side; IntegrationError if
-/// the mass matrix is singular.
+/// Motions of a sweep that follow each other.
+struct SweepPart {
+    std::size_t first = 0, count = 0;
+};
+
+/// The whole sweep in memory (run/sweeper.hpp for more than fit there). `threads` is 0 for as many as there are
+/// cores. Throws what Sweeper throws.
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int threads = 0);
 
 /// The names of the values at the end of each motion: t, coordinates, rates (theta1'), the scene's own speeds, and
@@ -48,11 +52,13 @@ std::vector<std::string> end_columns(const Sweep& sweep);
 /// The values under these names.
 std::vector<double> end_values(const SweptMotion& motion);
 
-/// The cost of the whole sweep, and a summary of its results.
+/// The cost of the whole sweep, and a summary of its results. Motions are added in the order of Grid::point.
 struct SweepTotals {
     long steps = 0, rejected = 0, evaluations = 0, failed = 0;
     double drift = 0;
     std::string first_failure;
+
+    void add(const SweptMotion& motion, const std::vector<std::string>& names);
 };
 SweepTotals totals_of(const Sweep& sweep);
 

@@ -190,6 +190,8 @@ private:
             check_coordinate(f.coordinate);
             quantities_.check(f.value, force);
         }
+        for (const Armature& rotor : scene_.armatures)
+            quantities_.check(rotor.inertia, {.subject = say("the inertia of a rotor")});
     }
 
     void check_impulses() {

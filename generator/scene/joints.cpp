@@ -6,6 +6,7 @@
 
 #include "language/say.hpp"
 #include "scene/joint_moves.hpp"
+#include "scene/quaternions.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
@@ -72,8 +73,37 @@ void read_angles(const Table& table, Joint& joint) {
                                   in_quotes(a)));
 }
 
-/// Reads coordinates and prescribed motions. A motion takes the place of the coordinate of its name, otherwise its
-/// place in the order of the file.
+/// Reads the inertia of rotors. Each belongs to a coordinate of the joint that is not prescribed, and that is an
+/// angle or a shift.
+void read_armatures(const Table& table, const Joint& joint, Scene& scene) {
+    const std::vector<Name> quaternion = quaternion_of(joint);
+    const auto is_among = [](const auto& list, const std::string& name) {
+        return std::any_of(list.begin(), list.end(), [&](const auto& one) { return one.name.text == name; });
+    };
+    const auto is_name = [](const std::string& name) {
+        return [&name](const Name& one) { return one.text == name; };
+    };
+    for (const Entry& entry : table.entries()) {
+        Armature rotor{{entry.key, entry.place},
+                       read_expression(table.reading(), *entry.node, labelled(say("the armature of"), entry.key))};
+        if (std::none_of(joint.coordinates.begin(), joint.coordinates.end(), is_name(entry.key)))
+            table.reading().complain(entry.place, say("{} is no coordinate of joint {}; a rotor turns with one",
+                                                      in_quotes(entry.key), in_quotes(joint.name.text)));
+        else if (std::any_of(quaternion.begin(), quaternion.end(), is_name(entry.key)))
+            table.reading().complain(
+                entry.place, say("{} is part of a quaternion, whose rate turns no rotor; give the joint 'angles'",
+                                 in_quotes(entry.key)));
+        else if (!is_among(scene.coordinates, entry.key))
+            table.reading().complain(
+                entry.place, say("the motion of {} is prescribed, so that its rotor changes nothing; leave it out",
+                                 in_quotes(entry.key)));
+        else
+            scene.armatures.push_back(std::move(rotor));
+    }
+}
+
+/// Reads coordinates, prescribed motions, drives and rotors. A motion takes the place of the coordinate of its
+/// name, otherwise its place in the order of the file.
 void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
     const auto inner = [&](std::string_view key) -> std::optional<Table> {
         const Entry* const entry = table.find(key);
@@ -82,10 +112,13 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
             return Table(table.reading(), *node, table.what(key), entry->place);
         table.complain(key,
                        say("{} is {}; expected a table: {{ q1 = {} }}", table.what(key), kind_of(*entry->node),
-                           key == "motion" ? say("\"expression in t\"") : "{ initial = 0.1 }"));
+                           key == "motion"        ? say("\"expression in t\"")
+                           : key == "coordinates" ? "{ initial = 0.1 }"
+                                                  : say("\"expression\"")));
         return {};
     };
-    const std::optional<Table> coordinates = inner("coordinates"), motion = inner("motion");
+    const std::optional<Table> coordinates = inner("coordinates"), motion = inner("motion"),
+                               drive = inner("drive"), armature = inner("armature");
     if (motion)
         for (const Entry& entry : motion->entries()) {
             joint.coordinates.push_back({entry.key, entry.place});
@@ -108,6 +141,8 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
         }
     std::sort(joint.coordinates.begin(), joint.coordinates.end(),
               [](const Name& a, const Name& b) { return a.place < b.place; });
+    if (drive) read_forces(*drive, scene);
+    if (armature) read_armatures(*armature, joint, scene);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct TableKeys {
     std::string_view table;
     Shape shape;
     /// Followed by empty entries; all are empty if the user chooses the names.
-    std::array<std::string_view, 13> known = {};
+    std::array<std::string_view, 15> known = {};
 
     constexpr std::span<const std::string_view> keys() const {
         return {known.data(), static_cast<std::size_t>(std::find(known.begin(), known.end(), "") - known.begin())};
@@ -56,7 +56,7 @@ inline constexpr TableKeys table_keys[] = {
     {"joint",
      TableKeys::Shape::list,
      {"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate", "axis",
-      "pitch", "coordinates", "angles", "motion"}},
+      "pitch", "coordinates", "angles", "motion", "drive", "armature"}},
     {"force", TableKeys::Shape::list, {"at", "vector", "axes", "reaction"}},
     {"torque", TableKeys::Shape::list, {"on", "vector", "axes", "reaction"}},
     {"spring", TableKeys::Shape::list, {"between", "along", "stiffness", "length"}},

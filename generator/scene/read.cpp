@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <utility>
 
 #include "language/say.hpp"
 #include "scene/check.hpp"
+#include "scene/joints_file.hpp"
 #include "scene/keys.hpp"
 #include "scene/layout.hpp"
 #include "scene/placing.hpp"
@@ -166,9 +169,9 @@ std::optional<toml::table> parse_toml(Layout layout, const SourceText& source, s
     return {};
 }
 
-}  // namespace
-
-Scene parse_scene(std::string text, std::string file) {
+/// The text in the form of a scene; `fill` reads its tables. Throws SceneError with all mistakes.
+template <typename Fill>
+Scene filled(std::string text, std::string file, const Fill& fill) {
     if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
     Scene scene;
     scene.file = std::move(file);
@@ -182,12 +185,70 @@ Scene parse_scene(std::string text, std::string file) {
     if (layout.is_too_deep) fail(scene, std::move(mistakes));
     const std::optional<toml::table> root = parse_toml(std::move(layout), source, mistakes);
     if (!root) fail(scene, std::move(mistakes));
-    read_tables(Reading{source, mistakes, root->contains("joint")}, *root, scene);
-    place_by_joints(scene, mistakes);
-    std::vector<Diagnostic> more = check_scene(scene);
-    mistakes.insert(mistakes.end(), more.begin(), more.end());
+    fill(Reading{source, mistakes, root->contains("joint")}, *root, scene);
     if (!mistakes.empty()) fail(scene, std::move(mistakes));
     return scene;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string text, std::string file) {
+    return filled(std::move(text), std::move(file),
+                  [](const Reading& reading, const toml::table& root, Scene& scene) {
+                      read_tables(reading, root, scene);
+                      place_by_joints(scene, reading.diagnostics);
+                      std::vector<Diagnostic> more = check_scene(scene);
+                      reading.diagnostics.insert(reading.diagnostics.end(), more.begin(), more.end());
+                  });
+}
+
+Scene read_joints(const std::string& file) {
+    return filled(text_of_file(file), file, [](const Reading& reading, const toml::table& root, Scene& scene) {
+        const Section joints{"joint", each<alembert::read_joint>};
+        const Table top(reading, root, say("the file"), {1, 1});
+        for (const Entry& entry : top.entries())
+            if (entry.key == joints.name)
+                read_section(reading, joints, entry, scene);
+            else
+                reading.complain(header_of(entry), say("{} has no place in a file of joints; expected [[joint]]",
+                                                       in_quotes(entry.key)));
+        for (const Joint& joint : scene.joints)
+            if (!joint.coordinates.empty())
+                reading.complain(joint.coordinates[0].place,
+                                 say("joint {} closes a loop and has no coordinates", in_quotes(joint.name.text)));
+    });
+}
+
+std::optional<double> value_of(const Expression& e) {
+    const auto value = [](const auto& self, const Tree& tree) -> std::optional<double> {
+        std::vector<double> args;
+        for (const TreePtr& arg : tree.args) {
+            const std::optional<double> part = self(self, *arg);
+            if (!part) return std::nullopt;
+            args.push_back(*part);
+        }
+        switch (tree.kind) {
+            case Tree::Kind::number:
+                return std::stod(tree.text);
+            case Tree::Kind::name:
+                return tree.text == "pi" ? std::optional(M_PI) : std::nullopt;
+            case Tree::Kind::sum:
+                return std::accumulate(args.begin(), args.end(), 0.);
+            case Tree::Kind::product:
+                return std::accumulate(args.begin(), args.end(), 1., std::multiplies<>());
+            case Tree::Kind::negate:
+                return -args[0];
+            case Tree::Kind::reciprocal:
+                return 1 / args[0];
+            case Tree::Kind::power:
+                return std::pow(args[0], args[1]);
+            case Tree::Kind::call:
+                return tree.text == "sqrt" ? std::optional(std::sqrt(args[0])) : std::nullopt;
+            default:
+                return std::nullopt;
+        }
+    };
+    return e.tree ? value(value, *e.tree) : std::nullopt;
 }
 
 Scene read_scene(const std::string& file) {

@@ -185,6 +185,12 @@ struct GeneralizedForce {
     Expression value;
 };
 
+/// The inertia J of a rotor that turns with a coordinate of a joint: T contains J q'²/2.
+struct Armature {
+    Name coordinate;
+    Expression inertia;  ///< in parameters
+};
+
 /// lhs − rhs = 0
 struct ConstraintRule {
     Name name;
@@ -280,7 +286,8 @@ struct Scene {
     std::vector<Link> springs, dampers;
     Expression kinetic, potential, lagrangian;  ///< from [energy]; null if missing
     Expression rayleigh;
-    std::vector<GeneralizedForce> generalized_forces;
+    std::vector<GeneralizedForce> generalized_forces;  ///< [forces], and the drives of joints
+    std::vector<Armature> armatures;
     std::vector<Impulse> impulses;
     std::vector<GeneralizedForce> generalized_impulses;
     std::vector<ConstraintRule> constraints;

@@ -20,17 +20,6 @@ namespace {
 
 constexpr double unit_enough = 1e-6;  // a quaternion written with seven digits
 
-/// Roll, pitch and yaw of R = R_z(yaw) R_y(pitch) R_x(roll); roll is 0 if pitch is a right angle.
-Real3 angles_of(const Real33& R) {
-    const double across = std::hypot(R(0, 0), R(1, 0));
-    if (across < 1e-12) return {0, R(2, 0) < 0 ? M_PI / 2 : -M_PI / 2, std::atan2(-R(0, 1), R(1, 1))};
-    Real3 angles{std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), across), std::atan2(R(1, 0), R(0, 0))};
-    for (double& angle : angles)  // removes the rounding of right angles
-        if (const double k = std::round(angle * 2 / M_PI); std::abs(angle - k * M_PI / 2) < 1e-15)
-            angle = k * M_PI / 2;
-    return angles;
-}
-
 std::string squeezed(const std::string& text) {
     std::istringstream words(text);
     std::string result;
@@ -117,6 +106,13 @@ double Elements::needed_number(const TiXmlElement& e, const char* attribute) con
     return *value;
 }
 
+std::optional<double> Elements::number_inside(const TiXmlElement& e) const {
+    if (e.GetText() == nullptr) return std::nullopt;
+    TiXmlElement copy(e);
+    copy.SetAttribute("text", e.GetText());
+    return numbers(copy, "text", 1)[0];
+}
+
 Real3 Elements::three(const TiXmlElement& e, const char* attribute, const Real3& missing) const {
     if (e.Attribute(attribute) == nullptr) return missing;
     const std::vector<double> v = numbers(e, attribute, 3);
@@ -136,7 +132,7 @@ RobotPose Elements::pose(const TiXmlElement* origin) {
     if (length == 0) refuse(place_of(*origin), say("quat_xyzw is zero; expected a quaternion of length 1"));
     if (std::abs(length - 1) > unit_enough)
         remark(place_of(*origin), say("quat_xyzw has the length {:.9g}; it is divided by it", length));
-    result.rpy = angles_of(Eigen::Quaterniond(e[3], e[0], e[1], e[2]).normalized().toRotationMatrix());
+    result.rpy = roll_pitch_yaw(Eigen::Quaterniond(e[3], e[0], e[1], e[2]).normalized().toRotationMatrix());
     return result;
 }
 

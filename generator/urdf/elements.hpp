@@ -32,6 +32,8 @@ public:
     /// A finite number; blanks and line breaks around it are ignored. Nothing if the attribute is missing.
     std::optional<double> number(const TiXmlElement& e, const char* attribute) const;
     double needed_number(const TiXmlElement& e, const char* attribute) const;
+    /// The number in <tag>1.5</tag>; nothing if it is empty.
+    std::optional<double> number_inside(const TiXmlElement& e) const;
     /// Three numbers between blanks or line breaks; the default if the attribute is missing.
     Real3 three(const TiXmlElement& e, const char* attribute, const Real3& missing) const;
     /// The pose of <origin>; the identity for null.

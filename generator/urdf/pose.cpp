@@ -33,6 +33,32 @@ Real33 RobotPose::rotation() const {
     return about(2, rpy[2]) * about(1, rpy[1]) * about(0, rpy[0]);
 }
 
+Real3 roll_pitch_yaw(const Real33& R) {
+    const double across = std::hypot(R(0, 0), R(1, 0));
+    if (across < 1e-12) return {0, R(2, 0) < 0 ? M_PI / 2 : -M_PI / 2, std::atan2(-R(0, 1), R(1, 1))};
+    Real3 angles{std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), across), std::atan2(R(1, 0), R(0, 0))};
+    if (across < 0.1) {  // near gimbal lock, where quotients of small elements would lose digits
+        const Eigen::Quaterniond e(R);
+        const double difference = std::atan2(e.z() - e.x(), e.w() + e.y()),
+                     sum = std::atan2(e.z() + e.x(), e.w() - e.y()),
+                     tilt = std::atan2(std::hypot(e.w() + e.y(), e.z() - e.x()),
+                                       std::hypot(e.w() - e.y(), e.z() + e.x()));
+        angles = {sum - difference, 2 * tilt - M_PI / 2, sum + difference};
+    }
+    for (double& angle : angles)
+        if (const double k = std::round(angle * 2 / M_PI); std::abs(angle - k * M_PI / 2) < 1e-15)
+            angle = k * M_PI / 2;
+    return angles;
+}
+
+RobotPlace composed(const RobotPlace& outer, const RobotPlace& inner) {
+    return {outer.shift + outer.R * inner.shift, outer.R * inner.R};
+}
+
+RobotPlace inverted(const RobotPlace& place) {
+    return {-(place.R.transpose() * place.shift), place.R.transpose()};
+}
+
 int rounded_right_angles(Robot& robot, bool mend) {
     int count = 0;
     for (Robot::Joint& joint : robot.joints)

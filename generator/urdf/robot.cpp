@@ -13,7 +13,6 @@
 
 #include "language/say.hpp"
 #include "scene/text.hpp"
-#include "scene/text_file.hpp"
 #include "urdf/elements.hpp"
 
 namespace alembert {
@@ -55,7 +54,7 @@ public:
                 add_link(*e);
             else if (tag == "joint")
                 read_joint(*e);
-            else
+            else if (tag != "transmission")
                 drop(fmt::format("<{}>", tag), named(*e));
         }
         check_by_urdfdom(*root);
@@ -73,6 +72,9 @@ public:
             add_mimic(*e);
         check_tree();
         for (Robot::Joint& joint : robot_.joints) resolve(joint);
+        for (const TiXmlElement* e = root->FirstChildElement("transmission"); e != nullptr;
+             e = e->NextSiblingElement("transmission"))
+            read_transmission(*e);
         robot_.remarks = elements_.remarks();
         return std::move(robot_);
     }
@@ -215,19 +217,26 @@ private:
         if (joint.damping != 0 && (joint.type == Robot::Type::floating || joint.type == Robot::Type::planar ||
                                    joint.type == Robot::Type::fixed))
             drop(say("damping of a floating, planar or fixed joint"), joint.name);
-        if (!is_hinge) joint.limits.reset();
+        if (!is_hinge && joint.limits) {
+            drop("<limit lower=… upper=…>", joint.name);
+            joint.limits.reset();
+        }
+        if (const TiXmlElement* const limit = e.FirstChildElement("limit"))
+            for (const char* key : {"effort", "velocity"})
+                if (limit->Attribute(key) != nullptr) drop(fmt::format("<limit {}=…>", key), joint.name);
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement()) {
             const std::string& tag = child->ValueStr();
-            const std::array kept{"parent", "child", "origin", "axis", "mimic", "dynamics"};
+            const std::array kept{"parent", "child", "origin", "axis", "mimic", "dynamics", "limit"};
             if (std::find(kept.begin(), kept.end(), tag) == kept.end()) drop(fmt::format("<{}>", tag), joint.name);
         }
         int& above = robot_.links[static_cast<std::size_t>(joint.child)].joint;
         if (above >= 0)
-            refuse(joint.place, say("joint {} holds link {}, which joint {} holds already; a robot "
-                                    "description is a tree, loops are added to the scene as joints",
-                                    in_quotes(joint.name), in_quotes(known->child_link_name),
-                                    in_quotes(robot_.joints[static_cast<std::size_t>(above)].name)));
+            refuse(joint.place,
+                   say("joint {} holds link {}, which joint {} holds already; a robot "
+                       "description is a tree, loops are closed by joints in a file of their own (--loops)",
+                       in_quotes(joint.name), in_quotes(known->child_link_name),
+                       in_quotes(robot_.joints[static_cast<std::size_t>(above)].name)));
         above = static_cast<int>(robot_.joints.size());
         joint_of_[joint.name] = above;
         robot_.joints.push_back(std::move(joint));
@@ -265,6 +274,37 @@ private:
         }
     }
 
+    /// Reads the rotor behind a gear: n² J of <mechanicalReduction> or Drake's gear_ratio and rotor_inertia. A
+    /// ratio alone does not change the motion.
+    void read_transmission(const TiXmlElement& e) {
+        const auto value = [&](const TiXmlElement& of, std::initializer_list<const char*> tags) {
+            std::optional<double> result;
+            for (const char* tag : tags)
+                if (const TiXmlElement* const child = of.FirstChildElement(tag))
+                    result = child->Attribute("value") != nullptr ? elements_.number(*child, "value")
+                                                                  : elements_.number_inside(*child);
+            return result;
+        };
+        std::vector<int> joints;
+        double ratio = value(e, {"mechanicalReduction"}).value_or(1);
+        std::optional<double> rotor;
+        for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
+             child = child->NextSiblingElement()) {
+            if (child->ValueStr() != "joint" && child->ValueStr() != "actuator") continue;
+            if (const auto found = joint_of_.find(named(*child));
+                child->ValueStr() == "joint" && found != joint_of_.end())
+                joints.push_back(found->second);
+            ratio = value(*child, {"mechanicalReduction", "drake:gear_ratio", "gear_ratio"}).value_or(ratio);
+            if (const auto inertia = value(*child, {"drake:rotor_inertia", "rotor_inertia", "rotorInertia"}))
+                rotor = inertia;
+        }
+        if (!rotor || joints.size() != 1) return drop("<transmission>", named(e));
+        if (*rotor < 0)
+            refuse(place_of(e), say("the rotor inertia of transmission {} is {}; expected zero or more",
+                                    in_quotes(named(e)), *rotor));
+        robot_.joints[static_cast<std::size_t>(joints[0])].armature += ratio * ratio * *rotor;
+    }
+
     void check_tree() {
         robot_.root = link_of_.at(model_->getRoot()->name);
         for (const Robot::Link& link : robot_.links) {
@@ -291,11 +331,8 @@ private:
 
 }  // namespace
 
-Robot parse_robot(const std::string& text, const std::string& file) {
+Robot parse_urdf(const std::string& text, const std::string& file) {
     return Reader(text, file).read();
-}
-Robot read_robot(const std::string& file) {
-    return parse_robot(text_of_file(file), file);
 }
 
 }  // namespace alembert

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A robot description (URDF) as plain values: links and joints in the order of the file, and the parts of it that
-/// do not concern dynamics.
+/// A robot description (URDF, MJCF or SDF) as plain values: links and joints in the order of the file, and the
+/// names of those parts of it that do not concern dynamics.
 ///
 ///     const Robot robot = read_robot("arm.urdf");
 ///     robot.links[robot.joints[0].child].mass
@@ -10,8 +10,8 @@
 /// A link's frame is that of the joint above it. `at` is the pose of a joint's frame in its parent link; its axis
 /// is given in its own frame. Roll, pitch and yaw turn about the parent's fixed axes x, y, z: R = R_z(yaw)
 /// R_y(pitch) R_x(roll). Inertias are converted to the link's frame, about the mass centre. Units are metres,
-/// kilograms and radians. (urdfdom checks names, types and the tree; numbers are read separately and strictly, see
-/// elements.hpp.)
+/// kilograms and radians. (For URDF, urdfdom checks names, types and the tree; numbers are read separately and
+/// strictly, see elements.hpp. MJCF and SDF are read by mjcf.cpp and sdf.cpp.)
 
 #include <array>
 #include <optional>
@@ -45,7 +45,18 @@ struct Robot {
         Real33 inertia = Real33::Zero();  ///< about the mass centre, along the link's axes
         int joint = -1;                   ///< the joint above; −1 for the root
     };
-    enum class Type { fixed, revolute, continuous, prismatic, planar, floating };
+    enum class Type {
+        fixed,
+        revolute,
+        continuous,
+        prismatic,
+        planar,
+        floating,
+        spherical,
+        universal,
+        screw,
+        cylindrical
+    };
     struct Mimic {
         int joint;
         double factor = 1, offset = 0;  ///< position = factor · position of `joint` + offset
@@ -57,9 +68,35 @@ struct Robot {
         int parent, child;  ///< in `links`
         RobotPose at;
         Real3 axis;                        ///< not normalized
+        Real3 second = Real3::UnitY();     ///< of a universal joint, perpendicular to `axis`
+        double pitch = 0;                  ///< of a screw, metres a radian
         double damping = 0, friction = 0;  ///< friction: the Coulomb torque or force
+        double armature = 0;               ///< the inertia of a rotor, n² J behind a gear of ratio n
+        double stiffness = 0, rest = 0;    ///< of a spring along the coordinate
+        RobotPose start = {};              ///< of a floating joint
         std::optional<std::array<double, 2>> limits = {};
         std::optional<Mimic> mimic = {};  ///< for a mimicking joint, the independent joint that it follows
+    };
+    /// A joint that closes a loop: `at_parent` and `at_child` coincide but for its free motion.
+    struct Loop {
+        std::string name;
+        Type type;
+        int parent, child;  ///< in `links`
+        RobotPose at_parent = {}, at_child = {};
+        Real3 axis = Real3::UnitZ(), second = Real3::UnitY();
+        double pitch = 0;
+    };
+    /// q of `joint` = Σ polynomial[k]·(q of `other`)^k; a constant if there is no other.
+    struct Coupling {
+        std::string name;
+        int joint, other = -1;
+        std::array<double, 5> polynomial{};
+    };
+    /// A motor with the control u: gear·(gain·u + constant + along·gear·q + rate·gear·q') along q.
+    struct Actuator {
+        std::string name;
+        int joint;
+        double gear = 1, gain = 1, constant = 0, along = 0, rate = 0;
     };
     struct Dropped {
         std::string what;             ///< "<visual>", "Coulomb friction"
@@ -70,6 +107,11 @@ struct Robot {
     std::vector<Link> links;
     std::vector<Joint> joints;
     int root = 0;  ///< in `links`
+    std::vector<Loop> loops;
+    std::vector<Coupling> couplings;
+    std::optional<std::vector<Actuator>> actuators;  ///< if the format has them
+    Real3 gravity{0, 0, -9.81};
+    bool has_world = false;  ///< whether the root is the ground, so that the file says what floats
     std::vector<Dropped> dropped;
     std::vector<Diagnostic> remarks;  ///< what was completed or is unusual, with its place
 };
@@ -78,9 +120,29 @@ struct Robot {
 /// or cut off to at least two decimals. Returns how many there are, and makes them exact if `mend` is true.
 int rounded_right_angles(Robot& robot, bool mend);
 
-/// Throws SceneError if the file is no URDF, if its links and joints form no tree, or if it has impossible values.
+/// The format is told by the outermost element: <robot>, <mujoco> or <sdf>. Throws SceneError if the file is none
+/// of them, if its links and joints form no tree, or if it has impossible values.
 Robot read_robot(const std::string& file);
-/// `file` is used only in messages.
+/// `file` is used only in messages, and for files that it includes.
 Robot parse_robot(const std::string& text, const std::string& file);
+
+/// Each for its format.
+Robot parse_urdf(const std::string& text, const std::string& file);
+Robot parse_mjcf(const std::string& text, const std::string& file);
+Robot parse_sdf(const std::string& text, const std::string& file);
+
+/// Roll, pitch and yaw of R = R_z(yaw) R_y(pitch) R_x(roll); roll is 0 if pitch is a right angle. The rounding of
+/// right angles is removed.
+Real3 roll_pitch_yaw(const Real33& R);
+
+/// A pose with its rotation as a matrix.
+struct RobotPlace {
+    Real3 shift = Real3::Zero();
+    Real33 R = Real33::Identity();
+    RobotPose pose() const { return {shift, roll_pitch_yaw(R)}; }
+};
+/// The place of `inner`, which is given in `outer`; and that of the outer frame in the inner one.
+RobotPlace composed(const RobotPlace& outer, const RobotPlace& inner);
+RobotPlace inverted(const RobotPlace& place);
 
 }  // namespace alembert

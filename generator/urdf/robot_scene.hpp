@@ -12,6 +12,7 @@
 /// frame of its body turns, or its point is shifted, by factor · coordinate + offset. Branches without moving mass
 /// are left out.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,11 @@ struct RobotScene {
     int bodies = 0;
     std::vector<std::string> coordinates;
     std::vector<std::string> frames;  ///< names of the frames, and points, of links that are fixed to others
-    std::vector<std::string> drives;  ///< names of the inputs, one for each driven joint
+    std::vector<std::string> drives;  ///< names of the inputs, one for each driven joint or motor
+    std::vector<std::string> loops, couplings;  ///< names of closing joints, and of constraints between joints
+    /// The names of links and joints in the file, and in the scene: of a body, of a frame and point, or N.
+    std::vector<std::pair<std::string, std::string>> links, joints;
+    std::map<std::string, std::vector<std::string>> coordinates_of;  ///< by the joint's name in the file
     std::vector<std::string> merged;  ///< sentences such as "tool is fixed to wrist"
     std::vector<std::string> notes;   ///< names that had to be changed, limits that do not hold at the start
     std::vector<Robot::Dropped> dropped;

@@ -46,6 +46,10 @@ std::string scene_axis(const Real3& a) {
     return scene_vector(a);
 }
 
+std::string scene_list(const std::vector<std::string>& list) {
+    return fmt::format("[{}]", fmt::join(list, ", "));
+}
+
 std::string scene_key(const std::string& name) {
     return std::all_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; })
                ? name

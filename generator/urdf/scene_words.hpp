@@ -29,6 +29,9 @@ std::string scene_angle(double value);
 /// The letter of a coordinate axis in quotation marks, any other axis as a vector.
 std::string scene_axis(const Real3& a);
 
+/// "[a, b]" of texts that are values already.
+std::string scene_list(const std::vector<std::string>& list);
+
 /// The name as a key: in quotation marks if TOML requires them.
 std::string scene_key(const std::string& name);
 

@@ -119,7 +119,13 @@ private:
                         return &result_.bodies[static_cast<std::size_t>(seat(joint.parent).group)] == &group ||
                                (joint.mimic && joint.mimic->joint == own);
                     });
-                if (needed) continue;
+                const bool in_a_loop =
+                    std::any_of(robot_.loops.begin(), robot_.loops.end(), [&](const Robot::Loop& loop) {
+                        return group.links.end() !=
+                               std::find_if(group.links.begin(), group.links.end(),
+                                            [&](int i) { return i == loop.parent || i == loop.child; });
+                    });
+                if (needed || in_a_loop) continue;
                 group.kept = false;
                 again = true;
                 names.push_back(robot_.joints[static_cast<std::size_t>(own)].name);

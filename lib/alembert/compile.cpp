@@ -2,6 +2,7 @@
 #include "alembert/compile.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -253,6 +254,27 @@ void build(std::vector<std::string> command, const std::string& source_text, con
     move_into_place(result.path(), object);
 }
 
+/// Held while one process compiles, so that others wait for its object. Where a file system has no locks, nothing
+/// is held, and each compiles for itself.
+class CompileLock {
+public:
+    explicit CompileLock(const fs::path& file)
+        : leftover_(file),
+          file_(open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR)) {
+        while (file_ >= 0 && flock(file_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+    }
+    CompileLock(const CompileLock&) = delete;
+    CompileLock& operator=(const CompileLock&) = delete;
+    ~CompileLock() {
+        if (file_ >= 0) close(file_);
+    }
+
+private:
+    Leftover leftover_;
+    int file_;
+};
+
 std::string file_stem(const std::string& name, const std::string& key) {
     std::string stem = name.substr(0, 64);
     for (char& letter : stem)
@@ -277,8 +299,11 @@ Compiled compile(const std::string& source_text, const std::string& name, const 
     key.add(processor());
 
     const fs::path object = cache_folder(options.cache) / (file_stem(name, key.hex()) + ".so");
-    const bool from_cache = is_intact(object);
+    bool from_cache = is_intact(object);
     if (!from_cache) {
+        const CompileLock lock(fs::path(object).replace_extension(".lock"));
+        from_cache = is_intact(object);  // another process has compiled it meanwhile
+        if (from_cache) return {.object = object, .from_cache = true, .seconds = 0};
         command.insert(command.end(), flags.begin(), flags.end());
         build(std::move(command), source_text, object);
     }

@@ -10,9 +10,10 @@
 /// of the source, the flags, the compiler (path, size, date of the executable: running it to ask for its version
 /// would cost more than a warm start may), the ABI version and the processor, since the code is for this
 /// processor alone. A file is written under a name of its own and renamed when complete, so that processes which
-/// compile the same thing at once do not disturb each other; it ends in its own fingerprint, and one that was cut
-/// short or altered is compiled again rather than loaded. If the cache cannot be written, a private folder takes
-/// its place and is removed when the process ends.
+/// compile the same thing at once do not disturb each other; the first of them locks `<name>-<key>.lock`, and the
+/// others wait for its object where the file system has locks. It ends in its own fingerprint, and one that was
+/// cut short or altered is compiled again rather than loaded. If the cache cannot be written, a private folder
+/// takes its place and is removed when the process ends.
 ///
 /// The code in the cache is executed, so it must belong to the user for whom this process acts. A folder that
 /// belongs to somebody else, or in which others can write, is refused with CompileError. Folders are made with

@@ -48,13 +48,24 @@ Packed packed_method(Method method) {
     }
 }
 
+void need(bool good, const std::string& message) {
+    if (!good) throw std::invalid_argument(message);
+}
+
+void check_events(const Ensemble& e) {
+    const alembert_solver_table& table = e.module.table();
+    need(e.stops.empty() || e.stops.size() == static_cast<std::size_t>(table.events),
+         fmt::format("{} flags for {} events", e.stops.size(), table.events));
+    need(e.directions.empty() || e.directions.size() == e.stops.size(),
+         fmt::format("{} directions for {} events", e.directions.size(), e.stops.size()));
+    need(e.threads >= 0, fmt::format("threads = {}: zero or more are needed", e.threads));
+}
+
 void check(const Ensemble& e, const Options& options) {
+    check_events(e);
     const alembert_solver_table& table = e.module.table();
     const std::size_t count = e.count(), width = static_cast<std::size_t>(table.coordinates + table.speeds),
                       p = static_cast<std::size_t>(table.parameters);
-    const auto need = [](bool good, const std::string& message) {
-        if (!good) throw std::invalid_argument(message);
-    };
     need(width > 0 && e.states.size() == count * width,
          fmt::format("{} numbers are no states of {} components", e.states.size(), width));
     need(e.parameters.empty() || e.parameters.size() == p || e.parameters.size() == count * p,
@@ -65,11 +76,6 @@ void check(const Ensemble& e, const Options& options) {
          fmt::format("{} durations for {} members", e.durations.size(), count));
     need(e.quick_times.empty() || e.quick_times.size() == count,
          fmt::format("{} lists of quick times for {} members", e.quick_times.size(), count));
-    need(e.stops.empty() || e.stops.size() == static_cast<std::size_t>(table.events),
-         fmt::format("{} flags for {} events", e.stops.size(), table.events));
-    need(e.directions.empty() || e.directions.size() == e.stops.size(),
-         fmt::format("{} directions for {} events", e.directions.size(), e.stops.size()));
-    need(e.threads >= 0, fmt::format("threads = {}: zero or more are needed", e.threads));
     if (count == 0) return;
     for (const double start : e.starts)
         need(std::isfinite(start), fmt::format("start = {}: a finite number is needed", start));
@@ -83,42 +89,42 @@ void check(const Ensemble& e, const Options& options) {
                   {e.states.begin(), e.states.begin() + static_cast<std::ptrdiff_t>(width)}, longest);
 }
 
-/// The threads that integrate one ensemble.
+/// The threads that integrate the members of a feed.
 class Crew {
 public:
-    Crew(const Ensemble& ensemble, const Options& options, Outcomes& outcomes)
-        : e_(ensemble), options_(options), outcomes_(outcomes), count_(ensemble.count()) {
+    Crew(const Ensemble& ensemble, const EnsembleFeed& feed, const Options& options)
+        : e_(ensemble), feed_(feed), options_(options) {
         const alembert_solver_table& table = e_.module.table();
         const bool stops = std::any_of(e_.stops.begin(), e_.stops.end(), [](bool stop) { return stop; });
         if (e_.module.pack() != nullptr && e_.module.pack()->lanes == lanes && table.constraints == 0 && !stops)
             packed_ = packed_method(options.method);
-        outcomes_.packed = packed_ != nullptr;
         const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-        threads_ = static_cast<int>(std::clamp<std::size_t>(
-            e_.threads > 0 ? static_cast<std::size_t>(e_.threads) : cores, 1, std::max<std::size_t>(1, count_)));
-        outcomes_.threads = threads_;
+        threads_ = std::clamp<std::size_t>(e_.threads > 0 ? static_cast<std::size_t>(e_.threads) : cores, 1,
+                                           std::max<std::size_t>(1, feed.most));
     }
 
-    void go() {
+    Feeding go() {
         std::vector<std::thread> others;
-        for (int k = 1; k < threads_; ++k) others.emplace_back([this] { work(false); });
+        for (std::size_t k = 1; k < threads_; ++k) others.emplace_back([this] { work(false); });
         work(true);
         for (std::thread& thread : others) thread.join();
         if (error_) std::rethrow_exception(error_);
+        return {.packed = packed_ != nullptr, .threads = static_cast<int>(threads_)};
     }
 
 private:
     /// The work of one thread. An exception in one thread ends the work of all.
     void work(bool tells) {
         try {
-            const MemberSource source{
-                .next = [this] { return next(); },
-                .done = [this](const Member& m, const Outcome& o, const std::vector<double>& y) { keep(m, o, y); },
-                .again = [this](const Member& m) { alone(m); },
-                .breathe = [this, tells] { tell(tells); }};
+            const MemberSource source{.next = [this] { return next(); },
+                                      .done =
+                                          [this](const Member& m, const Outcome& o, const std::vector<double>& y) {
+                                              feed_.done(m, o, std::span(y).first(m.state.size()));
+                                          },
+                                      .again = [this](const Member& m) { alone(m); },
+                                      .breathe = [this, tells] { tell(tells); }};
             if (packed_ != nullptr) {
-                const std::size_t fair =
-                    (count_ + static_cast<std::size_t>(threads_) - 1) / static_cast<std::size_t>(threads_);
+                const std::size_t fair = feed_.most / threads_ + (feed_.most % threads_ != 0 ? 1 : 0);
                 packed_(e_, options_, source, static_cast<int>(std::min<std::size_t>(fair, lanes)));
             } else {
                 while (const std::optional<Member> member = next()) {
@@ -129,37 +135,30 @@ private:
         } catch (...) {
             const std::lock_guard lock(mutex_);
             if (!error_) error_ = std::current_exception();
-            next_ = count_;
+            stopped_ = true;
         }
     }
 
     void tell(bool tells) const {
-        if (tells && e_.progress)
-            e_.progress(static_cast<double>(done_.load(std::memory_order_relaxed)) / static_cast<double>(count_));
+        if (tells && feed_.breathe) feed_.breathe();
     }
 
     std::optional<Member> next() {
-        const std::size_t k = next_.fetch_add(1);
-        if (k >= count_) return std::nullopt;
-        const alembert_solver_table& table = e_.module.table();
-        const auto part = [](const std::vector<double>& all, std::size_t which, int size) {
-            const auto begin = all.begin() + static_cast<std::ptrdiff_t>(which * static_cast<std::size_t>(size));
-            return std::vector<double>(begin, begin + size);
-        };
-        const bool own = e_.parameters.size() != static_cast<std::size_t>(table.parameters);
-        return Member{.index = k,
-                      .state = part(e_.states, k, table.coordinates + table.speeds),
-                      .parameters = e_.parameters.empty() ? std::vector<double>()
-                                                          : part(e_.parameters, own ? k : 0, table.parameters),
-                      .start = e_.starts.empty() ? options_.start : e_.starts[k],
-                      .duration = e_.durations.empty() ? options_.duration : e_.durations[k]};
+        if (stopped_) return std::nullopt;
+        std::optional<Member> member = feed_.next();
+        if (member) check(*member);
+        return member;
     }
 
-    void keep(const Member& member, const Outcome& outcome, const std::vector<double>& state) {
-        std::copy_n(state.begin(), outcomes_.dimension,
-                    outcomes_.states.begin() + static_cast<std::ptrdiff_t>(member.index) * outcomes_.dimension);
-        outcomes_.members[member.index] = outcome;
-        done_.fetch_add(1, std::memory_order_relaxed);
+    void check(const Member& member) {
+        need(std::isfinite(member.start), fmt::format("start = {}: a finite number is needed", member.start));
+        need(std::isfinite(member.duration) && member.duration >= 0,
+             fmt::format("duration = {}: a finite number, zero or more, is needed", member.duration));
+        if (member.duration <= longest_.load(std::memory_order_relaxed)) return;
+        Options options = options_;
+        options.duration = member.duration;
+        check_options(make_rhs(e_.module, {}), member.state, options);
+        longest_ = member.duration;
     }
 
     /// Integrates one member with the ordinary integrator.
@@ -174,7 +173,7 @@ private:
         Options options = options_;
         options.start = member.start;
         options.duration = member.duration;
-        if (!e_.quick_times.empty()) options.quick_times = e_.quick_times[member.index];
+        if (member.quick_times != nullptr) options.quick_times = *member.quick_times;
         options.sample = member.duration;  // no rows but the end
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             drift(table, par, t, y, rate);
@@ -186,34 +185,55 @@ private:
             rhs, state, options,
             e_.stops.empty() ? Events() : make_events(e_.module, member.parameters, e_.stops, e_.directions));
         const std::span<const double> end = motion.final_state();
-        keep(member,
-             {.time = motion.times.back(),
-              .steps = motion.statistics.steps,
-              .rejected = motion.statistics.rejected,
-              .evaluations = motion.statistics.evaluations,
-              .energy_drift = drift.energy(),
-              .work_balance = drift.balance(),
-              .stopped = motion.ending == Ending::stopped_by_event,
-              .failure = motion.failure ? motion.failure->message : std::string()},
-             {end.begin(), end.end()});
+        feed_.done(member,
+                   {.time = motion.times.back(),
+                    .steps = motion.statistics.steps,
+                    .rejected = motion.statistics.rejected,
+                    .evaluations = motion.statistics.evaluations,
+                    .energy_drift = drift.energy(),
+                    .work_balance = drift.balance(),
+                    .stopped = motion.ending == Ending::stopped_by_event,
+                    .failure = motion.failure ? motion.failure->message : std::string()},
+                   end.first(member.state.size()));
     }
 
     const Ensemble& e_;
+    const EnsembleFeed& feed_;
     const Options& options_;
-    Outcomes& outcomes_;
-    std::size_t count_;
     Packed packed_ = nullptr;
-    int threads_ = 1;
-    std::atomic<std::size_t> next_ = 0, done_ = 0;
+    std::size_t threads_ = 1;
+    std::atomic<double> longest_ = -1;  ///< duration for which the options were found to make sense
+    std::atomic<bool> stopped_ = false;
     std::mutex mutex_;
     std::exception_ptr error_;
 };
+
+Member member_of(const Ensemble& e, const Options& options, std::size_t k) {
+    const alembert_solver_table& table = e.module.table();
+    const auto part = [](const std::vector<double>& all, std::size_t which, int size) {
+        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(which * static_cast<std::size_t>(size));
+        return std::vector<double>(begin, begin + size);
+    };
+    const bool own = e.parameters.size() != static_cast<std::size_t>(table.parameters);
+    return {.index = k,
+            .state = part(e.states, k, table.coordinates + table.speeds),
+            .parameters =
+                e.parameters.empty() ? std::vector<double>() : part(e.parameters, own ? k : 0, table.parameters),
+            .start = e.starts.empty() ? options.start : e.starts[k],
+            .duration = e.durations.empty() ? options.duration : e.durations[k],
+            .quick_times = e.quick_times.empty() ? nullptr : &e.quick_times[k]};
+}
 
 }  // namespace
 
 std::size_t Ensemble::count() const {
     const alembert_solver_table& table = module.table();
     return states.size() / static_cast<std::size_t>(std::max(1, table.coordinates + table.speeds));
+}
+
+Feeding integrate(const Ensemble& ensemble, const EnsembleFeed& feed, const Options& options) {
+    check_events(ensemble);
+    return Crew(ensemble, feed, options).go();
 }
 
 Outcomes integrate(const Ensemble& ensemble, const Options& options) {
@@ -223,9 +243,33 @@ Outcomes integrate(const Ensemble& ensemble, const Options& options) {
                       .states = {},
                       .members = {},
                       .method = std::string(name(options.method))};
+    const std::size_t count = ensemble.count();
     outcomes.states.resize(ensemble.states.size());
-    outcomes.members.resize(ensemble.count());
-    if (ensemble.count() > 0) Crew(ensemble, options, outcomes).go();
+    outcomes.members.resize(count);
+    if (count == 0) return outcomes;
+    std::atomic<std::size_t> next = 0, ended = 0;
+    EnsembleFeed feed{.next = [&]() -> std::optional<Member> {
+                          const std::size_t k = next.fetch_add(1);
+                          return k < count ? std::optional(member_of(ensemble, options, k)) : std::nullopt;
+                      },
+                      .done =
+                          [&](const Member& member, const Outcome& outcome, std::span<const double> state) {
+                              std::copy_n(state.begin(), outcomes.dimension,
+                                          outcomes.states.begin() +
+                                              static_cast<std::ptrdiff_t>(member.index) * outcomes.dimension);
+                              outcomes.members[member.index] = outcome;
+                              ended.fetch_add(1, std::memory_order_relaxed);
+                          },
+                      .breathe = {},
+                      .most = count};
+    if (ensemble.progress)
+        feed.breathe = [&] {
+            ensemble.progress(static_cast<double>(ended.load(std::memory_order_relaxed)) /
+                              static_cast<double>(count));
+        };
+    const Feeding used = integrate(ensemble, feed, options);
+    outcomes.packed = used.packed;
+    outcomes.threads = used.threads;
     return outcomes;
 }
 

@@ -14,6 +14,11 @@
 /// at a time. All cores are used. A member's result does not depend on its neighbours or on the number of threads,
 /// not even in the last bit.
 ///
+/// Members that are too many for memory come one after the other (EnsembleFeed):
+///
+///     integrate(ensemble, EnsembleFeed{.next = [&] { return more(); }, .done = [&](auto& m, auto& o, auto y) { …
+///     }}, options);
+///
 /// The step control is that of `integrate`, so that a member differs from a single run only by rounding. If a
 /// member fails, its own Outcome says why and holds its last good state; the others are not affected. Events that
 /// do not stop, rows and Options::on_step are not supported. Throws std::invalid_argument for sizes that do not
@@ -21,6 +26,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -74,5 +81,32 @@ struct Outcomes {
 };
 
 Outcomes integrate(const Ensemble& ensemble, const Options& options);
+
+/// One member by itself.
+struct Member {
+    std::size_t index = 0;  ///< for who gives and takes it
+    std::vector<double> state, parameters;
+    double start = 0, duration = 0;
+    /// Null for those of Options; it must live until the member is done.
+    const std::vector<QuickTime>* quick_times = nullptr;
+};
+
+/// Gives members one after the other and takes their results. All threads call `next` and `done` at once.
+struct EnsembleFeed {
+    std::function<std::optional<Member>()> next;  ///< nothing: there are no more. It may wait.
+    std::function<void(const Member&, const Outcome&, std::span<const double> state)> done;
+    std::function<void()> breathe = {};  ///< called now and then on the calling thread
+    /// How many come at the most: fewer than eight for each thread are spread evenly.
+    std::size_t most = std::numeric_limits<std::size_t>::max();
+};
+
+struct Feeding {
+    bool packed = false;  ///< whether eight members ran side by side
+    int threads = 0;      ///< the number of threads that were used
+};
+
+/// Integrates all members of the feed. Of the ensemble the states, parameters, starts, durations, quick times and
+/// `progress` are not used. What `next` and `done` throw ends the work and is thrown again.
+Feeding integrate(const Ensemble& ensemble, const EnsembleFeed& feed, const Options& options);
 
 }  // namespace alembert

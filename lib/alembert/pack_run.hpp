@@ -25,13 +25,6 @@
 
 namespace alembert {
 
-/// One member, as both ways of running it need it.
-struct Member {
-    std::size_t index = 0;
-    std::vector<double> state, parameters;
-    double start = 0, duration = 0;
-};
-
 /// Gives members to run and takes their results; several threads call it at once.
 struct MemberSource {
     std::function<std::optional<Member>()> next;
@@ -114,7 +107,7 @@ private:
     }
 
     const std::vector<QuickTime>& quick_times(const Member& member) const {
-        return ensemble_.quick_times.empty() ? options_.quick_times : ensemble_.quick_times[member.index];
+        return member.quick_times == nullptr ? options_.quick_times : *member.quick_times;
     }
 
     double within_quick_times(const Lane& lane, double t) const {

@@ -10,9 +10,10 @@ namespace alembert {
 
 namespace {
 
-constexpr int directions = 48;     // tried all around, to find those in which a pair may begin to slide
-constexpr int most_halvings = 60;  // until neighbouring directions are equal in double precision
-constexpr int most_sweeps = 30;    // over several pairs that begin to slide together
+constexpr int directions = 48;      // tried all around, to find those in which a pair may begin to slide
+constexpr int most_halvings = 60;   // until neighbouring directions are equal in double precision
+constexpr int most_sweeps = 30;     // over several pairs that begin to slide together
+constexpr double held_back = 1e-9;  // ġ relative to what it would be alone, if others that stick hold it
 
 /// Changes the sides of a function or of a pair.
 void set_side(SideSet& sides, int k, int side) {
@@ -52,9 +53,14 @@ public:
             other[k] = -1;
             const double up = slope_of(one, k), down = slope_of(other, k);
             const double size = std::abs(up) + std::abs(down);
+            double margin;
+            if (size <= held_back * size_alone(sides, k)) {  // others that stick hold it
+                margin = sides[k] == 0 ? 1 - at.share(k) / at.bound(k) : 0;
+                choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
+                continue;
+            }
             const bool jump = std::abs(up - down) > 1e-9 * size;
             choice.jumps = choice.jumps || jump;
-            double margin;
             if (sides[k] != 0)
                 margin = size > 0 ? sides[k] * at.slope(k) / size : 0;
             else if (!jump || up > down)
@@ -96,6 +102,17 @@ private:
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
         return at.slope(k);
+    }
+
+    /// |ġ| at both sides of the function while nothing else sticks.
+    double size_alone(SideSet sides, int k) const {
+        for (int& side : sides.of) side = side == 0 ? 1 : side;
+        double size = 0;
+        for (const int side : {-1, 1}) {
+            sides[static_cast<std::size_t>(k)] = side;
+            size += std::abs(slope_of(sides, k));
+        }
+        return size;
     }
 
     const Switching& system_;

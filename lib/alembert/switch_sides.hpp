@@ -13,6 +13,7 @@
 #include <limits>
 #include <vector>
 
+#include "alembert/dense.hpp"
 #include "alembert/switching.hpp"
 
 namespace alembert {
@@ -126,10 +127,11 @@ public:
 private:
     // A rate of g below this, relative to the change that its σ makes, is zero.
     static constexpr double negligible = 1e-9;
+    static constexpr double dependent = 1e-10;  // the size of a pivot, relative to the largest, that is zero
 
-    static Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(const Eigen::MatrixXd& matrix) {
-        return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(matrix);
-    }
+    /// Where functions that slide depend on each other, as the velocities of two ends of one rod, their σ are not
+    /// unique; the least are taken.
+    static Orthogonal decomposed(const Eigen::MatrixXd& matrix) { return {matrix, dependent}; }
 
     /// The zero of ġ(α) = (a + b α)/(1 + c α), with a, b and c such that it has the values found at 0 and 1.
     /// Friction that changes its own normal force has this form.

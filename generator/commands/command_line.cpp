@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+
+#include "alembert/error.hpp"
+#include "commands/help.hpp"
+#include "commands/language.hpp"
+#include "commands/streams.hpp"
+#include "commands/terminal.hpp"
+#include "commands/verb.hpp"
+#include "language/libraries.hpp"
+#include "language/say.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr int input_is_wrong = 3, numbers_failed = 4, environment_failed = 5;
+
+/// Runs a verb and turns what it throws into one message and an exit code.
+int guarded(const Chosen& chosen) {
+    const auto complain = [](const std::string& text, int code) {
+        std::cout.flush();
+        std::fflush(stdout);
+        const Ink ink = ink_for(STDERR_FILENO);
+        std::cerr << marked_message(text, ink, ink.bad) << (text.ends_with('\n') ? "" : "\n");
+        return code;
+    };
+    const std::string& subject = chosen.subject;
+    try {
+        return chosen.action();
+    } catch (const SceneError& e) {
+        return complain(e.what(), input_is_wrong);
+    } catch (const ModelError& e) {
+        return complain(fmt::format("{}: {}", subject, translated_from_library(e.what())), input_is_wrong);
+    } catch (const std::invalid_argument& e) {
+        return complain(fmt::format("{}: {}", subject, translated_from_library(e.what())), input_is_wrong);
+    } catch (const IntegrationError& e) {
+        return complain(fmt::format("{}: {}", subject, translated_from_library(e.what())), numbers_failed);
+    } catch (const CompileError& e) {
+        return complain(translated_from_library(e.what()), environment_failed);
+    } catch (const std::bad_alloc&) {
+        return complain(say("out of memory"), environment_failed);
+    } catch (const std::exception& e) {
+        if (output_failed()) return environment_failed;  // told at the end
+        return complain(say("{}: internal error: {}", subject, e.what()), environment_failed);
+    }
+}
+
+}  // namespace
+
+int command_line(std::vector<std::string> words) {
+    try {
+        choose_language(words);
+    } catch (const CompileError& e) {
+        std::cerr << e.what() << "\n";
+        return environment_failed;
+    }
+    CLI::App app{say("alembert derives, proves and runs the equations of motion of mechanical systems."),
+                 "alembert"};
+    app.footer("alembert derive scenes/textbook/double_pendulum.toml");
+    set_help(app);
+    app.failure_message(failure_message);
+    app.set_version_flag("--version", std::string("alembert ") + ALEMBERT_VERSION);
+    app.require_subcommand(1);
+    Chosen chosen;
+    add_verbs(app, chosen);
+    if (const std::string mistake = mistake_in(app, words); !mistake.empty()) {
+        std::cerr << mistake;
+        return input_is_wrong;
+    }
+    try {
+        std::reverse(words.begin(), words.end());  // the order in which CLI11 wants them
+        app.parse(std::move(words));
+    } catch (const CLI::ParseError& e) {
+        const int code = app.exit(e);
+        return code == 0 ? 0 : input_is_wrong;
+    }
+    return guarded(chosen);
+}
+
+}  // namespace alembert

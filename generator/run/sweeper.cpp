@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/sweeper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "alembert/compile.hpp"
+#include "alembert/fingerprint.hpp"
+#include "alembert/process_time.hpp"
+#include "emit/emit.hpp"
+#include "language/say.hpp"
+#include "lower/lower.hpp"
+#include "run/method.hpp"
+#include "run/rows.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr std::size_t most_checked = 1'000'000;  // bodies, before the first motion
+
+void need_smooth_motion(const Mechanism& m) {
+    if (!m.unilateral.empty())
+        throw ModelError(
+            say("sweep does not follow unilateral constraints; simulate does, for one state at a time"));
+    if (!m.frictions.empty())
+        throw ModelError(say("sweep does not follow dry friction; simulate does, for one state at a time"));
+    if (m.has_kicks())
+        throw ModelError(
+            say("sweep does not follow events with impulses; simulate does, for one state at a time"));
+}
+
+/// Whether masses may change from motion to motion.
+bool varies_parameters(const Mechanism& m, const std::vector<std::string>& names) {
+    return std::any_of(m.parameters.begin(), m.parameters.end(), [&](const Mechanism::Parameter& p) {
+        return std::find(names.begin(), names.end(), p.symbol.get_name()) != names.end();
+    });
+}
+
+/// The rates at the end of a motion, whose state may have speeds instead.
+std::vector<double> rates_at(const Program& program, const Module& module, const Member& member, double t,
+                             std::span<const double> state) {
+    const alembert_solver_table& table = module.table();
+    if (program.speeds.empty()) return {state.begin() + table.coordinates, state.end()};
+    const std::vector<double> par = prepared(module, member.parameters);
+    std::vector<double> rate(state.size());
+    table.rhs(t, state.data(), par.data(), rate.data());
+    rate.resize(static_cast<std::size_t>(table.coordinates));
+    return rate;
+}
+
+}  // namespace
+
+Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes)
+    : s_{derived(std::move(scene), {.by = wishes.by, .use = Use::run})}, wishes_(wishes) {
+    s_.grid = std::move(grid);
+    const Mechanism& m = s_.mechanism;
+    need_smooth_motion(m);
+    if (!m.impulses.empty())
+        s_.warn(
+            say("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
+                "gives those after\n",
+                s_.scene.file));
+    const std::vector<std::string> names = s_.grid.names();
+    starts_.emplace(m, names);
+    has_varied_bodies_ = !m.masses.empty() && varies_parameters(m, names);
+    s_.conserved = energy_of(m).conserved;
+    program_ = lowered(s_).program;
+    for (const Quantity& q : program_.coordinates) s_.coordinates.push_back(q.name);
+    if (!m.speeds.empty())
+        for (const Quantity& u : program_.speeds) s_.speeds.push_back(u.name);
+    check_columns(end_columns(s_), wishes.columns);
+    options_ = options_for();
+    s_.method = name(options_.method);
+    constraints_ = lower_constraints(m);
+    is_assembled_ = !m.constraints.empty() || !m.speeds.empty();
+    const Source source = emit(program_, {.batch = true});
+    source_ = source.text;
+    s_.formulation = source.formulation;
+    s_.operations = source.operations.total();
+    make_key();
+}
+
+Options Sweeper::options_for() const {
+    const Start start = start_of(s_.mechanism);
+    const bool steps_given = wishes_.step > 0 || start.step > 0;
+    const Options options = options_of(
+        wishes_, {.method = given_method(wishes_, s_).value_or(steps_given ? Method::rk4 : Method::dop853)},
+        start);
+    if (needs_series(options.method) || needs_canonical(options.method))
+        throw ModelError(
+            say("sweep does not run '{}', which needs more than the right-hand side; take dop853 or gauss",
+                name(options.method)));
+    return options;
+}
+
+void Sweeper::make_key() {
+    Fingerprint print;
+    for (const std::string& text : {std::string(ALEMBERT_VERSION), s_.scene.text, source_, wishes_.by, s_.method})
+        print.add(text);
+    print.add(fmt::format("{} {} {} {} {} {} {}", wishes_.duration, wishes_.tolerance, wishes_.step,
+                          wishes_.max_step, wishes_.budget, wishes_.fast_math, s_.grid.size()));
+    for (const Axis& axis : s_.grid.axes)
+        print.add(fmt::format("{} {} {} {}", axis.name, axis.from, axis.to, axis.count));
+    for (const double value : s_.grid.listed) print.add(fmt::format("{}", value));
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, s_.grid.size());
+         ++k)  // they show kind and seed of samples
+        for (const double value : s_.grid.point(k)) print.add(fmt::format("{}", value));
+    key_ = print.hex();
+}
+
+void Sweeper::check() {
+    if (program_.singular) {
+        const State<double> first = state_of(start_of(s_.mechanism), s_.mechanism, s_.equations);
+        throw IntegrationError(failure_at(s_, first).value_or(say("the mass matrix is singular")), first.t,
+                               first.q);
+    }
+    if (!has_varied_bodies_) return;
+    const InertiaCheck check(s_.scene, s_.mechanism);
+    const std::vector<std::string> names = s_.grid.names();
+    std::set<Place> told;
+    for (std::size_t k = 0; k < std::min(most_checked, s_.grid.size()); ++k) {
+        const std::vector<double> values = s_.grid.point(k);
+        const Possible<Start> start = starts_->possible(values);
+        if (!start.exists()) continue;  // its row gives the reason
+        for (Diagnostic& one : check.findings(start.value().state())) {
+            for (std::size_t i = 0; i < values.size(); ++i)
+                one.message += fmt::format("{}{} = {:.6g}", i == 0 ? say(", at ") : ", ", names[i], values[i]);
+            if (one.severity == Severity::error) fail(s_.scene, {one});
+            if (told.insert(one.place).second) s_.warn(describe(s_.scene, {one}));
+        }
+    }
+}
+
+void Sweeper::compile() {
+    const Compiled compiled = alembert::compile(
+        source_, program_.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}});
+    s_.timings.compile = compiled.from_cache ? 0.0 : compiled.seconds;
+    const double begin = process_seconds();
+    ensemble_.emplace(Ensemble{.module = load(compiled.object)});
+    ensemble_->work = s_.conserved ? Work::left_out : Work::integrated;
+    for (const Mechanism::EventAction& event : s_.mechanism.event_actions) {
+        ensemble_->stops.push_back(event.stop);
+        ensemble_->directions.push_back(event.direction);
+    }
+    if (has_varied_bodies_ && s_.grid.size() > most_checked) bodies_.emplace(s_.scene, s_.mechanism);
+    if (!has_fixed_step(options_.method)) {
+        variants_.emplace(program_, *starts_, s_.grid, wishes_.duration);
+        if (variants_->has_too_many())
+            s_.warnings.push_back(
+                say("only {} variants of the inputs were searched for narrow pulses; a longest step "
+                    "(max_step) bounds the steps of all\n",
+                    InputVariants::most));
+    }
+    s_.timings.start = process_seconds() - begin;
+}
+
+void Sweeper::run(const SweepDesk& desk, int threads) {
+    const double begin = process_seconds();
+    ensemble_->threads = threads;
+    const EnsembleFeed feed{.next = [&] { return next(desk); },
+                            .done =
+                                [&](const Member& member, const Outcome& outcome, std::span<const double> state) {
+                                    keep(member.index, motion_of(member, outcome, state), desk);
+                                },
+                            .breathe = desk.breathe,
+                            .most = desk.most};
+    const Feeding used = integrate(*ensemble_, feed, options_);
+    s_.packed = used.packed;
+    s_.threads = used.threads;
+    s_.timings.integrate = process_seconds() - begin;
+}
+
+std::optional<Member> Sweeper::next(const SweepDesk& desk) {
+    const std::lock_guard lock(taking_);
+    for (;;) {
+        if (current_.count == 0) {
+            const std::optional<SweepPart> part = desk.next();
+            if (!part) return std::nullopt;
+            current_ = *part;
+            const std::lock_guard both(giving_);
+            taken_ =
+                &open_.emplace(part->first, OpenPart{*part, std::vector<SweptMotion>(part->count), part->count})
+                     .first->second;
+        }
+        --current_.count;
+        if (std::optional<Member> found = member(current_.first++, desk)) return found;
+    }
+}
+
+std::optional<Member> Sweeper::member(std::size_t k, const SweepDesk& desk) {
+    const std::vector<double> values = s_.grid.point(k);
+    taken_->motions[k - taken_->part.first].varied = values;
+    try {
+        Start start = starts_->at(values);
+        if (const std::optional<std::string> why = impossible_body(start)) throw ModelError(*why);
+        if (is_assembled_) {
+            Overrides held;
+            for (std::size_t i = 0; i < values.size(); ++i) held.emplace_back(s_.grid.axes[i].name, values[i]);
+            assemble(start, s_.mechanism, constraints_, held);
+        }
+        const State<double> first = state_of(start, s_.mechanism, s_.equations);
+        Member member{.index = k,
+                      .state = first.q,
+                      .parameters = start.parameters,
+                      .start = start.t,
+                      .duration = wishes_.duration >= 0 ? wishes_.duration : start.duration};
+        member.state.insert(member.state.end(), first.qdot.begin(), first.qdot.end());
+        if (variants_) member.quick_times = variants_->quick_times(start);
+        return member;
+    } catch (const ModelError& error) {
+        keep(k, refused(error.what()), desk);
+    } catch (const IntegrationError& error) {
+        keep(k, refused(error.what()), desk);
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> Sweeper::impossible_body(const Start& start) const {
+    if (!bodies_) return {};
+    for (const Diagnostic& one : bodies_->findings(start.state()))
+        if (one.severity == Severity::error) return one.message;
+    return {};
+}
+
+SweptMotion Sweeper::refused(const std::string& why) const {
+    const double nothing = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double> none(s_.coordinates.size(), nothing);
+    return {.varied = {},  // when it is kept
+            .final_coordinates = none,
+            .final_rates = none,
+            .final_speeds = std::vector<double>(s_.speeds.size(), nothing),
+            .time = nothing,
+            .drift = nothing,
+            .status = why,
+            .failed = true};
+}
+
+SweptMotion Sweeper::motion_of(const Member& member, const Outcome& outcome, std::span<const double> state) const {
+    const auto n = static_cast<std::ptrdiff_t>(s_.coordinates.size());
+    SweptMotion m{.varied = {},  // when it is kept
+                  .final_coordinates = {state.begin(), state.begin() + n},
+                  .final_rates = rates_at(program_, ensemble_->module, member, outcome.time, state),
+                  .final_speeds = {}};
+    if (!s_.speeds.empty()) m.final_speeds.assign(state.begin() + n, state.end());
+    m.time = outcome.time;
+    m.drift = s_.conserved ? outcome.energy_drift : outcome.work_balance;
+    m.steps = outcome.steps;
+    m.rejected = outcome.rejected;
+    m.evaluations = outcome.evaluations;
+    m.failed = !outcome.failure.empty();
+    m.status = m.failed ? outcome.failure : outcome.stopped ? "stopped" : "done";
+    return m;
+}
+
+void Sweeper::keep(std::size_t k, SweptMotion motion, const SweepDesk& desk) {
+    const std::lock_guard lock(giving_);
+    const auto at = std::prev(open_.upper_bound(k));
+    OpenPart& open = at->second;
+    SweptMotion& place = open.motions[k - open.part.first];
+    motion.varied = std::move(place.varied);
+    place = std::move(motion);
+    if (--open.left > 0) return;
+    OpenPart whole = std::move(open);
+    open_.erase(at);
+    desk.done(whole.part, std::move(whole.motions));
+}
+
+}  // namespace alembert

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The values of elements of an MJCF file (the format of MuJoCo): with the defaults of their classes, in radians.
+/// Only the readers of MJCF use this.
+///
+///     MjcfValues values(file);                       // reads <compiler> and <default>
+///     values.number(joint, "damping")                // its own, or that of its class
+///     values.rotation(body)                          // of quat, axisangle, euler, xyaxes or zaxis
+
+#include <map>
+
+#include "urdf/xml.hpp"
+
+namespace alembert {
+
+/// Mass, mass centre and inertia about it, along the axes of the body.
+struct MjcfInertia {
+    double mass = 0;
+    Real3 centre = Real3::Zero();
+    Real33 inertia = Real33::Zero();
+};
+
+class MjcfValues {
+public:
+    explicit MjcfValues(XmlFile& file);
+
+    XmlFile& file() const { return file_; }
+    /// The attribute, or that of the default of the element's class and of the classes around it. `or_as` is the
+    /// name of another element whose default also counts, as <general> for <motor>.
+    std::optional<std::string> text(const XmlElement& e, const char* attribute, const char* or_as = nullptr);
+    std::optional<std::vector<double>> numbers(const XmlElement& e, const char* attribute, std::size_t count = 0,
+                                               const char* or_as = nullptr);
+    std::optional<double> number(const XmlElement& e, const char* attribute, const char* or_as = nullptr);
+    std::optional<bool> flag(const XmlElement& e, const char* attribute);
+    Real3 three(const XmlElement& e, const char* attribute, const Real3& missing);
+    Real33 rotation(const XmlElement& e);
+    RobotPlace place(const XmlElement& e) { return {three(e, "pos", Real3::Zero()), rotation(e)}; }
+    /// An angle of the file in radians.
+    double angle(double written) const { return in_degrees_ ? written * M_PI / 180 : written; }
+
+    /// <inertial>.
+    MjcfInertia given(const XmlElement& inertial);
+    /// The sum of all <geom> of a body. What has no shape of its own (meshes) is left out with a remark.
+    MjcfInertia by_shapes(const std::vector<const XmlElement*>& geoms, const std::string& body);
+    /// <compiler> boundmass, boundinertia, balanceinertia.
+    void bound(MjcfInertia& inertia) const;
+
+    enum class FromShapes { never, where_missing, always } from_shapes = FromShapes::where_missing;
+    bool autolimits = true;
+    double total_mass = -1;  ///< that all masses are scaled to; none if not positive
+
+private:
+    struct Class {
+        std::string parent;
+        const XmlElement* element = nullptr;
+    };
+    void read_compiler(const XmlElement& e);
+    void read_class(const XmlElement& e, const std::string& parent);
+    const Class& class_of(const XmlElement& e);
+    std::optional<MjcfInertia> shape(const XmlElement& geom, const std::string& body);
+
+    XmlFile& file_;
+    bool in_degrees_ = true;
+    std::string euler_ = "xyz";
+    double least_mass_ = 0, least_moment_ = 0;
+    bool balance_ = false;
+    std::array<double, 2> groups_{0, 5};
+    std::map<std::string, Class> classes_;
+};
+
+}  // namespace alembert

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Replaces the readers of MJCF and SDF if the program is built without TinyXML-2.
+#include "language/say.hpp"
+#include "urdf/robot.hpp"
+
+namespace alembert {
+
+namespace {
+
+[[noreturn]] void refuse(const char* format) {
+    throw CompileError(say(
+        "import of {} is missing: this program was built without TinyXML-2; install libtinyxml2-dev, configure "
+        "and build again",
+        format));
+}
+
+}  // namespace
+
+Robot parse_mjcf(const std::string&, const std::string&) {
+    refuse("MJCF");
+}
+Robot parse_sdf(const std::string&, const std::string&) {
+    refuse("SDF");
+}
+
+}  // namespace alembert

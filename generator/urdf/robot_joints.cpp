@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "language/say.hpp"
+#include "scene/text.hpp"
+#include "urdf/scene_writer.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// The turns from the axes in which a joint is given to those in which the scene's joint of that type moves: z is
+/// the normal of a plane, x and y are the axes of a universal joint.
+std::vector<std::string> to_own_axes(Robot::Type type, const Real3& axis, const Real3& second) {
+    const Real3 a = axis.normalized();
+    if (type == Robot::Type::universal) {
+        Real33 R;
+        R << a, (second - second.dot(a) * a).normalized(), a.cross(second).normalized();
+        std::vector<std::string> list;
+        const Real3 rpy = roll_pitch_yaw(R);
+        for (int k = 2; k >= 0; --k)
+            if (rpy[k] != 0) list.push_back(fmt::format("[\"{}\", {}]", "xyz"[k], scene_angle(rpy[k])));
+        return list;
+    }
+    if (type != Robot::Type::planar || a[2] == 1) return {};
+    const double across = std::hypot(a[0], a[1]);
+    return {across == 0
+                ? "[\"x\", \"pi\"]"
+                : fmt::format("[{}, {}]", scene_axis({-a[1], a[0], 0}), scene_angle(std::atan2(across, a[2])))};
+}
+
+const char* name_of(Robot::Type type) {
+    switch (type) {
+        case Robot::Type::fixed:
+            return "fixed";
+        case Robot::Type::revolute:
+        case Robot::Type::continuous:
+            return "revolute";
+        case Robot::Type::prismatic:
+            return "prismatic";
+        case Robot::Type::planar:
+            return "planar";
+        case Robot::Type::floating:
+            return "free";
+        case Robot::Type::spherical:
+            return "spherical";
+        case Robot::Type::universal:
+            return "universal";
+        case Robot::Type::screw:
+            return "screw";
+        case Robot::Type::cylindrical:
+            return "cylindrical";
+    }
+    return "";
+}
+
+bool has_axis(Robot::Type type) {
+    return type == Robot::Type::revolute || type == Robot::Type::continuous || type == Robot::Type::prismatic ||
+           type == Robot::Type::screw || type == Robot::Type::cylindrical;
+}
+
+std::string axis_lines(Robot::Type type, const Real3& axis, double pitch) {
+    return (has_axis(type) ? fmt::format("axis = {}\n", scene_axis(axis)) : "") +
+           (type == Robot::Type::screw ? fmt::format("pitch = {}\n", scene_number(pitch)) : "");
+}
+
+}  // namespace
+
+std::string SceneWriter::coordinate(const Robot::Joint* of, const std::string& name, const std::string& unit,
+                                    const std::string& about, double initial) {
+    result_.coordinates.push_back(name);
+    result_.coordinates_of[of == nullptr ? "floating_base" : of->name].push_back(name);
+    const std::string rest = about.empty() ? "" : fmt::format(", about = \"{}\"", about);
+    return fmt::format("{} = {{ initial = {}, rate = 0{}{} }}", scene_key(name), scene_number(initial),
+                       unit.empty() ? "" : fmt::format(", unit = \"{}\"", unit), rest);
+}
+
+/// The coordinates of a turn in space.
+std::vector<std::string> SceneWriter::turning(const Robot::Joint* of, const std::string& name,
+                                              const RobotPose& start) {
+    std::vector<std::string> list;
+    if (options_.quaternion) {
+        const Eigen::Quaterniond e(start.rotation());
+        const double component[] = {e.w(), e.x(), e.y(), e.z()};
+        for (int k = 0; k < 4; ++k)
+            list.push_back(
+                coordinate(of, values_.given(fmt::format("{}_e{}", name, k)), "", "", component[k] + 0.0));
+    } else {
+        for (int k = 2; k >= 0; --k)
+            list.push_back(
+                coordinate(of, values_.given(fmt::format("{}_{}", name, std::array{"roll", "pitch", "yaw"}[k])),
+                           "rad", "", start.rpy[k]));
+    }
+    return list;
+}
+
+void SceneWriter::joint_table(const std::string& name, const std::string& type, const Stand& parent,
+                              const Stand& child, const std::string& rest) {
+    joints_ += fmt::format("\n[[joint]]\nname = \"{}\"\ntype = \"{}\"\nparent = \"{}\"\nchild = \"{}\"\n", name,
+                           type, parent.parent->name, child.parent->name);
+    if (!parent.point.isZero(0)) joints_ += fmt::format("parent_point = {}\n", scene_vector(parent.point));
+    if (!child.point.isZero(0)) joints_ += fmt::format("child_point = {}\n", scene_vector(child.point));
+    if (!parent.rotate.empty()) joints_ += fmt::format("parent_rotate = {}\n", scene_list(parent.rotate));
+    if (!child.rotate.empty()) joints_ += fmt::format("child_rotate = {}\n", scene_list(child.rotate));
+    joints_ += rest;
+}
+
+void SceneWriter::free_joint(const Robot::Joint* joint, const std::string& own, const std::string& name,
+                             const Group& child, const Stand& parent, const RobotPose& start) {
+    std::vector<std::string> list;
+    for (int k = 0; k < 3; ++k)
+        list.push_back(
+            coordinate(joint, values_.given(fmt::format("{}_{}", name, "xyz"[k])), "m", "", start.shift[k]));
+    for (std::string& one : turning(joint, name, start)) list.push_back(std::move(one));
+    joint_table(own, "free", parent, {&child, -child.centre, {}},
+                fmt::format("{}coordinates = {{ {} }}\n", options_.quaternion ? "" : "angles = \"zyx\"\n",
+                            fmt::join(list, ", ")));
+}
+
+void SceneWriter::mover(const Robot::Joint& joint, const Group& child) {
+    body(child);
+    const Stand at = stand(joint.parent, joint.at);
+    if (joint.type == Robot::Type::floating)
+        free_joint(&joint, joint_names_[index(joint)], joint.name, child, at, joint.start);
+    else if (has_axis(joint.type))
+        hinge(joint, child, at);
+    else
+        several(joint, child, at);
+}
+
+/// A joint with one coordinate, and what acts along it.
+void SceneWriter::hinge(const Robot::Joint& joint, const Group& child, const Stand& at) {
+    const bool slides = joint.type == Robot::Type::prismatic;
+    const std::string& q = values_of_[index(joint)];
+    std::string about;
+    if (joint.limits)
+        about = fmt::format("limits {} to {}", scene_number((*joint.limits)[0]), scene_number((*joint.limits)[1]));
+    const bool has_limits = joint.limits && (*joint.limits)[0] <= (*joint.limits)[1];
+    double initial = 0;
+    if (has_limits && ((*joint.limits)[0] > 0 || (*joint.limits)[1] < 0)) {
+        if (options_.stops) initial = ((*joint.limits)[0] + (*joint.limits)[1]) / 2;
+        result_.notes.push_back(options_.stops
+                                    ? say("{} starts at {}, between its stops", q, scene_number(initial))
+                                    : say("{} starts at 0, outside its limits", q));
+    }
+    joint_table(joint_names_[index(joint)], name_of(joint.type), at, {&child, -child.centre, {}},
+                fmt::format("{}coordinates = {{ {} }}\n{}", axis_lines(joint.type, joint.axis, joint.pitch),
+                            coordinate(&joint, q, slides ? "m" : "rad", about, initial),
+                            joint.armature == 0 ? ""
+                                                : fmt::format("armature = {{ {} = {} }}\n", scene_key(q),
+                                                              scene_number(joint.armature))));
+    damper(joint, q);
+    spring(joint, q);
+    friction(joint, q);
+    if (has_limits) stops(joint, q);
+    if (options_.stops && joint.limits && !has_limits)
+        result_.notes.push_back(say("{} has no stops, because its lower limit is above the upper one", q));
+    if (options_.drives && !robot_.actuators) drive(joint, q, slides);
+}
+
+/// A planar, universal or spherical joint.
+void SceneWriter::several(const Robot::Joint& joint, const Group& child, Stand at) {
+    std::vector<std::string> list;
+    const auto one = [&](const std::string& name, const char* unit) {
+        list.push_back(coordinate(&joint, values_.given(joint.name + name), unit));
+    };
+    if (joint.type == Robot::Type::spherical) {
+        list = turning(&joint, joint.name, {});
+    } else if (joint.type == Robot::Type::universal) {
+        for (const char* k : {"_1", "_2"}) one(k, "rad");
+    } else {
+        for (const char* k : {"_x", "_y"}) one(k, "m");
+        one("_turn", "rad");
+    }
+    const std::vector<std::string> turns = to_own_axes(joint.type, joint.axis, joint.second);
+    at.rotate.insert(at.rotate.end(), turns.begin(), turns.end());
+    const bool angles = joint.type == Robot::Type::spherical && !options_.quaternion;
+    joint_table(
+        joint_names_[index(joint)], name_of(joint.type), at, {&child, -child.centre, turns},
+        fmt::format("{}coordinates = {{ {} }}\n", angles ? "angles = \"zyx\"\n" : "", fmt::join(list, ", ")));
+}
+
+/// Adds a frame and a point in place of a joint, without a coordinate and without a constraint.
+void SceneWriter::follower(const Robot::Joint& joint, Group& child) {
+    Stand at = stand(joint.parent, joint.at);
+    const Robot::Mimic& mimic = *joint.mimic;
+    const std::string& leader = values_of_[static_cast<std::size_t>(mimic.joint)];
+    const bool moves = !leader.empty() && mimic.factor != 0;  // a fixed leader stays at 0
+    std::string position = scene_number(mimic.offset);
+    if (moves) {
+        position = mimic.factor == 1    ? leader
+                   : mimic.factor == -1 ? "-" + leader
+                                        : fmt::format("{}*{}", scene_number(mimic.factor), leader);
+        if (mimic.offset != 0)
+            position += fmt::format(" {} {}", mimic.offset < 0 ? '-' : '+', scene_number(std::abs(mimic.offset)));
+    }
+    const bool slides = joint.type == Robot::Type::prismatic;
+    const std::string& parent = at.parent->frame;
+    if (!slides) at.rotate.push_back(fmt::format("[{}, \"{}\"]", scene_axis(joint.axis), position));
+    child.frame = places_.given(child.name + "_frame");
+    const std::string from = at.parent->ground ? "O" : at.parent->name;
+    std::string pivot = places_.given(joint.name);
+    result_.text += fmt::format("\n# {}\n[[frame]]\nname = \"{}\"\nparent = \"{}\"\n",
+                                moves ? fmt::format("{} moves with {}", escaped(joint.name), leader)
+                                      : fmt::format("{} stands still", escaped(joint.name)),
+                                child.frame, parent);
+    result_.text += fmt::format(
+        "rotate = {}\n", scene_list(at.rotate.empty() ? std::vector<std::string>{"[\"z\", 0]"} : at.rotate));
+    result_.text += fmt::format("\n[[point]]\nname = \"{}\"\nfrom = \"{}\"\noffset = {}\naxes = \"{}\"\n", pivot,
+                                from, scene_vector(at.point), parent);
+    if (slides) {
+        const Real3 a = joint.axis.normalized();
+        std::array<std::string, 3> shift;
+        for (int k = 0; k < 3; ++k)
+            shift[static_cast<std::size_t>(k)] =
+                a[k] == 0   ? "0"
+                : a[k] == 1 ? scene_text(position)
+                            : scene_text(fmt::format("{}*({})", scene_number(a[k]), position));
+        const std::string moved = places_.given(joint.name + "_shifted");
+        result_.text += fmt::format("\n[[point]]\nname = \"{}\"\nfrom = \"{}\"\noffset = [{}]\naxes = \"{}\"\n",
+                                    moved, pivot, fmt::join(shift, ", "), child.frame);
+        pivot = moved;
+    }
+    body(child, fmt::format("frame = \"{}\"\nfrom = \"{}\"\nposition = {}\naxes = \"{}\"\n", child.frame, pivot,
+                            scene_vector(child.centre), child.frame));
+    if (moves) damper(joint, position);
+}
+
+void SceneWriter::loop(const Robot::Loop& loop) {
+    const auto group = [&](int i) { return seat(i).group; };
+    if (group(loop.parent) == group(loop.child)) return drop(say("joints between parts of one body"), {loop.name});
+    Stand parent = stand(loop.parent, loop.at_parent), child = stand(loop.child, loop.at_child);
+    const std::vector<std::string> turns = to_own_axes(loop.type, loop.axis, loop.second);
+    for (Stand* side : {&parent, &child}) side->rotate.insert(side->rotate.end(), turns.begin(), turns.end());
+    const std::string name = joints_taken_.given(loop.name);
+    joint_table(name, name_of(loop.type), parent, child, axis_lines(loop.type, loop.axis, loop.pitch));
+    result_.loops.push_back(name);
+}
+
+}  // namespace alembert

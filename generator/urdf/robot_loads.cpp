@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "language/say.hpp"
+#include "scene/text.hpp"
+#include "urdf/scene_writer.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// Adds factor·what to the text of a sum.
+void add_term(std::string& sum, double factor, const std::string& what) {
+    if (factor == 0) return;
+    const double size = std::abs(factor);
+    const std::string term = what.empty() ? scene_number(size)
+                             : size == 1  ? what
+                                          : fmt::format("{}*{}", scene_number(size), what);
+    sum += sum.empty() ? (factor < 0 ? "-" : "") : factor < 0 ? " - " : " + ";
+    sum += term;
+}
+
+}  // namespace
+
+void SceneWriter::damper(const Robot::Joint& joint, const std::string& along) {
+    if (joint.damping != 0)
+        dampers_ +=
+            fmt::format("\n[[damper]]\nalong = \"{}\"\ndamping = {}\n", along, scene_number(joint.damping));
+}
+
+void SceneWriter::spring(const Robot::Joint& joint, const std::string& along) {
+    if (joint.stiffness == 0) return;
+    springs_ +=
+        fmt::format("\n[[spring]]\nalong = \"{}\"\nstiffness = {}\n{}", along, scene_number(joint.stiffness),
+                    joint.rest == 0 ? "" : fmt::format("length = {}\n", scene_number(joint.rest)));
+}
+
+/// Adds a torque or force of constant size against the motion along q.
+void SceneWriter::friction(const Robot::Joint& joint, const std::string& q) {
+    if (!options_.friction || joint.friction == 0) return;
+    if (joint.friction < 0)
+        throw ModelError(say("the friction of joint {} is {}; expected zero or more", in_quotes(joint.name),
+                             scene_number(joint.friction)));
+    with_friction_.insert(joint.name);
+    frictions_ += fmt::format("\n[[friction]]\nname = \"{}\"\ncoefficient = {}\nslip = \"{}'\"\nnormal = 1\n",
+                              values_.given(joint.name + "_friction"), scene_number(joint.friction), q);
+}
+
+/// Adds a contact at each end of the range of q, without rebound.
+void SceneWriter::stops(const Robot::Joint& joint, const std::string& q) {
+    if (!options_.stops) return;
+    with_stops_.insert(joint.name);
+    const auto [low, high] = *joint.limits;
+    const auto stop = [&](const char* end, const std::string& gap) {
+        stops_ += fmt::format("\n[[unilateral]]\nname = \"{}\"\ngap = \"{}\"\n",
+                              values_.given(fmt::format("{}_{}", joint.name, end)), gap);
+    };
+    stop("low", fmt::format("{} {} {}", q, low < 0 ? '+' : '-', scene_number(std::abs(low))));
+    stop("high", fmt::format("{} - {}", scene_number(high), q));
+}
+
+/// Adds an input along the joint's coordinate, which is zero until it is given a value.
+void SceneWriter::drive(const Robot::Joint& joint, const std::string& q, bool slides) {
+    const std::string name = values_.given("drive_" + joint.name);
+    inputs_ += fmt::format("{} = {{ value = 0, unit = \"{}\" }}\n", scene_key(name), slides ? "N" : "N*m");
+    forces_.emplace_back(q, name);
+    result_.drives.push_back(name);
+}
+
+/// Adds an input for each motor, its control, and the force that follows from it.
+void SceneWriter::actuators() {
+    std::vector<std::string> without_mass;
+    for (const Robot::Actuator& motor : *robot_.actuators) {
+        const std::string& q = values_of_[static_cast<std::size_t>(motor.joint)];
+        if (q.empty()) {
+            without_mass.push_back(motor.name);
+            continue;
+        }
+        const std::string input = values_.given("drive_" + motor.name);
+        inputs_ += fmt::format("{} = 0\n", scene_key(input));
+        auto force = std::find_if(forces_.begin(), forces_.end(), [&](const auto& f) { return f.first == q; });
+        if (force == forces_.end()) force = forces_.insert(force, {q, ""});
+        const double g = motor.gear;
+        add_term(force->second, g * motor.gain, input);
+        add_term(force->second, g * motor.constant, "");
+        add_term(force->second, g * g * motor.along, q);
+        add_term(force->second, g * g * motor.rate, q + "'");
+        if (force->second.empty()) force->second = "0";
+        result_.drives.push_back(input);
+    }
+    drop(say("motors of joints that move no mass"), without_mass);
+}
+
+/// Adds the condition that one coordinate is a polynomial in another, or constant.
+void SceneWriter::coupling(const Robot::Coupling& coupling) {
+    const auto value = [&](int joint) {
+        return joint < 0 ? std::string() : values_of_[static_cast<std::size_t>(joint)];
+    };
+    const std::string q = value(coupling.joint), other = value(coupling.other);
+    if (q.empty() || (coupling.other >= 0 && other.empty()))
+        return drop(say("couplings of joints that move no mass"), {coupling.name});
+    std::string zero = q;
+    for (std::size_t k = 0; k < coupling.polynomial.size(); ++k)
+        add_term(zero, -coupling.polynomial[k], k == 0 ? "" : k == 1 ? other : fmt::format("{}^{}", other, k));
+    const std::string name = values_.given(coupling.name);
+    conditions_ += fmt::format("\n[[constraint]]\nname = \"{}\"\nholonomic = \"{}\"\n", name, zero);
+    result_.couplings.push_back(name);
+}
+
+}  // namespace alembert

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// Sweeps that several processes share, that were interrupted, and that are reduced to statistics: the table is
+// that of a quiet sweep by one process, byte for byte.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "alembert/process.hpp"
+#include "files.hpp"
+#include "run/exact_sum.hpp"
+#include "run/quantile_sketch.hpp"
+#include "run/samples.hpp"
+#include "run/sweep_queue.hpp"
+#include "shell.hpp"
+
+namespace commands_cluster {
+
+using namespace alembert::test;
+using alembert::ExactSum;
+using alembert::QuantileSketch;
+using alembert::SweepPart;
+using alembert::SweepQueue;
+using Json = nlohmann::json;
+
+namespace {
+
+/// A pendulum whose motions take longer the larger n is.
+std::string scene() {
+    return temporary("pendulum.toml", R"toml(
+gravity = [0, -9.81]
+[parameters]
+n = 1
+[coordinates]
+theta = 1
+[[particle]]
+name = "P"
+mass = 1
+position = ["sin(theta)", "-cos(theta)"]
+[simulation]
+duration = "n"
+tolerance = 1e-12
+)toml");
+}
+
+/// The script gets the scene as $1 and the options of the sweep as words after it. It works in a new folder.
+Run in_folder(const std::string& script, const std::vector<std::string>& options) {
+    std::vector<std::string> words{temporary_folder("cluster"), scene()};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_shell(R"sh(cd "$1"; shift
+        export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+        quiet() { "$ALEMBERT" sweep "$@" -o quiet.csv >/dev/null; }
+        # Waits until something is done, but not all.
+        begun() { for k in $(seq 2000); do [ "$(stat -c %s t.csv.unfinished 2>/dev/null || echo 0)" -gt 60 ] && return; sleep 0.005; done; }
+        )sh" + script,
+                     words);
+}
+
+const std::vector<std::string> some{"--vary", "theta=0.1:2:40", "--vary", "n=1:60:30"};
+
+bool has_mpi() {
+    return !alembert::find_program("mpirun").empty() &&
+           std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-mpi.so");
+}
+
+}  // namespace
+
+TEST_CASE("sweep: what a signal interrupted goes on with --resume, and the table is that of a quiet sweep") {
+    const Run result = in_folder(R"sh(
+        quiet "$@"
+        "$ALEMBERT" sweep "$@" -o t.csv --chunk 8 >out 2>err & program=$!
+        begun
+        kill -TERM $program; wait $program; echo "exit $?"
+        sed 's/.*: interrupted; [0-9]* of/interrupted at some of/' err
+        printf 'cut short' >>t.csv.unfinished
+        "$ALEMBERT" sweep "$@" -o t.csv --resume --tolerance 1e-9 2>&1 | grep -o 'belongs to another sweep'
+        "$ALEMBERT" sweep "$@" -o t.csv --resume --threads 1 --json >again.json || cat again.json
+        cmp t.csv quiet.csv && ls)sh",
+                                 some);
+    CHECK(result.out ==
+          "exit 143\ninterrupted at some of 1200 motions are kept in t.csv.unfinished, and the same command with "
+          "--resume goes on\nbelongs to another sweep\nagain.json\nerr\nout\nquiet.csv\nt.csv\n");
+    const std::string folder = temporary_folder("cluster");
+    CHECK(run({"sweep", scene(), "--vary", "n=1:2:3", "--resume"}).err.find("--resume needs -o FILE") !=
+          std::string::npos);
+    CHECK(run({"sweep", scene(), "--vary", "n=1:2:3", "--resume", "-o", "/dev/null"}).exit == 3);
+    // Where nothing is left from before, it begins.
+    CHECK(run({"sweep", scene(), "--vary", "n=1:2:3", "--resume", "-o", folder + "/t.npz"}).exit == 0);
+}
+
+TEST_CASE("sweep: of 8 processes one is killed, and with --resume the table is that of a quiet sweep") {
+    if (!has_mpi()) return;
+    const Run result = in_folder(R"sh(
+        quiet "$@"
+        mpirun -n 8 sh -c '[ "$OMPI_COMM_WORLD_RANK" != 3 ] || echo $$ >third; exec "$ALEMBERT" sweep "$@" -o t.csv --chunk 4' \
+            sh "$@" >out 2>err & launcher=$!
+        begun
+        kill -KILL $(cat third); wait $launcher; [ $? != 0 ] && echo failed
+        grep -c 'motions are kept in t.csv.unfinished' err
+        mpirun -n 3 "$ALEMBERT" sweep "$@" -o t.csv --resume --json >out 2>err || cat err
+        grep -o '"ranks": 3' out
+        cmp t.csv quiet.csv && ls t.csv*)sh",
+                                 some);
+    CHECK(result.out == "failed\n1\n\"ranks\": 3\nt.csv\n");
+}
+
+TEST_CASE("sweep: of processes that share a sweep only one speaks") {
+    if (!has_mpi()) return;
+    const Run result = in_folder(R"sh(
+        mpirun -n 2 "$ALEMBERT" sweep "$@" 2>&1 | grep -c 'nn=…')sh",
+                                 {"--vary", "nn=0.1:2:4"});
+    CHECK(result.out == "1\n");
+}
+
+TEST_CASE(
+    "sweep: --reduce gives the statistics of the rows, whatever the parts and the order in which they come") {
+    const std::string model = scene();
+    const std::vector<std::string> words{"sweep", model, "--vary", "theta=0.1:2:41", "--vary", "n=1:3:5"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return run(more);
+    };
+    std::istringstream rows(with({}).out);
+    std::string line;
+    std::getline(rows, line);
+    std::vector<double> ends;
+    while (std::getline(rows, line)) {
+        std::istringstream fields(line);
+        for (int k = 0; k < 4; ++k) std::getline(fields, line, ',');
+        ends.push_back(std::stod(line));
+    }
+    REQUIRE(ends.size() == 205);
+    std::sort(ends.begin(), ends.end());
+    long double sum = 0, squares = 0;
+    for (const double x : ends) sum += x;
+    for (const double x : ends) squares += (x - sum / 205) * (x - sum / 205);
+
+    const std::vector<std::string> reduced{"--reduce", "min,max,mean,deviation,median,0.25,0.99"};
+    const std::string text = with(reduced).out;
+    const Json all = Json::parse(with({"--reduce", "min,max,mean,deviation,median,0.25,0.99", "--json"}).out);
+    const Json& theta = all["reduced"][1];
+    CHECK(theta["name"] == "final_theta");
+    CHECK(theta["motions"] == 205);
+    CHECK(theta["min"] == ends.front());
+    CHECK(theta["max"] == ends.back());
+    CHECK(theta["mean"].get<double>() == doctest::Approx(static_cast<double>(sum / 205)).epsilon(1e-15));
+    CHECK(theta["deviation"].get<double>() ==
+          doctest::Approx(static_cast<double>(std::sqrt(squares / 204))).epsilon(1e-14));
+    CHECK(theta["q0.5"] == ends[102]);
+    CHECK(theta["q0.25"] == ends[51]);
+    CHECK(theta["q0.99"].get<double>() ==
+          doctest::Approx(ends[201] + 0.96 * (ends[202] - ends[201])).epsilon(1e-15));
+    CHECK(theta["quantile_error"] == 0);
+    CHECK(all["reduced"].back()["name"] == "event_t");
+    CHECK(all["reduced"].back()["motions"] == 0);
+    for (const std::vector<std::string>& parts :
+         std::vector<std::vector<std::string>>{{"--chunk", "1", "--threads", "3"}, {"--chunk", "7"}}) {
+        std::vector<std::string> more = reduced;
+        more.insert(more.end(), parts.begin(), parts.end());
+        CHECK(with(more).out == text);
+    }
+    for (const char* const wrong : {"maximum", "min,", "1.5", "min,min"})
+        CHECK(with({"--reduce", wrong}).exit == 3);
+    CHECK(with({"--reduce", "min", "--svg", temporary("s.svg", "")}).exit == 3);
+    CHECK(run({"sweep", model, "--vary", "n=1:2:2000000", "--json"}).err.find("add -o FILE, or --reduce") !=
+          std::string::npos);
+}
+
+TEST_CASE("sweep: --reduce leaves failed motions out, and has the times of those that an event ended") {
+    const std::string falling = temporary("falling.toml", R"toml(
+[parameters]
+h = 1
+[coordinates]
+x = "h"
+[[particle]]
+name = "P"
+mass = 1
+position = [0, "x"]
+[[force]]
+at = "P"
+vector = [0, -2]
+[[event]]
+name = "ground"
+when = "x"
+stop = true
+[simulation]
+duration = 3
+)toml");
+    const auto result = run({"sweep", falling, "--vary", "h=0.5:15.5:16", "--reduce", "min,max", "--json"});
+    CAPTURE(result.err);
+    REQUIRE(result.exit == 0);
+    const Json event = Json::parse(result.out)["reduced"].back();  // x = h - t²
+    CHECK(event["motions"] == 9);
+    CHECK(event["min"].get<double>() == doctest::Approx(std::sqrt(0.5)).epsilon(1e-12));
+    CHECK(event["max"].get<double>() == doctest::Approx(std::sqrt(8.5)).epsilon(1e-12));
+}
+
+TEST_CASE("quantiles: they are exact for few values, within their error for many, and of no order") {
+    std::mt19937_64 random(7);
+    std::vector<double> values;
+    for (int k = 0; k <= 200'000; ++k)
+        values.push_back((k % 3 == 0 ? -1 : 1) * std::exp(std::normal_distribution<double>(0, 3)(random)));
+    QuantileSketch forward, one, other;
+    for (const double x : values) forward.add(x);
+    for (std::size_t k = values.size(); k-- > 0;) (k % 7 < 2 ? one : other).add(values[k]);
+    one.add(other);
+    CHECK(forward.buckets() == one.buckets());
+    CHECK(forward.dropped() == one.dropped());
+    std::sort(values.begin(), values.end());
+    CHECK(forward.relative_error() < 1e-3);
+    CHECK(forward.relative_error() > 0);
+    for (const double q : {0.0, 0.01, 0.25, 0.5, 0.9, 1.0}) {
+        const double exact = values[static_cast<std::size_t>(std::lround(q * 200'000))];
+        CHECK(std::abs(forward.quantile(q) - exact) <= forward.relative_error() * std::abs(exact));
+    }
+    QuantileSketch few;
+    for (const double x : {3.0, -1.0, 0.0, 2.0}) few.add(x);
+    CHECK(few.quantile(0) == -1);
+    CHECK(few.quantile(0.5) == 1);
+    CHECK(few.quantile(1) == 3);
+    CHECK(std::isnan(QuantileSketch().quantile(0.5)));
+}
+
+TEST_CASE("sums: they are exact, and do not depend on the order") {
+    ExactSum sum, backward;
+    const std::vector<double> values{1e300, 1, -3e-310, -1e300, 2.5, 3e-310, -0.0, 0x1p-1074, 1e16, 1, -1e16};
+    for (const double x : values) sum.add(x);
+    for (std::size_t k = values.size(); k-- > 0;) backward.add(values[k]);
+    CHECK(sum.normal() == backward.normal());
+    backward.add(-4.5);
+    CHECK(static_cast<double>(backward.value()) == 0x1p-1074);
+    ExactSum negative;
+    for (int k = 0; k < 10; ++k) negative.add(-0.1);
+    CHECK(static_cast<double>(negative.value()) == -1.0);
+    negative.add(sum);
+    CHECK(static_cast<double>(negative.value()) == 3.5);
+    ExactSum square;
+    square.add_square(0.1);
+    CHECK(static_cast<double>(square.value() -
+                              static_cast<alembert::Quad>(0.1) * static_cast<alembert::Quad>(0.1)) == 0);
+}
+
+TEST_CASE("sweep: the queue gives every motion once, in shorter parts near its end") {
+    SweepQueue queue(alembert::parts_left(1000, {{10, 20}, {900, 100}, {0, 5}}), {.takers = 4});
+    std::vector<int> given(1000);
+    std::size_t last = 0;
+    while (const std::optional<SweepPart> part = queue.next()) {
+        for (std::size_t k = 0; k < part->count; ++k) ++given[part->first + k];
+        last = part->count;
+        CHECK(!queue.is_done());
+        queue.done(*part);
+    }
+    CHECK(queue.is_done());
+    CHECK(last == 1);
+    for (std::size_t k = 0; k < 1000; ++k) CHECK(given[k] == (k < 5 || (k >= 10 && k < 30) || k >= 900 ? 0 : 1));
+}
+
+TEST_CASE("sweep: a Latin hypercube of more than a million points has one in each part, without memory for them") {
+    constexpr std::size_t count = 1'000'003;
+    const alembert::Grid grid =
+        alembert::sampled({{.name = "x", .from = 0, .to = 1}}, count, alembert::Sampling::latin, 4);
+    std::vector<bool> hit(count);
+    std::size_t hits = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto part = static_cast<std::size_t>(grid.point(k)[0] * count);
+        if (!hit.at(part)) ++hits;
+        hit[part] = true;
+    }
+    CHECK(hits >= count - 2);  // a point at the very edge of its part may be rounded into the next
+}
+
+}  // namespace commands_cluster
