@@ -186,13 +186,18 @@ class CasadiFunctions(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         scene = alembert.Scene(PENDULUM, name="swing.toml")
+        cls.driven = alembert.Scene({**PENDULUM, "forces": {"theta": "sin(3*t)"}}, name="driven.toml")
         cls.system = scene.system()
         cls.folder = tempfile.TemporaryDirectory()
         scene.emit(cls.folder.name, language="c", casadi=True, functions=["com_jacobian"])
-        library = os.path.join(cls.folder.name, "swing.so")
-        sources = [os.path.join(cls.folder.name, name) for name in ("swing.c", "swing_casadi.c")]
-        subprocess.run(["cc", "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-shared", "-fPIC",
-                        *sources, "-lm", "-o", library], check=True)  # yapf: disable
+        cls.driven.emit(cls.folder.name, language="c", casadi=True)
+        library = os.path.join(cls.folder.name, "both.so")
+        objects = []
+        for name in ("swing", "swing_casadi", "driven", "driven_casadi"):
+            objects.append(os.path.join(cls.folder.name, f"{name}.o"))
+            subprocess.run(["cc", "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O1", "-fPIC", "-c",
+                            os.path.join(cls.folder.name, f"{name}.c"), "-o", objects[-1]], check=True)  # yapf: disable
+        subprocess.run(["cc", "-shared", *objects, "-lm", "-o", library], check=True)
         cls.library = ctypes.CDLL(library)
 
     @classmethod
@@ -250,3 +255,11 @@ class CasadiFunctions(unittest.TestCase):
         by_t, by_y, by_p = self.evaluated("adj1_casadi_swing_rhs", 0, y, p, rate, seed)
         self.assertEqual(by_t[0, 0], 0)
         self.assertAlmostEqual(by_y[:, 0] @ dy + by_p[:, 0] @ dp, along[:, 0] @ seed, places=13)
+
+    def test_derivatives_by_time(self):
+        y, p, rate, t = np.array([0.4, 0.1]), np.array([2.0, 1.5, 9.81]), np.zeros(2), 0.7
+        by_t = 3 * math.cos(3 * t) / (2 * 1.5**2)
+        (along,) = self.evaluated("fwd1_casadi_driven_rhs", t, y, p, rate, 0.5, [0, 0], [0, 0, 0])
+        np.testing.assert_allclose(along[:, 0], [0, 0.5 * by_t], atol=1e-9)
+        back, _, _ = self.evaluated("adj1_casadi_driven_rhs", t, y, p, rate, [0.3, 2])
+        self.assertAlmostEqual(back[0, 0], 2 * by_t, places=9)

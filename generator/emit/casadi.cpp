@@ -87,7 +87,7 @@ SourceFile casadi_functions(const Program& p, const EmitOptions& options) {
                                     rate = {{"rate", size}};
     mustache::data functions{mustache::data::type::list};
     functions << function_of("casadi_" + scene + "_rhs", "is_rhs", point, rate);
-    const bool has_derivatives = !jacobian(p).task.results.empty() && !depends_on_time(p);
+    const bool has_derivatives = !jacobian(p).task.results.empty();
     if (has_derivatives) {
         const std::vector<CasadiMatrix> known = with_prefix("out_", rate);
         functions << function_of("fwd1_casadi_" + scene + "_rhs", "is_forward",
@@ -111,7 +111,7 @@ SourceFile casadi_functions(const Program& p, const EmitOptions& options) {
     file.set("version", ALEMBERT_VERSION);
     file.set("functions", functions);
     file.set("has_named", !options.functions.empty());
-    file.set("has_derivatives", has_derivatives);
+    file.set("has_time_derivative", has_derivatives && depends_on_time(p));
     file.set("has_parameter_jacobian", !parameter_jacobian(p).task.results.empty());
     return {scene + "_casadi.c", mustache::mustache{std::string(template_casadi)}.render(file)};
 }

@@ -8,10 +8,10 @@
 ///     file.name;            // "crane_casadi.c"
 ///
 /// casadi_crane_rhs maps (t, x, p) to the rate of the state x, casadi_crane_NAME the same and q'' to a function
-/// for robots. Matrices are dense, column by column. If the program has been differentiated and its right-hand
-/// side does not depend on t, fwd1_casadi_crane_rhs and adj1_casadi_crane_rhs give directional derivatives and
-/// their adjoints; otherwise CasADi takes differences (its option `enable_fd`). The template is
-/// templates/casadi.c.mustache.
+/// for robots. Matrices are dense, column by column. If the program has been differentiated, fwd1_casadi_crane_rhs
+/// and adj1_casadi_crane_rhs give directional derivatives and their adjoints: exact by state and parameters, by t
+/// a difference of order 4. Otherwise, and for robot functions, CasADi takes differences (its option `enable_fd`).
+/// The template is templates/casadi.c.mustache.
 
 #include "emit/emit.hpp"
 
