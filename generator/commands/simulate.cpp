@@ -79,7 +79,7 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.add_option("--poincare", options.section, say("section of Poincare, as in \"theta1 = 0\""))
                 .type_name(values::formula);
             verb.add_option("--sensitivity", options.sensitivity,
-                            say("derivatives of the end by initial values and parameters"))
+                            say("derivatives of the end by initial values, parameters"))
                 .type_name(values::names);
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));
