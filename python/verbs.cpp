@@ -242,7 +242,8 @@ Answer do_sweep(Scene scene, const Asked& asked) {
     RunOptions wishes = asked.run_options();
     wishes.progress = {};  // told by other threads
     const Sweep swept = sweep(std::move(scene), grid, wishes, static_cast<int>(asked.number("threads", 0)));
-    Answer answer{.json = as_json(swept), .text = as_text(swept), .warnings = swept.warnings};
+    const SweepTotals totals = totals_of(swept);
+    Answer answer{.json = as_json(swept, totals), .text = as_text(swept, totals), .warnings = swept.warnings};
     answer.table.columns = grid.names();
     for (const std::string& name : end_columns(swept)) answer.table.columns.push_back(name);
     Json& status = answer.json["status"] = Json::array();
