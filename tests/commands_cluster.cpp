@@ -170,6 +170,55 @@ TEST_CASE(
           std::string::npos);
 }
 
+// A spring from x = 1 at rest, with ω = k: over whole periods from -1 to 1, the rate from -k to k, and both means
+// are 0; until kt = π/2 the means are 2/π and -2k/π. With steps of h = 0.02 the rates err by (k h)⁴/384 of k.
+TEST_CASE("sweep: --along has the extremes and means of whole motions, side by side and one by one") {
+    const std::string spring = temporary("spring.toml", R"toml(
+[parameters]
+k = 1
+[coordinates]
+x = 1
+y = 0
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", "y"]
+[[force]]
+at = "P"
+vector = ["-k^2*x", "-y"]
+[simulation]
+tolerance = 1e-13
+max_step = 0.02
+)toml");
+    const auto rows = [&](const char* duration, std::vector<std::string> more) {
+        more.insert(more.begin(),
+                    {"sweep", spring, "--vary", "k=1:2:2", "--along", "min,max,mean", "--duration", duration});
+        return run(more);
+    };
+    for (const std::vector<std::string>& method : {std::vector<std::string>{}, {"--method", "radau"}}) {
+        std::vector<std::string> json = method;
+        json.emplace_back("--json");
+        const Json whole = Json::parse(rows("6.283185307179586", json).out)["rows"],
+                   quarter = Json::parse(rows("0.78539816339744831", json).out)["rows"][1]["along"];
+        for (const double k : {1.0, 2.0}) {
+            const Json& along = whole[k == 1 ? 0 : 1]["along"];
+            CHECK(along["min_x"].get<double>() == doctest::Approx(-1).epsilon(1e-12));
+            CHECK(along["max_x"] == 1.0);
+            CHECK(along["min_x'"].get<double>() == doctest::Approx(-k).epsilon(1e-8));
+            CHECK(along["max_x'"].get<double>() == doctest::Approx(k).epsilon(1e-8));
+            CHECK(std::abs(along["mean_x"].get<double>()) < 1e-12);
+            CHECK(std::abs(along["mean_x'"].get<double>()) < 1e-8);
+            CHECK(along["max_y"] == 0.0);
+        }
+        CHECK(quarter["mean_x"].get<double>() == doctest::Approx(2 / M_PI).epsilon(1e-12));
+        CHECK(quarter["mean_x'"].get<double>() == doctest::Approx(-4 / M_PI).epsilon(1e-8));
+        CHECK(std::abs(quarter["min_x"].get<double>()) < 1e-12);
+    }
+    const auto reduced = rows("1", {"--reduce", "max"});
+    CHECK(reduced.out.find("\nmax_x,2,1\n") != std::string::npos);
+    CHECK(run({"sweep", spring, "--vary", "k=1:2:2", "--along", "last"}).exit == 3);
+}
+
 TEST_CASE("sweep: --reduce leaves failed motions out, and has the times of those that an event ended") {
     const std::string falling = temporary("falling.toml", R"toml(
 [parameters]

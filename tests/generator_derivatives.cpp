@@ -231,6 +231,17 @@ TEST_CASE("derivatives: those of the articulated bodies of a tree are dual numbe
     }
 }
 
+TEST_CASE("derivatives: a tree with rotors is differentiated by another route, as dual numbers are") {
+    const Mechanism m = prepared(read_scene(test::source_path("tests/odd/armature.toml"))).mechanism;
+    const Equations equations = formalism("recursive").derive(m);
+    const Program program = choose(m, equations).program;
+    const std::vector<Perturbed> forms = perturbed_tree(program, m, equations, false);
+    CHECK(forms.empty());
+    const auto d = differentiated(program, {.parameters = true, .power = true, .perturbed = forms});
+    REQUIRE(d);
+    CHECK(misfit(program, *d, start_of(m).state()) < 1e-10);
+}
+
 TEST_CASE("derivatives: the Jacobian of a tree of 20 joints takes at most seven right-hand sides") {
     const Mechanism m = prepared(parse_scene(branching_tree(20, false), "tree.toml")).mechanism;
     const Equations equations = recursive_without_matrix(m);

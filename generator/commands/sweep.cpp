@@ -36,6 +36,7 @@ struct SweepVerb : RunVerb {
     std::string sampling = "sobol";
     long seed = 0;
     int threads = 0;
+    std::string along;    ///< of min, max, mean, with commas
     std::string reduce;   ///< statistics, with commas; empty for rows
     bool resume = false;  ///< whether to go on with what an interrupted sweep has left
     long chunk = 0;       ///< motions that a process takes at once; 0 for by their time
@@ -61,11 +62,22 @@ std::vector<Statistic> asked_statistics(const SweepVerb& verb) {
     return verb.reduce.empty() ? std::vector<Statistic>() : statistics_of(verb.reduce);
 }
 
+std::vector<std::string> asked_along(const SweepVerb& verb) {
+    std::vector<std::string> words = names_of(verb.along);
+    for (auto word = words.begin(); word != words.end(); ++word)
+        if ((*word != "min" && *word != "max" && *word != "mean") || std::find(words.begin(), word, *word) != word)
+            throw ModelError(
+                say("--along {}: expected min, max or mean, each once, with commas between, as in --along "
+                    "min,max",
+                    verb.along));
+    return words;
+}
+
 std::unique_ptr<Sweeper> sweeper_of(const SweepVerb& verb, Scene scene) {
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);
-    return std::make_unique<Sweeper>(std::move(scene), points_of(verb), wishes);
+    return std::make_unique<Sweeper>(std::move(scene), points_of(verb), wishes, asked_along(verb));
 }
 
 /// Processes that share a machine have one thread each, unless the launcher or the user gives them more.
@@ -200,7 +212,7 @@ private:
         constexpr std::size_t lanes = 8, most_bytes = 1 << 25, most_reduced = 1 << 17;
         const std::vector<Statistic> statistics = asked_statistics(verb_);
         const bool reduces = !statistics.empty(), has_quantiles = with_quantiles(statistics);
-        const std::size_t width = 8 * (end_columns(s).size() + 4);
+        const std::size_t width = 8 * (end_columns(s).size() + along_columns(s).size() + 4);
         SweepQueue queue(parts_left(grid().size(), store_->parts()),
                          {.takers = takers,
                           .first = lanes * static_cast<std::size_t>(std::max(1, threads)),
@@ -352,6 +364,9 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
             verb.add_option("--threads", options.threads, say("default: as many as there are cores"))
                 .type_name(values::count)
                 .between(1, 1024);
+            verb.add_option("--along", options.along,
+                            say("also of each whole motion: min,max,mean of its coordinates"))
+                .type_name(values::statistics);
             verb.add_option("--reduce", options.reduce,
                             say("statistics instead of rows: min,max,mean,median,0.95"))
                 .type_name(values::statistics);

@@ -201,7 +201,7 @@ std::vector<Perturbed> perturbed_tree(const Program& program, const Mechanism& m
     if (!mechanism.constraints.empty() || !equations.speeds_are_rates()) return list;
     const Mechanism m = in_terms_of(equations, mechanism);
     const Possible<JointTree> found = loaded_tree(m);
-    if (!found.exists()) return list;
+    if (!found.exists() || !found.value().rotors.empty()) return list;  // the equations above have no rotors
     const auto begin = [&](Program& p) {
         std::vector<std::pair<GiNaC::symbol, int>> given;
         for (const Mechanism::Unilateral& contact : m.unilateral)

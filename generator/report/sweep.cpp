@@ -57,6 +57,7 @@ Json rows_as_json(const Sweep& s, const std::vector<SweptMotion>& motions) {
                         {"rates", by_name(s.coordinates, m.final_rates)}};
         if (!s.speeds.empty()) row["final"]["speeds"] = by_name(s.speeds, m.final_speeds);
         row[drift_name(s)] = m.drift;
+        if (!s.along.empty()) row["along"] = by_name(along_columns(s), m.along);
         row["steps"] = m.steps;
         row["rejected"] = m.rejected;
         row["evaluations"] = m.evaluations;
@@ -71,13 +72,14 @@ std::string csv_header(const Sweep& s) {
     for (const Axis& axis : s.grid.axes) text += axis.name + ",";
     const std::vector<std::string> columns = end_columns(s);
     for (const std::string& column : columns) text += (column == columns.back() ? "" : "final_") + column + ",";
+    for (const std::string& column : along_columns(s)) text += column + ",";
     return text + "steps,rejected,evaluations,status\n";
 }
 
 std::string csv_rows(const std::vector<SweptMotion>& motions) {
     std::string text;
     for (const SweptMotion& m : motions) {
-        for (const std::vector<double>& part : {m.varied, end_values(m)})
+        for (const std::vector<double>& part : {m.varied, end_values(m), m.along})
             for (const double x : part) put(text, "{:.17g},", x);
         put(text, "{},{},{},{}\n", m.steps, m.rejected, m.evaluations, quoted(m.status));
     }

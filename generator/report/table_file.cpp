@@ -70,13 +70,16 @@ StoredTable stored(const Sweep& s, const MotionsOf& rows) {
     for (const std::string& end : ends)
         table.columns.push_back(
             {(end == ends.back() ? "" : "final_") + end, unit_of_varied(s.mechanism, end), std::vector<double>()});
+    for (const std::string& name : along_columns(s))  // min_theta' is named after its column
+        table.columns.push_back(
+            {name, unit_of_varied(s.mechanism, name.substr(name.find('_') + 1)), std::vector<double>()});
     for (const char* const name : {"steps", "rejected", "evaluations"})
         table.columns.push_back({name, "", std::vector<long>()});
     table.columns.push_back({"status", "", std::vector<std::string>()});
     rows([&](const std::vector<SweptMotion>& motions) {
         for (const SweptMotion& m : motions) {
             auto column = table.columns.begin();
-            for (const std::vector<double>& part : {m.varied, end_values(m)})
+            for (const std::vector<double>& part : {m.varied, end_values(m), m.along})
                 for (const double x : part) std::get<std::vector<double>>((column++)->values).push_back(x);
             for (const long count : {m.steps, m.rejected, m.evaluations})
                 std::get<std::vector<long>>((column++)->values).push_back(count);

@@ -11,8 +11,10 @@
 #include "emit/standalone.hpp"
 #include "language/say.hpp"
 #include "lower/frame_functions.hpp"
+#include "lower/operational_space.hpp"
 #include "lower/regressor.hpp"
 #include "lower/robot_functions.hpp"
+#include "run/wrenches.hpp"
 #include "scene/text.hpp"
 #include "state/assemble.hpp"
 
@@ -46,10 +48,13 @@ void check_functions(const Emission& e, const EmissionOptions& options) {
             "functions such as 'inverse' take coordinates and their rates, and the equations are in other speeds; "
             "leave out the table [speeds], and choose no formalism that has speeds of its own"));
     const std::vector<std::string>& known = all_functions();
+    const std::vector<std::string>& of_frames = functions_of_operational_space();
     for (const std::string& name : options.functions)
         if (!holds(known, name))
             throw ModelError(say("there is no function {} to emit; expected some of: {}", in_quotes(name),
                                  fmt::join(known, ", ")));
+        else if (holds(of_frames, name) && options.frames.empty())
+            throw ModelError(say("'{}' is that of a frame; say of which with --frame", name));
 }
 
 /// Adds the functions to `program`, each once.
@@ -62,7 +67,7 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
     };
     const RobotFunctions dynamics(e.mechanism, options.fold);
     for (const std::string& name : options.functions) {
-        if (is_there(name)) continue;
+        if (is_there(name) || holds(functions_of_operational_space(), name)) continue;
         const FunctionProgram function =
             name == "regressor"                  ? regressor(e.scene, e.mechanism, options.fold).function
             : holds(functions_of_masses(), name) ? mass_function(e.scene, e.mechanism, name, options.fold)
@@ -80,6 +85,10 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
         if (!is_new) continue;
         for (const FunctionProgram& f : frame_functions(e.scene, e.mechanism, frame, prefix, options.fold))
             result.push_back(absorbed(program, f));
+        for (const std::string& name : functions_of_operational_space())
+            if (holds(options.functions, name))
+                result.push_back(absorbed(
+                    program, operational_function(e.scene, e.mechanism, frame, prefix, name, options.fold)));
     }
     return result;
 }
@@ -91,6 +100,8 @@ const std::vector<std::string>& all_functions() {
         std::vector<std::string> names = RobotFunctions::of_dynamics();
         names.insert(names.end(), functions_of_masses().begin(), functions_of_masses().end());
         names.emplace_back("regressor");
+        names.insert(names.end(), functions_of_operational_space().begin(),
+                     functions_of_operational_space().end());
         return names;
     }();
     return known;
@@ -104,6 +115,7 @@ std::vector<SourceFile> files_of(const Emission& e) {
 }
 
 Emission emission(Scene scene, const EmissionOptions& options) {
+    for (const std::string& place : options.wrenches) with_wrench(scene, place, ascii_identifier(place));
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
     e.choice = lowered(e, options.fold);
     if (options.jacobian || options.casadi) {

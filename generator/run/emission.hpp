@@ -25,6 +25,8 @@ struct EmissionOptions {
     std::vector<std::string> functions = {};
     /// Points, bodies, or points with the axes of a frame, "P@F": their functions of frame_functions.hpp.
     std::vector<std::string> frames = {};
+    /// Points or bodies with external wrenches as parameters (wrenches.hpp), "P" or "P@F".
+    std::vector<std::string> wrenches = {};
     bool standalone = false;  ///< whether to add a main program that integrates and prints
     bool casadi = false;  ///< in C: whether to add functions for CasADi, and derivatives if they are not too long
 };

@@ -47,6 +47,17 @@ std::vector<double> end_values(const SweptMotion& m) {
     return values;
 }
 
+std::vector<std::string> along_columns(const Sweep& s) {
+    std::vector<std::string> columns;
+    for (const std::string& statistic : s.along) {
+        for (const std::string& q : s.coordinates) columns.push_back(statistic + "_" + q);
+        if (s.speeds.empty())
+            for (const std::string& q : s.coordinates) columns.push_back(statistic + "_" + q + "'");
+        for (const std::string& u : s.speeds) columns.push_back(statistic + "_" + u);
+    }
+    return columns;
+}
+
 void SweepTotals::add(const SweptMotion& m, const std::vector<std::string>& names) {
     steps += m.steps;
     rejected += m.rejected;

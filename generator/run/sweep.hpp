@@ -15,8 +15,9 @@ namespace alembert {
 struct SweptMotion {
     std::vector<double> varied;  ///< in the order of Grid::names
     std::vector<double> final_coordinates, final_rates,
-        final_speeds;            ///< NaN if the motion did not begin; speeds only of scenes that have their own
-    double time = 0, drift = 0;  ///< NaN in the same case; `drift` is that of the energy, or the work balance
+        final_speeds;  ///< NaN if the motion did not begin; speeds only of scenes that have their own
+    std::vector<double> along = {};  ///< in the order of along_columns; NaN in the same case
+    double time = 0, drift = 0;      ///< NaN in the same case; `drift` is that of the energy, or the work balance
     long steps = 0, rejected = 0, evaluations = 0;
     std::string status = {};  ///< "done", "stopped" (by an event), or the reason for a failure
     bool failed = false;
@@ -25,6 +26,7 @@ struct SweptMotion {
 struct Sweep : Derived {
     Grid grid = {};
     std::vector<std::string> coordinates = {}, speeds = {};
+    std::vector<std::string> along = {};    ///< of min, max, mean: what is known along each motion
     std::vector<SweptMotion> members = {};  ///< in the order of Grid::point
     bool conserved = true;  ///< whether the energy is conserved; if not, `drift` is that of E − E₀ − W
     std::string method = {}, formulation = {};
@@ -51,6 +53,9 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int th
 std::vector<std::string> end_columns(const Sweep& sweep);
 /// The values under these names.
 std::vector<double> end_values(const SweptMotion& motion);
+
+/// The names of what is known along each motion: min_theta, min_theta', max_theta …
+std::vector<std::string> along_columns(const Sweep& sweep);
 
 /// The cost of the whole sweep, and a summary of its results. Motions are added in the order of Grid::point.
 struct SweepTotals {

@@ -89,6 +89,7 @@ SweepReduction::SweepReduction(const Sweep& sweep, std::vector<Statistic> statis
       varied_(sweep.grid.names()) {
     const std::vector<std::string> ends = end_columns(sweep);
     for (const std::string& end : ends) names_.push_back((end == ends.back() ? "" : "final_") + end);
+    for (const std::string& name : along_columns(sweep)) names_.push_back(name);
     for (const char* const name : {"steps", "evaluations", "event_t"}) names_.emplace_back(name);
     columns_.resize(names_.size());
 }
@@ -109,10 +110,11 @@ void SweepReduction::add(std::size_t first, const std::vector<SweptMotion>& moti
         if (motion.failed && totals_.failed == 0) first_failed_ = first + k;
         totals_.add(motion, varied_);
         if (motion.failed) continue;
-        const std::vector<double> ends = end_values(motion);
-        for (std::size_t i = 0; i < ends.size(); ++i) add(columns_[i], ends[i]);
-        add(columns_[ends.size()], static_cast<double>(motion.steps));
-        add(columns_[ends.size() + 1], static_cast<double>(motion.evaluations));
+        auto column = columns_.begin();
+        for (const std::vector<double>& part : {end_values(motion), motion.along})
+            for (const double value : part) add(*column++, value);
+        add(*column++, static_cast<double>(motion.steps));
+        add(*column, static_cast<double>(motion.evaluations));
         if (motion.status == "stopped") add(columns_.back(), motion.time);
     }
 }

@@ -49,8 +49,8 @@ public:
     void add(std::size_t first, const std::vector<SweptMotion>& motions);
     void add(const SweepReduction& other);
 
-    /// What `end_columns` has at the ends, steps and evaluations, and event_t, the times of motions that an event
-    /// ended.
+    /// What `end_columns` and `along_columns` have, steps and evaluations, and event_t, the times of motions that
+    /// an event ended.
     std::vector<ReducedQuantity> rows() const;
     const std::vector<Statistic>& statistics() const { return statistics_; }
     const SweepTotals& totals() const { return totals_; }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
@@ -56,9 +57,10 @@ std::vector<double> rates_at(const Program& program, const Module& module, const
 
 }  // namespace
 
-Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes)
+Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<std::string> along)
     : s_{derived(std::move(scene), {.by = wishes.by, .use = Use::run})}, wishes_(wishes) {
     s_.grid = std::move(grid);
+    s_.along = std::move(along);
     const Mechanism& m = s_.mechanism;
     need_smooth_motion(m);
     if (!m.impulses.empty())
@@ -105,6 +107,7 @@ void Sweeper::make_key() {
         print.add(text);
     print.add(fmt::format("{} {} {} {} {} {} {}", wishes_.duration, wishes_.tolerance, wishes_.step,
                           wishes_.max_step, wishes_.budget, wishes_.fast_math, s_.grid.size()));
+    for (const std::string& statistic : s_.along) print.add(statistic);
     for (const Axis& axis : s_.grid.axes)
         print.add(fmt::format("{} {} {} {}", axis.name, axis.from, axis.to, axis.count));
     for (const double value : s_.grid.listed) print.add(fmt::format("{}", value));
@@ -143,6 +146,7 @@ void Sweeper::compile() {
     s_.timings.compile = compiled.from_cache ? 0.0 : compiled.seconds;
     const double begin = process_seconds();
     ensemble_.emplace(Ensemble{.module = load(compiled.object)});
+    ensemble_->along = !s_.along.empty();
     ensemble_->work = s_.conserved ? Work::left_out : Work::integrated;
     for (const Mechanism::EventAction& event : s_.mechanism.event_actions) {
         ensemble_->stops.push_back(event.stop);
@@ -210,6 +214,9 @@ std::optional<Member> Sweeper::member(std::size_t k, const SweepDesk& desk) {
                       .parameters = start.parameters,
                       .start = start.t,
                       .duration = wishes_.duration >= 0 ? wishes_.duration : start.duration};
+        if (!std::isfinite(member.duration) || member.duration < 0)
+            throw ModelError(
+                say("the motion would take {} s; expected a finite number, zero or more", member.duration));
         member.state.insert(member.state.end(), first.qdot.begin(), first.qdot.end());
         if (variants_) member.quick_times = variants_->quick_times(start);
         return member;
@@ -235,6 +242,7 @@ SweptMotion Sweeper::refused(const std::string& why) const {
             .final_coordinates = none,
             .final_rates = none,
             .final_speeds = std::vector<double>(s_.speeds.size(), nothing),
+            .along = std::vector<double>(along_columns(s_).size(), nothing),
             .time = nothing,
             .drift = nothing,
             .status = why,
@@ -248,6 +256,11 @@ SweptMotion Sweeper::motion_of(const Member& member, const Outcome& outcome, std
                   .final_rates = rates_at(program_, ensemble_->module, member, outcome.time, state),
                   .final_speeds = {}};
     if (!s_.speeds.empty()) m.final_speeds.assign(state.begin() + n, state.end());
+    for (const std::string& statistic : s_.along) {
+        const std::size_t block = statistic == "min" ? 0 : statistic == "max" ? 1 : 2;
+        const auto first = outcome.along.begin() + static_cast<std::ptrdiff_t>(block * state.size());
+        m.along.insert(m.along.end(), first, first + static_cast<std::ptrdiff_t>(state.size()));
+    }
     m.time = outcome.time;
     m.drift = s_.conserved ? outcome.energy_drift : outcome.work_balance;
     m.steps = outcome.steps;

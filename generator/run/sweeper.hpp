@@ -37,8 +37,8 @@ struct SweepDesk {
 class Sweeper {
 public:
     /// Derives and emits. Throws what `derived` throws; ModelError for scenes with contacts or impulses at events,
-    /// and for methods that need more than the right-hand side.
-    Sweeper(Scene scene, Grid grid, const RunOptions& wishes);
+    /// and for methods that need more than the right-hand side. `along` is a list of min, max, mean.
+    Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<std::string> along = {});
     Sweeper(const Sweeper&) = delete;
     Sweeper& operator=(const Sweeper&) = delete;
 

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "alembert/along.hpp"
 #include "alembert/dop853.hpp"
 #include "alembert/pack_run.hpp"
 #include "alembert/project.hpp"
@@ -175,8 +176,10 @@ private:
         options.duration = member.duration;
         if (member.quick_times != nullptr) options.quick_times = *member.quick_times;
         options.sample = member.duration;  // no rows but the end
+        Along along(table.coordinates, table.coordinates + table.speeds);
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             drift(table, par, t, y, rate);
+            if (e_.along) along(t, y.data(), rate.data());
         };
         std::optional<Projection> projection;
         if (table.constraints > 0)
@@ -193,7 +196,8 @@ private:
                     .energy_drift = drift.energy(),
                     .work_balance = drift.balance(),
                     .stopped = motion.ending == Ending::stopped_by_event,
-                    .failure = motion.failure ? motion.failure->message : std::string()},
+                    .failure = motion.failure ? motion.failure->message : std::string(),
+                    .along = e_.along ? along.values() : std::vector<double>()},
                    end.first(member.state.size()));
     }
 

@@ -51,7 +51,8 @@ struct Ensemble {
     std::vector<std::vector<QuickTime>> quick_times = {};
     /// The directions in which zeros of the events count (Event); if empty, both.
     std::vector<int> directions = {};
-    int threads = 0;  ///< 0 means as many as there are cores
+    bool along = false;  ///< whether outcomes have extremes and means along the motion
+    int threads = 0;     ///< 0 means as many as there are cores
     std::function<void(double fraction)> progress =
         {};  ///< called now and then on the calling thread with the share that is done
 
@@ -64,6 +65,7 @@ struct Outcome {
     double energy_drift = 0, work_balance = 0;  ///< see drift.hpp; the balance is given only with Work::integrated
     bool stopped = false;                       ///< whether an event stopped the motion
     std::string failure = {};                   ///< empty: none
+    std::vector<double> along = {};             ///< Along::values, with Ensemble::along
 };
 
 struct Outcomes {

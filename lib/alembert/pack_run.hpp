@@ -17,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "alembert/along.hpp"
 #include "alembert/drift.hpp"
 #include "alembert/ensemble.hpp"
 #include "alembert/pack_step.hpp"
@@ -43,6 +44,7 @@ class PackRun {
         long count = 0;  ///< the number of fixed steps
         StepSize control{1};
         Drift drift{0, 0, false};
+        Along along;
         Outcome outcome;
     };
 
@@ -55,7 +57,8 @@ public:
           dimension_(ensemble.module.table().coordinates + ensemble.module.table().speeds + extra_),
           step_(ensemble.module, dimension_, extra_),
           lane_(lanes),
-          rate_(static_cast<std::size_t>(dimension_)) {}
+          rate_(static_cast<std::size_t>(dimension_)),
+          state_(static_cast<std::size_t>(dimension_)) {}
 
     /// `width` lanes are used, at most eight.
     void go(int width) && {
@@ -152,6 +155,7 @@ private:
             ++(is_good ? lane.outcome.steps : lane.outcome.rejected);
             if (!is_good) continue;
             note_energy(i);
+            if (ensemble_.along) note_state(i);
             if (step_.time[i] == lane.end) complete(i);
         }
     }
@@ -167,6 +171,14 @@ private:
                            extra_ == 1 ? step_.state(dimension_ - 1, i) : 0);
     }
 
+    void note_state(int i) {
+        for (int k = 0; k < dimension_; ++k) {
+            state_[static_cast<std::size_t>(k)] = step_.state(k, i);
+            rate_[static_cast<std::size_t>(k)] = step_.rate(k, i);
+        }
+        lane_[i].along(step_.time[i], state_.data(), rate_.data());
+    }
+
     void complete(int i) {
         Lane& lane = lane_[i];
         std::vector<double> state;
@@ -174,6 +186,7 @@ private:
         lane.outcome.time = step_.time[i];
         lane.outcome.energy_drift = lane.drift.energy();
         lane.outcome.work_balance = lane.drift.balance();
+        if (ensemble_.along) lane.outcome.along = lane.along.values();
         source_.done(lane.member, lane.outcome, state);
         refill(i);
     }
@@ -192,6 +205,7 @@ private:
             lane = {.member = *std::move(member),
                     .control = StepSize(std::max(1, Step::estimate_order)),
                     .drift = Drift(0, 0, false),
+                    .along = {},
                     .outcome = {}};
             if (!begin(i, lane)) {
                 source_.again(lane.member);
@@ -224,6 +238,10 @@ private:
                 ++lane.outcome.evaluations;
             }
         }
+        if (ensemble_.along) {
+            lane.along = Along(table.coordinates, dimension_ - extra_);
+            lane.along(member.start, state.data(), rate_.data());
+        }
         const std::vector<double> par = prepared(ensemble_.module, member.parameters);
         step_.put(i, member.start, state.data(), rate_.data(), par);
         double energy[4], jacobi = 0;
@@ -238,7 +256,7 @@ private:
     int extra_, dimension_;
     Step step_;
     std::vector<Lane> lane_;
-    std::vector<double> rate_;
+    std::vector<double> rate_, state_;
     Lanes energy_[5];
     unsigned busy_ = 0;  ///< bit i: lane i has a member
 };

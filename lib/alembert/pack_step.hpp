@@ -76,6 +76,11 @@ public:
         return array(y_)[component][lane];
     }
 
+    /// At the start of the lane's next step.
+    double rate(int component, int lane) const {
+        return stage(0)[component][lane];
+    }
+
     /// T, V, E and power, then Jacobi's integral, at the start of every lane.
     void energies(Lanes (&energy)[5]) const {
         pack_.energy(reals(&time), reals(array(y_)), reals(stage(0)), reals(par_.data()), reals(energy),
