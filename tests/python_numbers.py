@@ -162,7 +162,7 @@ class Robots(unittest.TestCase):
             robot.masss
 
     def test_an_arm_from_urdf_over_arrays_of_any_shape(self):
-        arm = alembert.Scene.from_urdf(os.path.join(TESTS, "robots/arm6.urdf"), drives=True)
+        arm = alembert.Scene.from_robot(os.path.join(TESTS, "robots/arm6.urdf"), drives=True)
         self.assertEqual(arm.imported.bodies, 6)
         robot = arm.robot(("inverse", "mass", "bias"), frames=["tip"])
         q, v, a = np.random.default_rng(3).normal(size=(3, 5, 7, 6))

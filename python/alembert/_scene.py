@@ -41,11 +41,13 @@ class Scene:
         self.name = name or "scene.toml"
 
     @classmethod
-    def from_urdf(cls, path, *, floating=False, quaternion=False, drives=False, friction=False, stops=False,
-                  right_angles=False):
-        """The scene of a robot description, as `import` writes it; `.imported` says what became of its parts."""
+    def from_robot(cls, path, *, loops=None, floating=False, quaternion=False, drives=False, friction=False, stops=False,
+                   right_angles=False):
+        """The scene of a robot description in URDF (or another form that `import` reads); `loops` is a file of joints
+        that close loops. `.imported` says what became of its parts."""
         options = {"floating": floating, "quaternion": quaternion, "drives": drives, "friction": friction,
-                   "stops": stops, "right_angles": right_angles}  # yapf: disable
+                   "stops": stops, "right_angles": right_angles,
+                   "loops": None if loops is None else _os.fspath(loops)}  # yapf: disable
         found = ask("import", "", _os.fspath(path), options)
         stem = _os.path.splitext(_os.path.basename(_os.fspath(path)))[0]
         scene = cls(text=found._files["scene"].decode(), name=f"{stem}.toml")
