@@ -15,6 +15,7 @@
 
 namespace commands_gimbal {
 
+using alembert::test::contents;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -64,6 +65,44 @@ struct Swing {
                         {"initial = 0, rate = 4",
                          fmt::format("initial = 0, rate = {:.17g}", 3 - precession() * std::cos(2.0))}});
     }
+    /// The fixed point is held by three constraints.
+    std::string held() const {
+        std::string scene = contents(by_angles());
+        scene.erase(scene.find("[[claim]]"));
+        const auto replace = [&](const std::string& from, const std::string& to) {
+            scene.replace(scene.find(from), from.size(), to);
+        };
+        replace("psi   =",
+                "x = { guess = 0.01, rate_guess = 0 }\ny = { guess = 0.1, rate_guess = 0 }\nz = { guess = -0.3, "
+                "rate_guess = 0 }\npsi   =");
+        replace("position = [0, 0, \"l\"]\naxes = \"F\"", "position = [\"x\", \"y\", \"z\"]");
+        for (const char c : {'x', 'y', 'z'})
+            scene += fmt::format(
+                "\n[[constraint]]\nname = \"at_{0}\"\nholonomic = \"{0} - l*dot(ez(F), e{0}(N))\"\n", c);
+        return temporary("held_top.toml", scene);
+    }
+    /// The fixed point is a joint.
+    std::string by_joint() const {
+        return temporary("top_by_joint.toml", fmt::format(R"toml(
+gravity = [0, 0, "-1"]
+[[body]]
+name = "top"
+mass = 2
+inertia = [0.5, 0.5, 0.5]
+[[joint]]
+name = "socket"
+type = "spherical"
+parent = "N"
+child = "top"
+child_point = [0, 0, -0.5]
+angles = "zxz"
+[joint.coordinates]
+phi = {{ initial = 0, rate = {:.17g} }}
+theta = {{ initial = 2 }}
+psi = {{ initial = 0, rate = {:.17g} }}
+)toml",
+                                                          precession(), 3 - precession() * std::cos(2.0)));
+    }
     std::string by_quaternion() const {
         return changed(
             "heavy_top_quaternion",
@@ -89,10 +128,24 @@ TEST_CASE("gimbal lock: a gyroscope that passes through it ten times ends where 
     }
 }
 
+TEST_CASE("gimbal lock: a gyroscope that constraints or a joint hold passes through it too") {
+    const Swing swing{1e-3};
+    const Json quaternion = simulated(swing.by_quaternion());
+    for (const std::string& scene : {swing.held(), swing.by_joint()}) {
+        CAPTURE(scene);
+        const Json angles = simulated(scene);
+        REQUIRE(angles.contains("charts"));
+        CHECK(angles["charts"].size() >= 10);
+        CHECK((turned(angles) - turned(quaternion)).norm() < 1e-10);
+        CHECK(angles["energy_drift"].get<double>() < 1e-12);
+    }
+}
+
 TEST_CASE("gimbal lock: where another part of the scene names the angles, the run stays in them and says so") {
     for (const char* more :
          {"[forces]\ntheta = \"-theta'\"\n[[frame]]", "[energy]\npotential = \"cos(2*theta)\"\n[[frame]]",
-          "[definitions]\nlean = \"theta\"\n[[frame]]"}) {
+          "[definitions]\nlean = \"theta\"\n[[frame]]",
+          "[[constraint]]\nname = \"c\"\nholonomic = \"phi\"\n[[frame]]"}) {
         CAPTURE(more);
         const auto result = run(
             {"simulate",

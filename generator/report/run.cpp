@@ -210,7 +210,7 @@ void add_motion(std::string& page, const Run& run) {
     page += text_of(run.motion.contacts, run.contacts);
     page += text_of(run.friction_changes, run.mechanism);
     for (std::size_t k = 0; k < std::min(run.chart_passes.size(), most_lines); ++k)
-        say_on(page, "frame {}: by a quaternion from t = {:.15g} to {:.15g}, near gimbal lock\n", run.chart_frame,
+        say_on(page, "{}: by a quaternion from t = {:.15g} to {:.15g}, near gimbal lock\n", run.chart_frame,
                run.chart_passes[k].begin, run.chart_passes[k].end);
     if (run.chart_passes.size() > most_lines)
         say_on(page, "… and {} more\n", run.chart_passes.size() - most_lines);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/joint_moves.hpp"
+
 namespace alembert {
 
 namespace {
@@ -15,12 +17,17 @@ using Quaternion = Eigen::Quaterniond;
 
 const char* const names_of_quaternion[] = {"chart_e0", "chart_e1", "chart_e2", "chart_e3"};
 
+/// The position of a coordinate; −1 if it has a prescribed motion, or is none.
+int position_of(const Scene& scene, const std::string& name) {
+    for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
+        if (scene.coordinates[i].name.text == name) return static_cast<int>(i);
+    return -1;
+}
+
 /// The coordinate that an expression is; −1 if it is anything else.
 int coordinate_of(const Scene& scene, const Expression& e) {
-    if (!e.tree || e.tree->kind != Tree::Kind::name || e.tree->primes != 0) return -1;
-    for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
-        if (scene.coordinates[i].name.text == e.tree->text) return static_cast<int>(i);
-    return -1;
+    return e.tree && e.tree->kind == Tree::Kind::name && e.tree->primes == 0 ? position_of(scene, e.tree->text)
+                                                                             : -1;
 }
 
 bool names_any(const TreePtr& tree, const std::vector<std::string>& names) {
@@ -44,18 +51,35 @@ double AnglesOfFrame::evenness(const double* q) const {
     return std::abs(is_proper() ? std::sin(b) : std::cos(b));
 }
 
-std::optional<AnglesOfFrame> angles_of(const Scene& scene, std::size_t frame) {
-    const std::vector<Rotation>& rotations = scene.frames[frame].rotations;
-    if (rotations.size() != 3) return std::nullopt;
-    AnglesOfFrame found{.frame = frame, .axes = {}, .angles = {}};
-    for (std::size_t k = 0; k < 3; ++k) {
-        found.axes[k] = rotations[k].letter - 'x';
-        found.angles[k] = coordinate_of(scene, rotations[k].angle);
-        if (rotations[k].letter == 0 || found.angles[k] < 0) return std::nullopt;
+std::vector<AnglesOfFrame> angles_in(const Scene& scene) {
+    std::vector<AnglesOfFrame> found;
+    const auto add = [&](const AnglesOfFrame& one) {
+        const auto& [a, b, c] = one.axes;
+        const auto& [p, q, r] = one.angles;
+        if (a != b && b != c && p != q && q != r && p != r && p >= 0 && q >= 0 && r >= 0) found.push_back(one);
+    };
+    for (std::size_t k = 0; k < scene.frames.size(); ++k) {
+        const std::vector<Rotation>& rotations = scene.frames[k].rotations;
+        const auto has_letter = [](const Rotation& r) { return r.letter != 0; };
+        if (rotations.size() != 3 || !std::all_of(rotations.begin(), rotations.end(), has_letter)) continue;
+        AnglesOfFrame one{.place = k, .is_joint = false, .axes = {}, .angles = {}};
+        for (std::size_t i = 0; i < 3; ++i) {
+            one.axes[i] = rotations[i].letter - 'x';
+            one.angles[i] = coordinate_of(scene, rotations[i].angle);
+        }
+        add(one);
     }
-    const auto& [a, b, c] = found.axes;
-    const auto& [p, q, r] = found.angles;
-    if (a == b || b == c || p == q || q == r || p == r) return std::nullopt;
+    for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+        const Joint& joint = scene.joints[k];
+        if (joint.angles.empty() || joint.closes_loop) continue;
+        AnglesOfFrame one{.place = k, .is_joint = true, .axes = {}, .angles = {}};
+        for (std::size_t i = 0; i < 3; ++i) {
+            one.axes[i] = joint.angles[i] - 'x';
+            one.angles[i] =
+                position_of(scene, joint.coordinates[moves_of(joint.type).before_turn_in_space() + i].text);
+        }
+        add(one);
+    }
     return found;
 }
 
@@ -68,7 +92,7 @@ bool named_elsewhere(const Scene& scene, const AnglesOfFrame& angles) {
     for (const Definition& d : scene.definitions) look(d.value);
     for (std::size_t k = 0; k < scene.frames.size(); ++k)
         for (const Rotation& r : scene.frames[k].rotations)
-            if (k != angles.frame) look(r.angle);
+            if (angles.is_joint || k != angles.place) look(r.angle);
     for (const Point& p : scene.points) look_at(p.position.offset);
     for (const Particle& p : scene.particles) look_at(p.position.offset);
     for (const Body& b : scene.bodies) look_at(b.position.offset);
@@ -82,7 +106,11 @@ bool named_elsewhere(const Scene& scene, const AnglesOfFrame& angles) {
         look(f.value);
         found = found || std::find(names.begin(), names.end(), f.coordinate.text) != names.end();
     }
-    return found || !scene.joints.empty();
+    for (const ConstraintRule& c : scene.constraints)
+        for (const Expression* e : {&c.equation.lhs, &c.equation.rhs}) look(*e);
+    for (const Armature& a : scene.armatures)
+        found = found || std::find(names.begin(), names.end(), a.coordinate.text) != names.end();
+    return found;
 }
 
 Scene with_quaternion(const Scene& given, const AnglesOfFrame& angles) {
@@ -96,16 +124,26 @@ Scene with_quaternion(const Scene& given, const AnglesOfFrame& angles) {
     for (std::size_t i = 0; i < given.coordinates.size(); ++i)
         if (std::find(angles.angles.begin(), angles.angles.end(), static_cast<int>(i)) == angles.angles.end())
             scene.coordinates.push_back(given.coordinates[i]);
-    Frame& frame = scene.frames[angles.frame];
-    frame.rotations.clear();
+    const Name name = angles.name(given);
+    std::vector<Name> quaternion;
     std::vector<Diagnostic> none;
     for (int k = 0; k < 4; ++k) {
         Coordinate e;
-        e.name = {names_of_quaternion[k], frame.name.place};
+        e.name = {names_of_quaternion[k], name.place};
         e.initial = parse_expression(k == 0 ? "1" : "0", {}, none);
         e.rate = parse_expression("0", {}, none);
-        frame.quaternion.push_back(e.name);
+        quaternion.push_back(e.name);
         scene.coordinates.push_back(std::move(e));
+    }
+    if (angles.is_joint) {
+        Joint& joint = scene.joints[angles.place];
+        const auto first =
+            joint.coordinates.begin() + static_cast<std::ptrdiff_t>(moves_of(joint.type).before_turn_in_space());
+        joint.coordinates.insert(joint.coordinates.erase(first, first + 3), quaternion.begin(), quaternion.end());
+        joint.angles.clear();
+    } else {
+        scene.frames[angles.place].rotations.clear();
+        scene.frames[angles.place].quaternion = quaternion;
     }
     return scene;
 }

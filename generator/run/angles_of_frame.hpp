@@ -1,32 +1,36 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Three angles that turn a frame, and the same rotation by a quaternion (charts.hpp).
+/// Three angles that turn a frame, or a joint, and the same rotation by a quaternion (charts.hpp).
 
 #include <Eigen/Geometry>
 #include <array>
-#include <optional>
+#include <vector>
 
 #include "scene/scene.hpp"
 
 namespace alembert {
 
 struct AnglesOfFrame {
-    std::size_t frame;          ///< position in Scene::frames
+    std::size_t place;  ///< position in Scene::frames, or in Scene::joints
+    bool is_joint;
     std::array<int, 3> axes;    ///< 0, 1, 2 for x, y, z
     std::array<int, 3> angles;  ///< positions of the coordinates
 
     bool is_proper() const { return axes[0] == axes[2]; }
+    const Name& name(const Scene& scene) const {
+        return is_joint ? scene.joints[place].name : scene.frames[place].name;
+    }
     /// |sin b| or |cos b|.
     double evenness(const double* q) const;
 };
 
-/// The angles of this frame, if it is turned by three coordinates about axes x, y or z of which no two neighbours
-/// are the same.
-std::optional<AnglesOfFrame> angles_of(const Scene& scene, std::size_t frame);
+/// The angles of each frame that three coordinates turn about axes x, y or z of which no two neighbours are the
+/// same, and of each spherical or free joint that has angles.
+std::vector<AnglesOfFrame> angles_in(const Scene& scene);
 
-/// Whether anything but the frame names the angles. Constraints, contacts, frictions, events and speeds are not
-/// looked at; outputs and claims do not change a motion. With joints the answer is yes.
+/// Whether anything but the frame or joint names the angles. Contacts, frictions, events and speeds are not looked
+/// at; outputs and claims do not change a motion.
 bool named_elsewhere(const Scene& scene, const AnglesOfFrame& angles);
 
 /// The scene with a quaternion in place of the angles; its coordinates come last. It has no outputs, claims and

@@ -20,19 +20,14 @@ using Quaternion = Eigen::Quaterniond;
 
 std::optional<AnglesOfFrame> angles_of_frame(const Derived& d, const MethodChoice& method) {
     const Mechanism& m = d.mechanism;
-    if (!m.constraints.empty() || !m.redundant.empty() || !m.unilateral.empty() || !m.frictions.empty() ||
-        !m.events.empty() || !m.speeds.empty() || !d.equations.speeds_are_rates())
+    if (!m.redundant.empty() || !m.unilateral.empty() || !m.frictions.empty() || !m.events.empty() ||
+        !m.speeds.empty() || !d.equations.speeds_are_rates())
         return std::nullopt;
     if (!method.sundials.empty() || has_fixed_step(method.method) || uses_jacobian(method.method) ||
         needs_canonical(method.method))
         return std::nullopt;
-    std::optional<AnglesOfFrame> found;
-    for (std::size_t k = 0; k < d.scene.frames.size(); ++k)
-        if (const auto angles = angles_of(d.scene, k)) {
-            if (found) return std::nullopt;
-            found = angles;
-        }
-    return found;
+    const std::vector<AnglesOfFrame> found = angles_in(d.scene);
+    return found.size() == 1 ? std::optional(found[0]) : std::nullopt;
 }
 
 class ChartRun::Parts {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A run through gimbal lock: where three angles of a frame fail to describe its turning, the run goes on with a
-/// quaternion in their place, and comes back.
+/// A run through gimbal lock: where three angles of a frame or joint fail to describe its turning, the run goes on
+/// with a quaternion in their place, and comes back.
 ///
 ///     if (const auto angles = angles_of_frame(derived)) …       // nothing where no chart can replace them
 ///     ChartRun charts(derived, *angles, start, work, options);  // derives, emits, compiles the other description
@@ -16,7 +16,7 @@
 /// exactly through the lock, b passes through it smoothly; beside it a and c turn by about π in a short time.
 ///
 /// Not for scenes whose other parts name the angles (they are the only place where the frame's turning is said),
-/// with constraints, contacts, dry friction, events or generalized speeds, nor for methods with a fixed step.
+/// with contacts, dry friction, events or generalized speeds, nor for methods with a fixed step.
 
 #include <memory>
 #include <optional>
@@ -31,7 +31,7 @@ namespace alembert {
 
 inline constexpr double to_quaternion = 0.03, to_angles = 0.1;
 
-/// The frame whose angles may be replaced; nothing if there is none, or more than one.
+/// The frame or joint whose angles may be replaced; nothing if there is none, or more than one.
 std::optional<AnglesOfFrame> angles_of_frame(const Derived& derived, const MethodChoice& method);
 
 /// From a time to another the run was described by a quaternion.

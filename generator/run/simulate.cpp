@@ -102,7 +102,7 @@ public:
         if (watch.near_lock && take_quaternion(modes)) {
             watch = fresh_watch();
             integrate(modes);
-            run_.chart_frame = run_.scene.frames[angles_->frame].name.text;
+            run_.chart_frame = angles_->name(run_.scene).text;
             run_.chart_passes = charts_->passes();
         }
         add_seconds(modes);
@@ -190,9 +190,10 @@ private:
         } catch (const CompileError&) {
             throw;
         } catch (const std::runtime_error& reason) {
-            run_.warn(
-                say("warning: the angles of frame '{}' come near gimbal lock, and the run stays in them: {}\n",
-                    run_.scene.frames[angles_->frame].name.text, reason.what()));
+            run_.warn(say("warning: the angles of {} come near gimbal lock, and the run stays in them: {}\n",
+                          angles_->is_joint ? say("joint '{}'", angles_->name(run_.scene).text)
+                                            : say("frame '{}'", angles_->name(run_.scene).text),
+                          reason.what()));
             return false;
         }
         mode.by = charts_->integrator();
