@@ -25,13 +25,43 @@ def _metadata():
             "License: GPL-2.0-or-later\nRequires-Python: >=3.9\nRequires-Dist: numpy\n")
 
 
+def _python():
+    """The interpreter that the module is for; not the one of a virtual environment, which may be removed."""
+    return os.path.realpath(getattr(sys, "_base_executable", sys.executable))
+
+
+def _is_for_this_python(build):
+    try:
+        with open(os.path.join(build, "CMakeCache.txt"), encoding="utf-8") as cache:
+            found = re.search(r"^PYTHON_EXECUTABLE:\w+=(.+)$", cache.read(), re.M)
+    except OSError:
+        return False
+    return bool(found) and os.path.realpath(found.group(1)) == _python()
+
+
 def _build():
-    """The folder of the built package."""
-    build = os.path.join(ROOT, "build", "python-wheel")
-    subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                    "-DALEMBERT_TESTS=OFF", f"-DPYTHON_EXECUTABLE={sys.executable}"], check=True)
+    """The folder of the built package: that of the program, where it was built for this interpreter, or one of its own."""
+    build = os.path.join(ROOT, "build", "release")
+    if not _is_for_this_python(build):
+        build = os.path.join(ROOT, "build", "python-wheel")
+        subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                        "-DCMAKE_UNITY_BUILD=ON", "-DALEMBERT_TESTS=OFF", f"-DPYTHON_EXECUTABLE={_python()}"],
+                       check=True)
     subprocess.run(["cmake", "--build", build, "--target", "alembert_python"], check=True)
     return os.path.join(build, "python", "alembert")
+
+
+def get_requires_for_build_wheel(config_settings=None):
+    return []
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Without this, pip would build the whole wheel to learn its name."""
+    info = f"alembert-{_version()}.dist-info"
+    os.makedirs(os.path.join(metadata_directory, info))
+    with open(os.path.join(metadata_directory, info, "METADATA"), "w", encoding="utf-8") as file:
+        file.write(_metadata())
+    return info
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):

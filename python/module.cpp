@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The Python module `alembert._alembert`: a function for each verb, from the text of a scene to the same JSON
-/// that the program prints, and two classes whose numbers Python reads without a copy. The package's Python part
-/// gives them names, units and documentation (alembert/__init__.py).
+/// The Python module `alembert._alembert`: one function for all verbs (verbs.hpp), and classes whose numbers
+/// Python reads without a copy. The package's Python part gives them names, units and documentation (alembert/).
 ///
 /// GiNaC is for one thread alone: everything symbolic keeps the interpreter's lock. The functions of many
 /// states release it and use all cores.
@@ -13,86 +12,23 @@
 
 #include "alembert/compile.hpp"
 #include "alembert/error.hpp"
-#include "linear/about.hpp"
-#include "report/agree.hpp"
-#include "report/audit.hpp"
-#include "report/check.hpp"
+#include "language/libraries.hpp"
 #include "report/derivation.hpp"
-#include "report/emission.hpp"
-#include "report/equilibria.hpp"
-#include "report/evaluation.hpp"
-#include "report/fmu.hpp"
-#include "report/impact.hpp"
-#include "report/inertia.hpp"
-#include "report/inverse.hpp"
-#include "report/kinematics.hpp"
-#include "report/linearization.hpp"
+#include "report/motion_plot.hpp"
 #include "report/run.hpp"
-#include "report/stability.hpp"
+#include "report/table_file.hpp"
+#include "run/between_rows.hpp"
 #include "run/emission.hpp"
-#include "scene/claims_file.hpp"
+#include "run/section.hpp"
+#include "state/prepared.hpp"
 #include "system.hpp"
+#include "verbs.hpp"
 
 namespace py = pybind11;
 
 namespace alembert {
 
 namespace {
-
-/// JSON as text, and the warnings that go with it.
-using Answer = std::pair<std::string, std::vector<std::string>>;
-using Values = std::map<std::string, double>;
-
-Overrides overrides_of(const Values& at) {
-    return Overrides(at.begin(), at.end());
-}
-
-template <typename Value>
-Answer answer(const Value& value) {
-    return {as_json(value).dump(), value.warnings};
-}
-
-Answer check_claims(const std::string& text, const std::string& file, const std::optional<std::string>& claims,
-                    const std::string& by) {
-    Scene scene = parse_scene(text, file);
-    if (claims) scene = with_claims(std::move(scene), *claims, "claims");
-    return answer(check(std::move(scene), by));
-}
-
-/// The values as typed: the shortest decimals that give them, which are then exact.
-ExactOverrides exact_overrides_of(const Values& at) {
-    ExactOverrides result;
-    for (const auto& [name, value] : at) result.emplace_back(name, fmt::format("{}", value));
-    return result;
-}
-
-Answer linearized(const std::string& text, const std::string& file, const Values& at, const std::string& by) {
-    return answer(linearize(parse_scene(text, file),
-                            {.by = by, .at = overrides_of(at), .exact_at = exact_overrides_of(at)}));
-}
-
-Answer judged_stability(const std::string& text, const std::string& file, const Values& at, const std::string& by,
-                        double period, const std::string& lyapunov) {
-    return answer(stability(parse_scene(text, file), {.by = by,
-                                                      .at = overrides_of(at),
-                                                      .exact_at = exact_overrides_of(at),
-                                                      .period = period,
-                                                      .lyapunov = lyapunov}));
-}
-
-Answer kinematics_of(const std::string& text, const std::string& file, const std::vector<std::string>& of,
-                     const Values& at, bool steps) {
-    const SceneKinematics found =
-        kinematics(parse_scene(text, file), {.of = of, .at = overrides_of(at), .steps = steps});
-    return {as_json(found, steps).dump(), found.warnings};
-}
-
-Answer evaluated(const std::string& text, const std::string& file, const Values& at, const std::string& by,
-                 bool reactions) {
-    const Evaluation value =
-        evaluate(parse_scene(text, file), {.by = by, .at = overrides_of(at), .reactions = reactions});
-    return {as_json(value, reactions).dump(), value.warnings};
-}
 
 /// A view of `values` that keeps `owner` alive.
 py::array_t<double> view(const std::vector<double>& values, std::vector<py::ssize_t> shape,
@@ -102,9 +38,70 @@ py::array_t<double> view(const std::vector<double>& values, std::vector<py::ssiz
     return array;
 }
 
-CompiledSystem system_of(const std::string& text, const std::string& file, const std::string& by, bool jacobian) {
-    const Emission emitted = emission(parse_scene(text, file), {.by = by, .jacobian = jacobian, .batch = true});
-    return CompiledSystem(load(compile(emitted.source.text, "python", {}).object), emitted.source.text);
+/// Lets the user interrupt the work (Ctrl-C, or the stop button of a notebook).
+void look_for_interrupt(std::string_view, double) {
+    if (PyGILState_Check() != 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+using Warnings = std::vector<std::string>;
+
+/// JSON and the program's page as texts, warnings, files, and the table with its columns.
+py::tuple asked(const std::string& verb, const std::string& text, const std::string& file,
+                const std::string& options) {
+    Answer answer = answer_of(verb, text, file, options, look_for_interrupt);
+    py::dict files;
+    for (const auto& [name, content] : answer.files) files[py::str(name)] = py::bytes(content);
+    const auto columns = static_cast<py::ssize_t>(answer.table.columns.size());
+    const auto rows = static_cast<py::ssize_t>(answer.table.rows());
+    auto* const values = new std::vector<double>(std::move(answer.table.values));
+    const py::capsule owner(values, [](void* p) { delete static_cast<std::vector<double>*>(p); });
+    return py::make_tuple(answer.json.dump(), answer.text, answer.warnings, files, answer.table.columns,
+                          view(*values, {rows, columns}, owner));
+}
+
+/// A motion, what it was asked for, and what gives its states between the rows, which is made when it is needed.
+struct Motion {
+    RunOptions wishes;
+    Run run;
+    std::string section;
+    SectionOfRun crossings;
+    std::unique_ptr<BetweenRows> between;
+
+    BetweenRows& states() {
+        if (!between) between = std::make_unique<BetweenRows>(run, wishes);
+        return *between;
+    }
+};
+
+std::unique_ptr<Motion> simulated(const std::string& text, const std::string& file, RunOptions wishes,
+                                  const std::string& section) {
+    wishes.progress = look_for_interrupt;
+    Scene scene = parse_scene(text, file);
+    if (!section.empty()) {
+        Prepared begun = prepared(std::move(scene));
+        scene = std::move(begun.scene);
+        add_section(scene, begun.mechanism, section);
+    }
+    auto motion = std::make_unique<Motion>(Motion{wishes, simulate(std::move(scene), wishes), section, {}, {}});
+    motion->crossings = {section, take_crossings(motion->run)};
+    return motion;
+}
+
+std::pair<std::string, Warnings> json_of(const Motion& motion) {
+    Json json = as_json(motion.run);
+    if (!motion.section.empty()) json["poincare"] = as_json(motion.crossings, motion.run);
+    return {json.dump(), motion.run.warnings};
+}
+
+std::pair<CompiledSystem, Warnings> system_of(const std::string& text, const std::string& file,
+                                              const std::string& by, bool jacobian,
+                                              const std::vector<std::string>& functions,
+                                              const std::vector<std::string>& frames) {
+    const Emission emitted =
+        emission(parse_scene(text, file),
+                 {.by = by, .jacobian = jacobian, .batch = true, .functions = functions, .frames = frames});
+    return {CompiledSystem(load(compile(emitted.source.text, "python", {}).object), emitted.source.text),
+            emitted.warnings};
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -128,16 +125,18 @@ Rows rows_of_states(const Numbers& states, int width) {
 }
 
 /// One time for all states, or one for each.
-std::vector<double> times_of(const Numbers& t, std::size_t count) {
-    const auto given = static_cast<std::size_t>(t.size());
+std::vector<double> times_of(const py::object& t, std::size_t count) {
+    if (PyFloat_Check(t.ptr()) || PyLong_Check(t.ptr())) return {PyFloat_AsDouble(t.ptr())};
+    const auto times = t.cast<Numbers>();
+    const auto given = static_cast<std::size_t>(times.size());
     if (given != 1 && given != count)
         throw std::invalid_argument(
             fmt::format("{} times for {} states; one, or one for each, is wanted", given, count));
-    return {t.data(), t.data() + given};
+    return {times.data(), times.data() + given};
 }
 
 template <typename Function>
-py::array_t<double> mapped(const Numbers& t, const Numbers& states, int width, std::vector<py::ssize_t> shape,
+py::array_t<double> mapped(const py::object& t, const Numbers& states, int width, std::vector<py::ssize_t> shape,
                            Function function) {
     const Rows rows = rows_of_states(states, width);
     const std::vector<double> times = times_of(t, rows.count);
@@ -163,7 +162,7 @@ py::array_t<double> right_hand_side(const CompiledSystem& s, const py::object& t
         s.rhs(PyFloat_AS_DOUBLE(t.ptr()), states.data(), result.mutable_data());
         return result;
     }
-    return mapped(t.cast<Numbers>(), states, n, {n},
+    return mapped(t, states, n, {n},
                   [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
                       s.rhs_of_many(times, in, count, out);
                   });
@@ -186,11 +185,11 @@ void add_errors(py::module_& module) {
             raised.attr("diagnostics") = places;
             PyErr_SetObject(scene.ptr(), raised.ptr());
         } catch (const ModelError& e) {
-            PyErr_SetString(model.ptr(), e.what());
+            PyErr_SetString(model.ptr(), translated_from_library(e.what()).c_str());
         } catch (const CompileError& e) {
-            PyErr_SetString(environment.ptr(), e.what());
+            PyErr_SetString(environment.ptr(), translated_from_library(e.what()).c_str());
         } catch (const IntegrationError& e) {
-            const py::object raised = static_cast<const py::object&>(numbers)(e.what());
+            const py::object raised = static_cast<const py::object&>(numbers)(translated_from_library(e.what()));
             raised.attr("time") = e.time;
             raised.attr("state") = e.state;
             PyErr_SetObject(numbers.ptr(), raised.ptr());
@@ -198,81 +197,92 @@ void add_errors(py::module_& module) {
     });
 }
 
+/// A function of many states: coordinates, and where they are given rates and accelerations of the same shape.
+py::array_t<double> robot_function(const CompiledSystem& s, int which, const py::object& t, const Numbers& q,
+                                   const std::optional<Numbers>& v, const std::optional<Numbers>& a) {
+    const alembert_named_function& f = s.function(which);
+    for (const std::optional<Numbers>* other : {&v, &a})
+        if (*other && (**other).size() != q.size())
+            throw std::invalid_argument("coordinates, rates and accelerations must have the same shape");
+    return mapped(t, q, s.coordinate_count(), {f.rows, f.columns},
+                  [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
+                      s.function_of_many(f, times, in, v ? v->data() : nullptr, a ? a->data() : nullptr, count,
+                                         out);
+                  });
+}
+
+py::array_t<double> states_at(Motion& motion, const Numbers& t) {
+    BetweenRows& states = motion.states();
+    const auto width = static_cast<std::size_t>(states.dimension());
+    std::vector<py::ssize_t> shape(t.shape(), t.shape() + t.ndim());
+    shape.push_back(states.dimension());
+    py::array_t<double> result(shape);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(t.size()); ++k) {
+        if (k % 1000 == 999) look_for_interrupt({}, 0);
+        states.state_at(t.data()[k], {result.mutable_data() + k * width, width});
+    }
+    return result;
+}
+
 void add_verbs(py::module_& module) {
+    module.def("ask", asked);
     module.def("derive",
                [](const std::string& text, const std::string& file, const std::string& by, bool reactions) {
                    return derive(parse_scene(text, file), {.by = by, .reactions = reactions});
                });
-    module.def("check", check_claims);
-    module.def("audit", [](const std::string& text, const std::string& file) {
-        return answer(audit(parse_scene(text, file)));
+    module.def("simulate", [](const std::string& text, const std::string& file, const std::string& by,
+                              const std::string& method, const std::array<double, 5>& numbers, long budget,
+                              bool estimate, bool reactions, bool fast_math, const std::string& section) {
+        return simulated(text, file,
+                         {.by = by,
+                          .method = method,
+                          .duration = numbers[0],
+                          .tolerance = numbers[1],
+                          .step = numbers[2],
+                          .sample = numbers[3],
+                          .max_step = numbers[4],
+                          .budget = budget,
+                          .fast_math = fast_math,
+                          .estimate = estimate,
+                          .reactions = reactions},
+                         section);
     });
-    module.def("agree", [](const std::string& text, const std::string& file) {
-        return answer(agree(parse_scene(text, file)));
-    });
-    module.def("impact", [](const std::string& text, const std::string& file) {
-        return answer(impact(parse_scene(text, file)));
-    });
-    module.def("evaluate", evaluated);
-    module.def("linearize", linearized);
-    module.def("stability", judged_stability);
-    module.def("equilibrium", [](const std::string& text, const std::string& file, const Values& at,
-                                 const std::string& by, int starts) {
-        return answer(equilibria(parse_scene(text, file), {.by = by, .at = overrides_of(at), .starts = starts}));
-    });
-    module.def("kinematics", kinematics_of);
-    module.def("fmu", [](const std::string& text, const std::string& file, const std::string& by, int version,
-                         const std::string& path) {
-        const FunctionalUnit unit = functional_unit(parse_scene(text, file), {.by = by, .version = version});
-        return std::tuple(py::bytes(unit.archive), as_json(unit, path).dump(), unit.warnings);
-    });
-    module.def("inertia", [](const std::string& text, const std::string& file, const std::vector<std::string>& of,
-                             const std::string& about, const Values& at) {
-        return answer(inertia(parse_scene(text, file), {.of = of, .about = about, .at = overrides_of(at)}));
-    });
-    module.def("inverse",
-               [](const std::string& text, const std::string& file, const Values& at, const std::string& by) {
-                   return answer(inverse(parse_scene(text, file), {.by = by, .at = overrides_of(at)}));
-               });
-    module.def(
-        "simulate",
-        [](const std::string& text, const std::string& file, const std::string& by, const std::string& method,
-           double duration, double tolerance, double step, double sample, double max_step, long budget,
-           bool estimate, bool reactions) {
-            return std::make_unique<Run>(simulate(parse_scene(text, file), {.by = by,
-                                                                            .method = method,
-                                                                            .duration = duration,
-                                                                            .tolerance = tolerance,
-                                                                            .step = step,
-                                                                            .sample = sample,
-                                                                            .max_step = max_step,
-                                                                            .budget = budget,
-                                                                            .estimate = estimate,
-                                                                            .reactions = reactions}));
-        },
-        py::arg("text"), py::arg("file"), py::arg("by"), py::arg("method"), py::arg("duration"),
-        py::arg("tolerance"), py::arg("step"), py::arg("sample"), py::arg("max_step"), py::arg("budget"),
-        py::arg("estimate"), py::arg("reactions"));
     module.def("system", system_of);
+    module.def("functions_of_robots", all_functions);
 }
 
-void add_classes(py::module_& module) {
+void add_motion(py::module_& module) {
     py::class_<DerivedScene>(module, "Derivation")
-        .def("json", [](const DerivedScene& d) { return answer(d); })
+        .def("json",
+             [](const DerivedScene& d) { return std::pair<std::string, Warnings>(as_json(d).dump(), d.warnings); })
         .def("page", [](const DerivedScene& d, const std::string& format, bool steps) {
             return as_page(d, {.format = format, .steps = steps});
         });
-    py::class_<Run>(module, "Run")
-        .def("json", [](const Run& run) { return answer(run); })
-        .def("text", [](const Run& run) { return as_text(run); })
-        .def_property_readonly("failure", [](const Run& run) { return run.failure; })
-        .def_property_readonly("columns", [](const Run& run) { return run.rows.columns; })
+    py::class_<Motion>(module, "Run")
+        .def("json", json_of)
+        .def("text", [](const Motion& motion) { return as_text(motion.run); })
+        .def("plot",
+             [](const Motion& motion, const std::vector<std::string>& columns) {
+                 check_columns(motion.run.rows.columns, columns);
+                 return motion_plot(motion.run, columns);
+             })
+        .def("file",
+             [](const Motion& motion, const std::string& path) {
+                 need_table_form(path);
+                 return py::bytes(table_file(motion.run, path));
+             })
+        .def("states_at", states_at)
+        .def_property_readonly("failure", [](const Motion& motion) { return motion.run.failure; })
+        .def_property_readonly("columns", [](const Motion& motion) { return motion.run.rows.columns; })
         .def_property_readonly("table", [](const py::object& self) {
-            const MotionTable& rows = self.cast<const Run&>().rows;
+            const MotionTable& rows = self.cast<const Motion&>().run.rows;
             return view(rows.values,
                         {static_cast<py::ssize_t>(rows.rows()), static_cast<py::ssize_t>(rows.columns.size())},
                         self);
         });
+}
+
+void add_system(py::module_& module) {
     py::class_<CompiledSystem>(module, "System")
         .def_property_readonly("dimension", &CompiledSystem::dimension)
         .def_property_readonly("coordinates", &CompiledSystem::coordinates)
@@ -283,20 +293,27 @@ void add_classes(py::module_& module) {
         .def("set_parameters", &CompiledSystem::set_parameters)
         .def("rhs", right_hand_side)
         .def("jacobian",
-             [](const CompiledSystem& s, const Numbers& t, const Numbers& states) {
+             [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
                  const int n = s.dimension();
                  return mapped(t, states, n, {n, n},
                                [&](const std::vector<double>& times, const double* in, std::size_t count,
                                    double* out) { s.jacobian_of_many(times, in, count, out); });
              })
         .def("mass_matrix",
-             [](const CompiledSystem& s, const Numbers& t, const Numbers& states) {
+             [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
                  const int k = s.speed_count();
                  return mapped(t, states, s.dimension(), {k, k},
                                [&](const std::vector<double>& times, const double* in, std::size_t count,
                                    double* out) { s.mass_of_many(times, in, count, out, nullptr); });
              })
-        .def("energy", [](const CompiledSystem& s, const Numbers& t, const Numbers& states) {
+        .def_property_readonly("functions", &CompiledSystem::function_names)
+        .def("function_shape",
+             [](const CompiledSystem& s, int which) {
+                 const alembert_named_function& f = s.function(which);
+                 return std::tuple(f.rows, f.columns, f.operations);
+             })
+        .def("call", robot_function)
+        .def("energy", [](const CompiledSystem& s, const py::object& t, const Numbers& states) {
             return mapped(t, states, s.dimension(), {3},
                           [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
                               s.energy_of_many(times, in, count, out);
@@ -312,5 +329,6 @@ PYBIND11_MODULE(_alembert, module) {
     module.attr("version") = ALEMBERT_VERSION;
     alembert::add_errors(module);
     alembert::add_verbs(module);
-    alembert::add_classes(module);
+    alembert::add_motion(module);
+    alembert::add_system(module);
 }

@@ -33,12 +33,45 @@ private:
     double* begin_;
 };
 
+/// The arguments of the functions for packs: every number as often as there are lanes.
+struct Packed {
+    std::size_t lanes;
+    Aligned t, state, rate, par, out;
+
+    Packed(std::size_t lane_count, std::size_t width, std::size_t results, const std::vector<double>& parameters)
+        : lanes(lane_count),
+          t(lanes),
+          state(width * lanes),
+          rate(width * lanes),
+          par(std::max<std::size_t>(1, parameters.size()) * lanes),
+          out(results * lanes) {
+        for (std::size_t i = 0; i < parameters.size(); ++i)
+            std::fill_n(par.data() + i * lanes, lanes, parameters[i]);
+    }
+    void set_times(const std::vector<double>& times, std::size_t row) {
+        for (std::size_t lane = 0; lane < lanes; ++lane) t.data()[lane] = time_of(times, row + lane);
+    }
+    /// From the rows that begin with `row`, each of `width` numbers, to the places from `place`; zeros stay where
+    /// `rows` is null.
+    void gather(Aligned& to, std::size_t place, const double* rows, std::size_t row, std::size_t width) const {
+        if (rows == nullptr) return;
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            for (std::size_t i = 0; i < width; ++i)
+                to.data()[(place + i) * lanes + lane] = rows[(row + lane) * width + i];
+    }
+    void scatter(double* rows, std::size_t row, std::size_t width) {
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+            for (std::size_t i = 0; i < width; ++i) rows[(row + lane) * width + i] = out.data()[i * lanes + lane];
+    }
+};
+
 /// Calls `part(from, to)` for pieces of 0 … count on all cores, each piece a multiple of eight.
 template <typename Part>
 void on_all_cores(std::size_t count, const Part& part) {
     constexpr std::size_t worth_a_thread = 2048;
-    const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
-    const std::size_t threads = std::clamp<std::size_t>(count / worth_a_thread, 1, most);
+    if (count < 2 * worth_a_thread) return part(std::size_t{0}, count);
+    static const std::size_t most = std::max(1U, std::thread::hardware_concurrency());  // asking takes 2 us
+    const std::size_t threads = std::min(count / worth_a_thread, most);
     if (threads == 1) return part(std::size_t{0}, count);
     const std::size_t piece = (count / threads + 7) / 8 * 8;
     std::vector<std::thread> workers;
@@ -81,23 +114,58 @@ void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double
     const alembert_pack_table* const pack = module_.pack();
     std::size_t k = from;
     if (pack != nullptr) {
-        const auto lanes = static_cast<std::size_t>(pack->lanes);
-        Aligned t(lanes), state(width * lanes), rate(width * lanes),
-            par(std::max<std::size_t>(1, par_.size()) * lanes);
-        for (std::size_t i = 0; i < par_.size(); ++i) std::fill_n(par.data() + i * lanes, lanes, par_[i]);
-        for (; k + lanes <= to; k += lanes) {
-            for (std::size_t lane = 0; lane < lanes; ++lane) {
-                t.data()[lane] = time_of(times, k + lane);
-                for (std::size_t i = 0; i < width; ++i)
-                    state.data()[i * lanes + lane] = states[(k + lane) * width + i];
-            }
-            pack->rhs(t.data(), state.data(), par.data(), rate.data());
-            for (std::size_t lane = 0; lane < lanes; ++lane)
-                for (std::size_t i = 0; i < width; ++i)
-                    rates[(k + lane) * width + i] = rate.data()[i * lanes + lane];
+        Packed packed(static_cast<std::size_t>(pack->lanes), width, width, par_);
+        for (; k + packed.lanes <= to; k += packed.lanes) {
+            packed.set_times(times, k);
+            packed.gather(packed.state, 0, states, k, width);
+            pack->rhs(packed.t.data(), packed.state.data(), packed.par.data(), packed.out.data());
+            packed.scatter(rates, k, width);
         }
     }
     for (; k < to; ++k) rhs(time_of(times, k), states + k * width, rates + k * width);
+}
+
+void CompiledSystem::function_of_range(const alembert_named_function& f, const std::vector<double>& times,
+                                       const double* q, const double* v, const double* a, std::size_t from,
+                                       std::size_t to, double* values) const {
+    const auto n = static_cast<std::size_t>(n_), size = static_cast<std::size_t>(f.rows * f.columns);
+    std::size_t k = from;
+    if (f.pack != nullptr && module_.pack() != nullptr) {
+        Packed packed(static_cast<std::size_t>(module_.pack()->lanes), 2 * n, size, par_);
+        for (; k + packed.lanes <= to; k += packed.lanes) {
+            packed.set_times(times, k);
+            packed.gather(packed.state, 0, q, k, n);
+            packed.gather(packed.state, n, v, k, n);
+            packed.gather(packed.rate, n, a, k, n);
+            f.pack(packed.t.data(), packed.state.data(), packed.rate.data(), packed.par.data(), packed.out.data());
+            packed.scatter(values, k, size);
+        }
+    }
+    std::vector<double> state(2 * n, 0.0), rate(2 * n, 0.0);
+    const auto take = [n](std::vector<double>& to_array, std::size_t place, const double* from_rows,
+                          std::size_t row) {
+        if (from_rows != nullptr) std::copy_n(from_rows + row * n, n, to_array.begin() + static_cast<long>(place));
+    };
+    for (; k < to; ++k) {
+        take(state, 0, q, k);
+        take(state, n, v, k);
+        take(rate, n, a, k);
+        f.call(time_of(times, k), state.data(), rate.data(), par_.data(), values + k * size);
+    }
+}
+
+std::vector<std::string> CompiledSystem::function_names() const {
+    std::vector<std::string> names;
+    if (module_.functions() != nullptr)
+        for (int k = 0; k < module_.functions()->count; ++k) names.emplace_back(module_.functions()->list[k].name);
+    return names;
+}
+
+void CompiledSystem::function_of_many(const alembert_named_function& f, const std::vector<double>& times,
+                                      const double* q, const double* v, const double* a, std::size_t count,
+                                      double* values) const {
+    on_all_cores(
+        count, [&](std::size_t from, std::size_t to) { function_of_range(f, times, q, v, a, from, to, values); });
 }
 
 void CompiledSystem::rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,

@@ -4,9 +4,8 @@
 /// Emitted and compiled functions of a scene, for one state or for many at once.
 ///
 ///     const CompiledSystem system(load(compile(text, "pendulum", {}).object), text);
-///     system.rhs(0, state, rate);                        // state: coordinates, then speeds; rate: their
-///     derivatives system.rhs_of_many({0}, states, 1000, rates);      // rows of 1000 states; packs of eight on
-///     all cores
+///     system.rhs(0, state, rate);        // state: coordinates, then speeds; rate: their derivatives
+///     system.rhs_of_many({0}, states, 1000, rates);      // 1000 states, row by row; packs of eight, all cores
 ///
 /// A time for each state, or one for all. Functions are thread-safe while nobody sets parameters.
 
@@ -22,6 +21,7 @@ public:
     CompiledSystem(Module module, std::string source);
 
     int dimension() const { return n_ + s_; }
+    int coordinate_count() const { return n_; }
     int speed_count() const { return s_; }
     std::vector<std::string> coordinates() const;
     std::vector<std::string> speeds() const;  ///< of the scene; empty where they are the rates
@@ -47,9 +47,20 @@ public:
     void energy_of_many(const std::vector<double>& times, const double* states, std::size_t count,
                         double* energies) const;
 
+    /// Functions for robots that were emitted (lower/robot_functions.hpp, lower/frame_functions.hpp).
+    std::vector<std::string> function_names() const;
+    const alembert_named_function& function(int which) const { return module_.functions()->list[which]; }
+    /// q, v, a: count × coordinates; rates and accelerations that are null are zero. values: count × the matrix.
+    void function_of_many(const alembert_named_function& f, const std::vector<double>& times, const double* q,
+                          const double* v, const double* a, std::size_t count, double* values) const;
+
 private:
     void rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from, std::size_t to,
                       double* rates) const;
+
+    void function_of_range(const alembert_named_function& f, const std::vector<double>& times, const double* q,
+                           const double* v, const double* a, std::size_t from, std::size_t to,
+                           double* values) const;
 
     Module module_;
     std::string source_;

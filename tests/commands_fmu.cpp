@@ -1,391 +1,41 @@
 // SPDX-License-Identifier: MIT
-// Functional mock-up units, held by a master of our own: the archive is read, its description is held against the
-// rules of FMI 2.0.4 (§2.2) and 3.0 (§2.4), the binary is loaded, and its motions, by model exchange and by
-// co-simulation, are compared with those of `simulate`.
-#include <dlfcn.h>
+// Functional mock-up units, held by a master of our own (fmu_master.hpp): the archive is read, its description is
+// held against the rules of FMI (unit_description.hpp), the binary is loaded, and its motions, by model exchange
+// and by co-simulation, are compared with those of `simulate`.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <functional>
-#include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <sstream>
 
-#include "archives.hpp"
 #include "files.hpp"
+#include "fmu_master.hpp"
 #include "shell.hpp"
 
 namespace commands_fmu {
 
-using alembert::test::contents;
-using alembert::test::run;
-using alembert::test::source_path;
-using alembert::test::temporary;
-using alembert::test::unzipped;
+using namespace alembert::test;
 using Json = nlohmann::json;
-using Numbers = std::vector<double>;
 
 namespace {
 
-/// A new path each time: an object of the same path as one that is loaded would not be loaded.
 std::string file_name(const std::string& name) {
     static int count = 0;
-    return fmt::format("{}/{}", alembert::test::temporary_folder(fmt::format("units-{}", count++)), name);
+    return fmt::format("{}/{}", temporary_folder(fmt::format("units-{}", count++)), name);
 }
 
-struct Element {
-    std::string name;
-    std::map<std::string, std::string> attributes;
-    std::string operator[](const std::string& key) const {
-        const auto found = attributes.find(key);
-        return found == attributes.end() ? std::string() : found->second;
-    }
-    bool has(const std::string& key) const { return attributes.contains(key); }
-};
-
-/// The elements in the order in which they begin.
-std::vector<Element> elements_of(const std::string& xml) {
-    std::vector<Element> list;
-    for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
-        if (xml[at + 1] == '/' || xml[at + 1] == '?') continue;
-        std::size_t here = xml.find_first_of(" />\n", at);
-        Element e{.name = xml.substr(at + 1, here - at - 1), .attributes = {}};
-        while (xml[here] != '>' && xml[here] != '/') {
-            const std::size_t from = xml.find_first_not_of(" \n", here), equals = xml.find_first_of("=>/", from);
-            if (xml[equals] != '=') break;
-            const std::size_t close = xml.find('"', equals + 2);
-            e.attributes[xml.substr(from, equals - from)] = xml.substr(equals + 2, close - equals - 2);
-            here = close + 1;
-        }
-        list.push_back(std::move(e));
-    }
-    return list;
+Unit exported(const std::string& scene, int fmi) {
+    const std::string file = file_name("unit.fmu");
+    const auto made = run({"fmu", scene, "-o", file, "--fmi", std::to_string(fmi), "--json"});
+    REQUIRE_MESSAGE(made.exit == 0, made.err);
+    return Unit(contents(file), Json::parse(made.out)["token"], fmi);
 }
-
-std::vector<int> numbers_of(const std::string& list) {
-    std::istringstream in(list);
-    std::vector<int> result;
-    for (int k = 0; in >> k;) result.push_back(k);
-    return result;
-}
-
-/// A variable with the attributes of both of its elements, and the lists of ModelStructure by value references.
-struct Description {
-    std::map<std::string, std::string> model;
-    std::vector<Element> variables;
-    std::vector<int> outputs, rates, initial, events;
-    std::map<std::string, unsigned> reference;
-    std::string at(const std::string& name, const char* key) const {
-        return variables.at(reference.at(name))[key];
-    }
-};
-
-Description described(const std::string& xml, int version) {
-    Description d;
-    std::vector<int>* list = nullptr;
-    for (const Element& e : elements_of(xml)) {
-        if (e.name == "fmiModelDescription") d.model = e.attributes;
-        if (e.name == "ScalarVariable" || e.name == "Float64") d.variables.push_back(e);
-        if (e.name == "Real" && !d.variables.empty())
-            d.variables.back().attributes.insert(e.attributes.begin(), e.attributes.end());
-        const std::map<std::string, std::vector<int>*> lists{
-            {"Outputs", &d.outputs},         {"Output", &d.outputs},
-            {"Derivatives", &d.rates},       {"ContinuousStateDerivative", &d.rates},
-            {"InitialUnknowns", &d.initial}, {"InitialUnknown", &d.initial},
-            {"EventIndicator", &d.events}};
-        if (const auto found = lists.find(e.name); found != lists.end()) list = found->second;
-        if (e.name == "Unknown") list->push_back(std::stoi(e["index"]) - 1);
-        if (version == 3 && lists.contains(e.name)) list->push_back(std::stoi(e["valueReference"]));
-    }
-    for (std::size_t k = 0; k < d.variables.size(); ++k)
-        d.reference[d.variables[k]["name"]] = static_cast<unsigned>(std::stoul(d.variables[k]["valueReference"]));
-    return d;
-}
-
-/// The rules of the description, as far as they can be listed.
-void check_rules(const std::string& xml, int version) {
-    const Description d = described(xml, version);
-    const int first = version == 2 ? 1 : 0;
-    CHECK(d.reference.size() == d.variables.size());  // names are unique
-    std::set<std::string> units, types;
-    for (const Element& e : elements_of(xml)) {
-        if (e.name == "Unit") units.insert(e["name"]);
-        if (e.name == "SimpleType" || e.name == "Float64Type") types.insert(e["name"]);
-        if (!e.has("dependencies")) continue;
-        const std::vector<int> known = numbers_of(e["dependencies"]);
-        CHECK(std::is_sorted(known.begin(), known.end()));
-        for (const int k : known) {
-            const std::string causality = d.variables.at(static_cast<std::size_t>(k - first))["causality"];
-            const bool is_state = d.variables[static_cast<std::size_t>(k - first)]["initial"] == "exact";
-            CHECK((causality == "independent" || causality == "input" || is_state));
-        }
-    }
-    std::set<int> outputs, unknowns;
-    for (std::size_t k = 0; k < d.variables.size(); ++k) {
-        const Element& v = d.variables[k];
-        CAPTURE(v["name"]);
-        CHECK(v["valueReference"] == std::to_string(k));
-        CHECK((v["unit"].empty() || units.contains(v["unit"])));
-        CHECK((v["declaredType"].empty() || types.contains(v["declaredType"])));
-        CHECK(v["name"].find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.(),") ==
-              std::string::npos);
-        const std::string kind = v["causality"] + " " + v["variability"] + " " + v["initial"];
-        CHECK(std::set<std::string>{"independent continuous ", "input continuous ", "parameter tunable exact",
-                                    "output continuous exact", "output continuous calculated",
-                                    "local continuous exact", "local continuous calculated"}
-                  .contains(kind));
-        CHECK(v.has("start") == (v["initial"] == "exact" || v["causality"] == "input"));
-        if (v["causality"] == "output") outputs.insert(static_cast<int>(k));
-        if (v["causality"] == "output" && v["initial"] == "calculated") unknowns.insert(static_cast<int>(k));
-    }
-    for (const int rate : d.rates) {
-        const Element& v = d.variables.at(static_cast<std::size_t>(rate));
-        REQUIRE(v.has("derivative"));
-        CHECK(d.variables.at(static_cast<std::size_t>(std::stoi(v["derivative"]) - first))["initial"] == "exact");
-        if (v["initial"] == "calculated") unknowns.insert(rate);
-    }
-    CHECK(std::set<int>(d.outputs.begin(), d.outputs.end()) == outputs);
-    CHECK(d.initial == std::vector<int>(unknowns.begin(), unknowns.end()));
-    if (version == 2) CHECK(std::stoul(d.model.at("numberOfEventIndicators")) + 1 > d.events.size());
-}
-
-/// An exported scene: archive, description, library.
-struct Unit {
-    std::string archive;
-    std::map<std::string, std::string> files;
-    Description description;
-    int version = 2;
-    void* library = nullptr;
-    std::string token;
-
-    Unit(const std::string& scene, int fmi) : version(fmi) {
-        const std::string file = file_name("unit.fmu");
-        const auto made = run({"fmu", scene, "-o", file, "--fmi", std::to_string(fmi), "--json"});
-        REQUIRE_MESSAGE(made.exit == 0, made.err);
-        token = Json::parse(made.out)["token"];
-        archive = contents(file);
-        files = unzipped(archive);
-        description = described(files.at("modelDescription.xml"), fmi);
-        for (const auto& [name, bytes] : files)
-            if (name.starts_with("binaries/")) {
-                const std::string object = file_name("unit.so");
-                std::ofstream(object, std::ios::binary) << bytes;
-                library = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
-            }
-        REQUIRE((library != nullptr));
-    }
-    Unit(const Unit&) = delete;
-    Unit& operator=(const Unit&) = delete;
-    ~Unit() { dlclose(library); }
-
-    template <typename Result = int, typename... T>
-    Result call(const std::string& name, T... values) const {
-        auto* const function = reinterpret_cast<Result (*)(T...)>(dlsym(library, name.c_str()));
-        if (function == nullptr) FAIL("the unit has no function ", name);
-        return function(values...);
-    }
-};
 
 const Unit& cart(int version) {
-    static const Unit two(source_path("scenes/textbook/cart_pole.toml"), 2),
-        three(source_path("scenes/textbook/cart_pole.toml"), 3);
+    static const Unit two = exported(source_path("scenes/textbook/cart_pole.toml"), 2),
+                      three = exported(source_path("scenes/textbook/cart_pole.toml"), 3);
     return version == 2 ? two : three;
-}
-
-/// One instance of a unit, by either version of the interface.
-class Instance {
-public:
-    Instance(const Unit& unit, bool co_simulation, double tolerance = 0) : unit_(unit) {
-        const char *name = "one", *token = unit.token.c_str(), *nowhere = nullptr;
-        if (unit.version == 2) {
-            me_ = unit.call<void*>("fmi2Instantiate", name, co_simulation ? 1 : 0, token, nowhere,
-                                   static_cast<const void*>(callbacks_), 0, 0);
-            REQUIRE((me_ != nullptr));
-            ok("fmi2SetupExperiment", tolerance > 0 ? 1 : 0, tolerance, 0.0, 0, 0.0);
-        } else if (co_simulation) {
-            me_ = unit.call<void*>("fmi3InstantiateCoSimulation", name, token, nowhere, false, false, false, false,
-                                   static_cast<const unsigned*>(nullptr), std::size_t{0},
-                                   static_cast<void*>(nullptr), static_cast<void*>(nullptr),
-                                   static_cast<void*>(nullptr));
-        } else {
-            me_ = unit.call<void*>("fmi3InstantiateModelExchange", name, token, nowhere, false, false,
-                                   static_cast<void*>(nullptr), static_cast<void*>(nullptr));
-        }
-        REQUIRE((me_ != nullptr));
-        tolerance_ = tolerance;
-    }
-    Instance(const Instance&) = delete;
-    Instance& operator=(const Instance&) = delete;
-    ~Instance() { unit_.call<void>(prefix() + "FreeInstance", me_); }
-
-    void begin() {
-        if (unit_.version == 2)
-            ok("fmi2EnterInitializationMode");
-        else
-            ok("fmi3EnterInitializationMode", tolerance_ > 0, tolerance_, 0.0, false, 0.0);
-        ok(prefix() + "ExitInitializationMode");
-    }
-    double get(const std::string& name) const {
-        const unsigned reference = unit_.description.reference.at(name);
-        double value = NAN;
-        if (unit_.version == 2)
-            ok("fmi2GetReal", &reference, std::size_t{1}, &value);
-        else
-            ok("fmi3GetFloat64", &reference, std::size_t{1}, &value, std::size_t{1});
-        return value;
-    }
-    void set(const std::string& name, double value) {
-        const unsigned reference = unit_.description.reference.at(name);
-        const double* const at = &value;
-        if (unit_.version == 2)
-            ok("fmi2SetReal", &reference, std::size_t{1}, at);
-        else
-            ok("fmi3SetFloat64", &reference, std::size_t{1}, at, std::size_t{1});
-    }
-    std::size_t states() const { return unit_.description.rates.size(); }
-    Numbers state() const {
-        Numbers x(states());
-        ok(prefix() + "GetContinuousStates", x.data(), x.size());
-        return x;
-    }
-    void at(double t, const Numbers& x) {
-        ok(prefix() + "SetTime", t);
-        ok(prefix() + "SetContinuousStates", x.data(), x.size());
-    }
-    Numbers rates() const {
-        Numbers f(states());
-        ok(unit_.version == 2 ? "fmi2GetDerivatives" : "fmi3GetContinuousStateDerivatives", f.data(), f.size());
-        return f;
-    }
-    Numbers indicators() const {
-        const auto& names = unit_.description.reference;
-        Numbers z(static_cast<std::size_t>(std::count_if(
-            names.begin(), names.end(), [](const auto& one) { return one.first.starts_with("event."); })));
-        ok(prefix() + "GetEventIndicators", z.data(), z.size());
-        return z;
-    }
-    /// Advances in co-simulation; true unless the unit has ended the simulation.
-    bool step(double t, double h) {
-        if (unit_.version == 2) {
-            const int status = unit_.call("fmi2DoStep", me_, t, h, 1);
-            CHECK(status != 3);
-            return status == 0;
-        }
-        bool event = false, over = false, early = false;
-        double last = 0;
-        ok("fmi3DoStep", t, h, true, &event, &over, &early, &last);
-        return !over;
-    }
-    double derivative(const std::string& of, const std::string& by) const {
-        const unsigned unknown = unit_.description.reference.at(of), known = unit_.description.reference.at(by);
-        const double seed = 1, *const s = &seed;
-        double result = NAN;
-        const std::size_t one = 1;
-        if (unit_.version == 2)
-            ok("fmi2GetDirectionalDerivative", &unknown, one, &known, one, s, &result);
-        else
-            ok("fmi3GetDirectionalDerivative", &unknown, one, &known, one, s, one, &result, one);
-        return result;
-    }
-    /// Event mode; true if the simulation ends.
-    bool update() {
-        if (unit_.version == 3) {
-            bool need = false, over = false, nominals = false, values = false, next = false;
-            double when = 0;
-            ok("fmi3UpdateDiscreteStates", &need, &over, &nominals, &values, &next, &when);
-            return over;
-        }
-        struct {
-            int need, over, nominals, values, next;
-            double when;
-        } info{};
-        ok("fmi2NewDiscreteStates", static_cast<void*>(&info));
-        return info.over != 0;
-    }
-    bool wants_event() {
-        if (unit_.version == 3) {
-            bool event = false, over = false;
-            ok("fmi3CompletedIntegratorStep", true, &event, &over);
-            return event;
-        }
-        int event = 0, over = 0;
-        ok("fmi2CompletedIntegratorStep", 1, &event, &over);
-        return event != 0;
-    }
-    template <typename... T>
-    void ok(const std::string& name, T... values) const {
-        if (unit_.call(name, me_, values...) != 0) FAIL("the call failed: ", name);
-    }
-    std::string prefix() const { return unit_.version == 2 ? "fmi2" : "fmi3"; }
-
-private:
-    const Unit& unit_;
-    void* me_ = nullptr;
-    double tolerance_ = 0;
-    const void* callbacks_[5] = {};
-};
-
-/// Model exchange by the classical method of Runge and Kutta with `steps` steps; inputs are set at every time. A
-/// step in which an indicator changes its sign ends behind the first change, found by bisection, with the event
-/// mode. True if the unit ends the simulation.
-bool exchange(Instance& one, double end, int steps, const std::function<void(double)>& drive = {}) {
-    one.update();
-    Numbers x = one.state(), before = one.indicators();
-    const auto f = [&](double t, const Numbers& y) {
-        one.at(t, y);
-        if (drive) drive(t);
-        return one.rates();
-    };
-    const auto moved = [&](const Numbers& y, double by, const Numbers& k) {
-        Numbers result = y;
-        for (std::size_t i = 0; i < y.size(); ++i) result[i] += by * k[i];
-        return result;
-    };
-    const auto stepped = [&](double t, double h) {
-        const Numbers a = f(t, x), b = f(t + h / 2, moved(x, h / 2, a)), c = f(t + h / 2, moved(x, h / 2, b)),
-                      d = f(t + h, moved(x, h, c));
-        Numbers y = x;
-        for (std::size_t i = 0; i < x.size(); ++i) y[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
-        one.at(t + h, y);
-        if (drive) drive(t + h);
-        return y;
-    };
-    const auto changes = [&] {
-        const Numbers now = one.indicators();
-        for (std::size_t k = 0; k < now.size(); ++k)
-            if ((now[k] > 0) != (before[k] > 0)) return true;
-        return false;
-    };
-    double t = 0;
-    for (int n = 0; n < steps; ++n)
-        for (const double next = end * (n + 1) / steps; t < next;) {
-            double h = next - t, low = 0;
-            Numbers y = stepped(t, h);
-            const bool is_event = changes();
-            if (is_event) {
-                while (h - low > 1e-14) {
-                    const double middle = (low + h) / 2;
-                    stepped(t, middle);
-                    (changes() ? h : low) = middle;
-                }
-                y = stepped(t, h);
-            }
-            x = y;
-            t = is_event ? t + h : next;
-            if (one.wants_event() || is_event) {
-                if (one.update()) return true;
-                x = one.state();
-            }
-            before = one.indicators();
-        }
-    return false;
 }
 
 Json simulated(const std::string& scene, double end) {
@@ -528,7 +178,7 @@ position = ["s + sin(phi)", "-cos(phi)"]
 speed = "dot(vel(bob), vel(bob))"
 )toml");
     const Json final = simulated(scene, 1);
-    const Unit unit(scene, 2);
+    const Unit unit = exported(scene, 2);
     // The equation has s'', the energy s'; each input is set to what the scene has.
     Instance given(unit, false);
     given.begin();
@@ -570,7 +220,7 @@ speed = "dot(vel(bob), vel(bob))"
 TEST_CASE("fmu: constraints stay satisfied, and the same scene gives the same bytes") {
     const std::string scene = source_path("scenes/textbook/slider_crank.toml"), again = file_name("again.fmu");
     const Json final = simulated(scene, 1);
-    const Unit unit(scene, 2);
+    const Unit unit = exported(scene, 2);
     check_rules(unit.files.at("modelDescription.xml"), 2);
     Instance one(unit, true, 1e-12), exchanged(unit, false, 1e-12);
     one.begin();
@@ -620,7 +270,7 @@ stop = true
 )toml");
     const Json final = simulated(scene, 3);
     CHECK(final["time"] == doctest::Approx(1.75).epsilon(1e-12));
-    const Unit unit(scene, 2);
+    const Unit unit = exported(scene, 2);
     Instance one(unit, true, 1e-12);
     one.begin();
     bool goes_on = true;
@@ -633,6 +283,41 @@ stop = true
     CHECK(exchange(exchanged, 3, 6000));
     CHECK(exchanged.get("time") == doctest::Approx(1.75).epsilon(1e-12));
     CHECK(difference(exchanged, final) < 1e-9);
+}
+
+TEST_CASE("fmu: rates that are no numbers are a failure, not a motion") {
+    const std::string scene = temporary("root.toml", R"toml(
+[parameters]
+m = 1
+[coordinates]
+x = { initial = 1, rate = -1, unit = "m" }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", 0]
+[forces]
+x = "-sqrt(x)"
+)toml");
+    for (const int version : {2, 3}) {
+        CAPTURE(version);
+        const Unit unit = exported(scene, version);
+        Instance exchanged(unit, false), one(unit, true);
+        exchanged.begin();
+        exchanged.update();
+        exchanged.at(0, {-1, 0});  // the root of a negative number
+        Numbers rates(2);
+        const auto rate_of = [&](Instance& instance) {
+            return instance.status(version == 2 ? "fmi2GetDerivatives" : "fmi3GetContinuousStateDerivatives",
+                                   rates.data(), rates.size());
+        };
+        CHECK(rate_of(exchanged) == discarded);
+        exchanged.at(0, {4, 0});  // a master may go back and take a shorter step
+        CHECK(rate_of(exchanged) == 0);
+        CHECK(rates == Numbers{0, -2});
+        // It reaches x = 0 at some time before 2 s, and no step leads beyond.
+        one.begin();
+        CHECK(one.step_status(0, 2) >= discarded);
+    }
 }
 
 TEST_CASE("fmu: what a unit cannot follow is refused, with what to do") {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -616,6 +617,33 @@ coordinates = { psi = { guess = -1, rate_guess = 0 } }
     const double M = load["rail"]["moment"][2].get<double>();
     CHECK(std::abs(M + at[0] * F[1] - at[1] * F[0] + to[0] * P[1] - to[1] * P[0]) < 1e-10);
     CHECK(std::abs(M) > 0.1);
+}
+
+// A body that turns about a vertical axis shows its moment about the axis and nothing else.
+TEST_CASE("functions: lists of names are read strictly, and one combination is told as one") {
+    const std::string wheel =
+        temporary("wheel.toml",
+                  "gravity = [0, 0, -9.81]\nbody = [{ name = \"wheel\", mass = 2, inertia = [1, 1, 3] "
+                  "}]\n[[joint]]\nname = \"axle\"\ntype = \"revolute\"\nparent = \"N\"\nchild = "
+                  "\"wheel\"\ncoordinates = { q = { initial = 0 } }\narmature = { q = 0.5 }\n");
+    const std::string folder = temporary("solver", "");
+    std::filesystem::remove(folder);
+    for (const char* names : {"mass,", ",mass", "mass,,bias"}) {
+        const auto refused = run({"emit", wheel, "-o", folder, "--functions", names});
+        CHECK(refused.exit == 3);
+        CHECK(refused.err.find("has a comma beside which there is no name") != std::string::npos);
+    }
+    CHECK(run({"emit", wheel, "-o", folder, "--functions", "mobility"}).err.find("say of which with --frame") !=
+          std::string::npos);
+    const auto told = run({"identify", wheel});
+    CHECK(told.out.find(
+              "Of 11 inertial parameters, motion and loads show one combination:\n  zz(wheel) + rotor(q) = "
+              "3.5\n") != std::string::npos);
+    // ∂/∂m of the torque about the axis is 1.
+    const auto emitted =
+        run({"emit", wheel, "-o", folder, "--functions", "inverse", "--wrench", "wheel", "--json"});
+    CHECK(emitted.exit == 0);
+    CHECK(contents(folder + "/wheel.cpp").find("wheel_mz") != std::string::npos);
 }
 
 }  // namespace commands_inverse

@@ -10,7 +10,9 @@
 #include "dual.hpp"
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
+#include "formalism/recursive.hpp"
 #include "lower/choose.hpp"
+#include "lower/perturbed_tree.hpp"
 #include "program/differentiate.hpp"
 #include "program/partials.hpp"
 #include "scenes.hpp"
@@ -177,6 +179,78 @@ TEST_CASE("derivatives: the Jacobian of a chain of 4 to 8 rods costs at most fou
         for (double& u : s.qdot) u = 0.5;
         CHECK(misfit(program, *d, s) < 1e-10);
     }
+}
+
+/// A tree of `n` bodies whose parents are among the three before them, with turning and sliding joints about axes
+/// at right angles or oblique, parameters, springs, damping, and a joint whose angle has a part that is given in
+/// time.
+std::string branching_tree(int n, bool oblique) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(n));
+    const auto pick = [&](int most) { return static_cast<int>(random() % static_cast<std::uint64_t>(most)); };
+    std::string forces,
+        text =
+            "title = \"tree\"\ngravity = [0, 0, \"-g\"]\n[parameters]\ng = 9.81\nm = 1.3\nc = 0.2\nk = 2.0\n"
+            "[coordinates]\nq0 = { initial = 0.2, rate = 0.4 }\n[[frame]]\nname = \"T\"\nparent = \"N\"\nrotate = "
+            "[[\"x\", \"q0 + 0.3*sin(t)\"]]\n"
+            "[[body]]\nname = \"B0\"\nmass = 1\nframe = \"T\"\nfrom = \"O\"\nposition = [0, 0, 0]\n"
+            "inertia = { xx = 1, yy = 1, zz = 1 }\n";
+    const char* letters[] = {"\"x\"", "\"y\"", "\"z\""};
+    for (int k = 1; k <= n; ++k) {
+        const std::string i = std::to_string(k), parent = std::to_string(std::max(0, k - 1 - pick(3)));
+        const bool slides = pick(7) == 0, general = oblique && pick(2) == 0;
+        text += "[[body]]\nname = \"B" + i + "\"\nmass = \"m\"\ninertia = { xx = 0.03, yy = 0.04, zz = 0.05" +
+                (pick(2) == 0 ? ", xy = 0.002, zx = -0.003 }\n" : " }\n");
+        text += "[[joint]]\nname = \"J" + i + "\"\ntype = \"" + (slides ? "prismatic" : "revolute") +
+                "\"\nparent = \"B" + parent + "\"\nchild = \"B" + i + "\"\nparent_point = [0.1, 0, " +
+                (general ? "\"c\"" : "0") +
+                "]\nchild_point = [0, 0.05, \"-c\"]\naxis = " + (general ? "[0.6, 0, 0.8]" : letters[pick(3)]) +
+                "\ncoordinates = { q" + i + " = { initial = 0.3, rate = 0.2 } }\n";
+        forces += "q" + i + " = \"-k*q" + i + " - 0.1*q" + i + "'^3\"\n";
+    }
+    return text + "[forces]\n" + forces;
+}
+
+TEST_CASE("derivatives: those of the articulated bodies of a tree are dual numbers' along any axes") {
+    for (const std::string& text : {branching_tree(9, true), branching_tree(8, false), chain(5)}) {
+        const Mechanism m = prepared(parse_scene(text, "tree.toml")).mechanism;
+        const Equations equations = formalism("recursive").derive(m);
+        const Program program = choose(m, equations).program;
+        const std::vector<Perturbed> forms = perturbed_tree(program, m, equations, false);
+        CHECK(forms.size() >= 1);
+        for (const Perturbed& form : forms) {
+            // Without roots for M there is no other route.
+            Program alone = form.program;
+            std::erase_if(alone.roots, [](const Root& root) { return root.group == Group::mass; });
+            const auto d = differentiated(alone, {.parameters = true, .power = true, .perturbed = {form}});
+            REQUIRE(d);
+            CHECK(d->route == "articulated bodies");
+            State<double> s = start_of(m).state();
+            for (std::size_t i = 0; i < s.q.size(); ++i) s.q[i] += 0.1 * static_cast<double>(i % 4);
+            CHECK(misfit(program, *d, s) < 1e-10);
+        }
+    }
+}
+
+TEST_CASE("derivatives: a tree with rotors is differentiated by another route, as dual numbers are") {
+    const Mechanism m = prepared(read_scene(test::source_path("tests/odd/armature.toml"))).mechanism;
+    const Equations equations = formalism("recursive").derive(m);
+    const Program program = choose(m, equations).program;
+    const std::vector<Perturbed> forms = perturbed_tree(program, m, equations, false);
+    CHECK(forms.empty());
+    const auto d = differentiated(program, {.parameters = true, .power = true, .perturbed = forms});
+    REQUIRE(d);
+    CHECK(misfit(program, *d, start_of(m).state()) < 1e-10);
+}
+
+TEST_CASE("derivatives: the Jacobian of a tree of 20 joints takes at most seven right-hand sides") {
+    const Mechanism m = prepared(parse_scene(branching_tree(20, false), "tree.toml")).mechanism;
+    const Equations equations = recursive_without_matrix(m);
+    const Program program = choose(m, equations).program;
+    const auto d = differentiated(program, {.perturbed = perturbed_tree(program, m, equations, false)});
+    REQUIRE(d);
+    const int rhs = program.count(program.right_hand_side()).total();
+    MESSAGE(rhs << " operations, the Jacobian " << d->operations.total());
+    CHECK(d->operations.total() <= 7 * rhs);
 }
 
 TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and with the row of the power") {

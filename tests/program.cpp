@@ -13,6 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "files.hpp"
+
 namespace alembert::test {
 
 namespace {

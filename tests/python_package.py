@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tests of the Python package: python3 python_package.py PROGRAM, with the package on PYTHONPATH (exit 77 without NumPy)."""
+"""Tests of the Python package: python3 python_package.py PROGRAM, with the package on PYTHONPATH (exit 77 without NumPy).
 
-import json
+Here are verbs, errors and expressions; python_numbers.py has what gives arrays, python_examples.py the examples and
+notebooks."""
+
+import ast
+import inspect
 import math
 import os
 import re
@@ -10,7 +14,9 @@ import sys
 import tempfile
 import unittest
 import warnings
+import zipfile
 
+sys.dont_write_bytecode = True
 try:
     import numpy as np
 except ImportError:
@@ -19,23 +25,9 @@ except ImportError:
 
 import alembert
 
-PROGRAM = os.path.abspath(sys.argv.pop(1))
-SCENES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../scenes")
-
-PENDULUM = {
-    "gravity": [0, "-g"],
-    "parameters": {"m": 2.0, "l": 1.5, "g": 9.81},
-    "coordinates": {"theta": {"initial": 0.4, "rate": 0.1}},
-    "particle": [{"name": "P", "mass": "m", "position": ["l*sin(theta)", "-l*cos(theta)"]}],
-}
-
-
-def scene_file(name):
-    return os.path.join(SCENES, name)
-
-
-def program(*arguments):
-    return json.loads(subprocess.run([PROGRAM, *arguments, "--json"], capture_output=True, text=True).stdout)
+from python_shared import PENDULUM, SCENES, TESTS, program, scene_file
+from python_numbers import *  # noqa: F403 (unittest finds the tests of all three files here)
+from python_examples import *  # noqa: F403
 
 
 class Verbs(unittest.TestCase):
@@ -79,6 +71,49 @@ class Verbs(unittest.TestCase):
                 self.assertEqual(one.read(), other.read())
         with self.assertRaises(ValueError):
             alembert.Scene(file).fmu("none.fmu", fmi=1)
+        with self.assertRaises(ValueError):
+            alembert.Scene(file).fmu("none.zip")
+
+    def test_branches_charts_loci_and_exponents_have_pictures(self):
+        hoop = alembert.Scene(scene_file("textbook/rotating_hoop.toml"))
+        found = hoop.branches(("Omega", 2, 6))
+        self.assertEqual(found.json, program("equilibrium", hoop.name, "--follow", "Omega=2:6"))
+        self.assertIn("<svg", found.figure.svg)
+        self.assertIn("Omega", found.csv.splitlines()[0])
+        still = {"theta": 0, "theta'": 0}
+        locus = hoop.root_locus(("Omega", 1, 5, 20), at=still)
+        self.assertIn("<svg", locus.figure.svg)
+        chart = hoop.stability_chart(("Omega", 1, 5, 6), ("R", 0.1, 1, 5), at=still)
+        self.assertIn("<svg", chart.figure.svg)
+        (largest,) = alembert.Scene(PENDULUM).exponents(1, duration=50).exponents
+        self.assertLess(abs(largest), 0.2)
+
+    def test_identify_emit_draw_and_report(self):
+        file = scene_file("textbook/double_pendulum.toml")
+        scene = alembert.Scene(file)
+        self.assertEqual(scene.identify().json, program("identify", file))
+        with tempfile.TemporaryDirectory() as folder:
+            emitted = scene.emit(folder, language="c", jacobian=True)
+            self.assertEqual(sorted(os.listdir(folder)), ["double_pendulum.c", "double_pendulum.h"])
+            with open(emitted.files[0], encoding="utf-8") as written:
+                self.assertEqual(written.read(), emitted.sources["double_pendulum.c"])
+            page = os.path.join(folder, "page.html")
+            alembert.Scene(PENDULUM).report(page, motion=False)
+            with open(page, encoding="utf-8") as written:
+                self.assertIn("<math", written.read())
+        self.assertIn("<svg", scene.draw()._repr_svg_())
+        self.assertNotIn("#include <", scene.emit().sources["double_pendulum.cpp"])
+
+    def test_results_print_what_the_program_prints(self):
+        judged = alembert.Scene(scene_file("textbook/rotating_hoop.toml")).stability({"theta": 0})
+        self.assertIn("unstable", repr(judged))
+        self.assertIn("<pre>", judged._repr_html_())
+
+    def test_values_may_be_expressions(self):
+        at = alembert.Scene(PENDULUM).eval({"theta": "pi/2", "l": 3})
+        self.assertAlmostEqual(at.accelerations["theta"], -9.81 / 3, places=14)
+        with self.assertRaisesRegex(alembert.ModelError, "thetta"):
+            alembert.Scene(PENDULUM).eval({"thetta": 1})
 
     def test_formulas_for_notebooks(self):
         derivation = alembert.Scene(PENDULUM).derive()
@@ -93,6 +128,34 @@ class Verbs(unittest.TestCase):
         with self.assertRaises(alembert.ModelError):
             alembert.Scene(PENDULUM).derive(by="nonsense")
 
+    def test_wrong_numbers_and_ranges_are_told(self):
+        scene = alembert.Scene(PENDULUM)
+        for wrong, words in (({"duration": -3}, "duration=-3: expected a number of zero or more"),
+                             ({"tolerance": 0}, "tolerance=0: expected a number above zero"),
+                             ({"budget": -1}, "budget=-1: expected a number above zero")):
+            with self.assertRaisesRegex(ValueError, words):
+                scene.simulate(**wrong)
+        with self.assertRaisesRegex(ValueError, "expected .name, from, to."):
+            scene.branches(("l", 1))
+        with self.assertRaisesRegex(alembert.ModelError, "nope"):
+            scene.sweep({"nope": [1, 2]})
+
+    def test_the_stubs_have_the_names_and_arguments_of_the_package(self):
+        with open(os.path.join(os.path.dirname(alembert.__file__), "__init__.pyi"), encoding="utf-8") as file:
+            stubs = {one.name: one for one in ast.parse(file.read()).body if hasattr(one, "name")}
+        self.assertEqual(set(stubs), set(alembert.__all__))
+        for name, stub in stubs.items():
+            ours = getattr(alembert, name)
+            self.assertTrue(ours.__doc__ or issubclass(ours, alembert.Error), name)
+            for method in (one for one in getattr(stub, "body", ()) if isinstance(one, ast.FunctionDef)):
+                said = [one.arg for one in (*method.args.args, *method.args.kwonlyargs) if one.arg not in ("self", "cls")]
+                is_there = inspect.getattr_static(ours, method.name, None)
+                takes_any = method.args.vararg or method.args.kwarg
+                if not takes_any and inspect.isfunction(is_there) or isinstance(is_there, classmethod):
+                    has = [p for p in inspect.signature(getattr(ours, method.name)).parameters if p != "self"]
+                    self.assertEqual(has, said, f"{name}.{method.name}")
+                    self.assertTrue(method.name.startswith("_") or is_there.__doc__ or is_there.__func__.__doc__)
+
     def test_warnings_are_warnings(self):
         wrong = {**PENDULUM, "body": [{"name": "B", "mass": 1, "position": [0, 0, 0], "frame": "F",
                                        "inertia": [1, 1, 3]}],
@@ -103,65 +166,33 @@ class Verbs(unittest.TestCase):
         self.assertTrue(any(issubclass(one.category, alembert.SceneWarning) for one in said))
 
 
-class Motions(unittest.TestCase):
-    def test_the_same_end_as_the_program(self):
-        file = scene_file("textbook/double_pendulum.toml")
-        run = alembert.Scene(file).simulate(duration=3, tolerance=1e-11)
-        told = program("simulate", file, "--duration", "3", "--tolerance", "1e-11")
-        self.assertEqual(run.final, told["final"])
-        self.assertIsNone(run.failure)
-        self.assertEqual(run.t[-1], 3)
-        self.assertEqual(run["theta1"][-1], told["final"]["coordinates"]["theta1"])
-        self.assertIs(run["theta1"].base is None, False)
-        with self.assertRaises(ValueError):
-            run.table[0, 0] = 1
+class Wheel(unittest.TestCase):
+    def test_a_wheel_works_without_the_sources_and_lists_all_its_files(self):
+        sys.path.insert(0, os.path.join(TESTS, "../python"))
+        import backend
 
-    def test_rows_outlive_their_run(self):
-        column = alembert.Scene(PENDULUM).simulate(duration=1)["theta"]
-        self.assertAlmostEqual(column[0], 0.4)
-
-
-class Systems(unittest.TestCase):
-    def setUp(self):
-        self.system = alembert.Scene(PENDULUM).system()
-
-    def test_one_state_and_many(self):
-        f = self.system
-        one = f.rhs(0.0, [0.4, 0.1])
-        self.assertAlmostEqual(one[1], -9.81 / 1.5 * math.sin(0.4), places=13)
-        states = np.random.default_rng(1).normal(size=(7, 1001, 2))
-        rates = f.rhs(0.0, states)
-        self.assertEqual(rates.shape, states.shape)
-        np.testing.assert_allclose(rates[..., 0], states[..., 1])
-        np.testing.assert_allclose(rates[..., 1], -9.81 / 1.5 * np.sin(states[..., 0]), rtol=1e-14, atol=1e-14)
-
-    def test_derivatives_mass_and_energy(self):
-        f = self.system
-        jacobian = f.jacobian(0.0, [0.4, 0.1])
-        np.testing.assert_allclose(jacobian, [[0, 1], [-9.81 / 1.5 * math.cos(0.4), 0]], rtol=1e-14)
-        np.testing.assert_allclose(f.mass_matrix(0.0, [0.4, 0.1]), [[2 * 1.5**2]])
-        T, V, E = f.energy(0.0, [0.4, 0.1])
-        self.assertAlmostEqual(T, 0.5 * 2 * (1.5 * 0.1)**2)
-        self.assertAlmostEqual(E, T + V)
-
-    def test_other_parameters(self):
-        self.system.set(l=3)
-        self.assertAlmostEqual(self.system.rhs(0.0, [0.4, 0.1])[1], -9.81 / 3 * math.sin(0.4), places=13)
-        with self.assertRaises(KeyError):
-            self.system.set(length=3)
-
-    def test_a_wrong_shape_is_told(self):
-        with self.assertRaisesRegex(ValueError, "2 numbers"):
-            self.system.rhs(0.0, np.zeros(3))
-
-    def test_scipy_integrates_it(self):
-        try:
-            from scipy.integrate import solve_ivp
-        except ImportError:
-            self.skipTest("SciPy is missing")
-        ours = alembert.Scene(PENDULUM).simulate(duration=2, tolerance=1e-12)
-        theirs = solve_ivp(self.system.rhs, (0, 2), [0.4, 0.1], method="DOP853", rtol=1e-12, atol=1e-12)
-        self.assertAlmostEqual(theirs.y[0, -1], ours["theta"][-1], places=9)
+        backend._build = lambda: os.path.dirname(alembert.__file__)
+        code = ("import alembert, os; s = alembert.Scene({'coordinates': {'x': 1}, 'parameters': {'m': 2, 'k': 8}, "
+                "'particle': [{'name': 'P', 'mass': 'm', 'position': ['x', 0]}], 'forces': {'x': '-k*x'}}); "
+                "print(alembert.__file__, s.simulate(duration=0.5, estimate=False)(0.5)[0], s.system().rhs(0.0, [1, 0])[1])")
+        with tempfile.TemporaryDirectory() as folder:
+            wheel = backend.build_wheel(folder)
+            site = os.path.join(folder, "site")
+            with zipfile.ZipFile(os.path.join(folder, wheel)) as archive:
+                archive.extractall(site)
+                names = archive.namelist()
+                (info,) = {name.split("/")[0] for name in names} - {"alembert"}
+                record = [line.split(",")[0] for line in archive.read(f"{info}/RECORD").decode().splitlines()]
+                self.assertEqual(sorted(record), sorted(names))
+                metadata = backend.prepare_metadata_for_build_wheel(os.path.join(folder, "metadata"))
+                with open(os.path.join(folder, "metadata", metadata, "METADATA"), encoding="utf-8") as file:
+                    self.assertEqual(file.read(), archive.read(f"{info}/METADATA").decode())
+            told = subprocess.run([sys.executable, "-B", "-c", code], cwd=folder, capture_output=True, text=True,
+                                  env={**os.environ, "PYTHONPATH": site})  # yapf: disable
+            where, x, acceleration = told.stdout.split()
+            self.assertTrue(where.startswith(site), told.stderr)
+            self.assertAlmostEqual(float(x), math.cos(1), places=8)
+            self.assertEqual(float(acceleration), -4)
 
 
 class Expressions(unittest.TestCase):
@@ -176,6 +207,12 @@ class Expressions(unittest.TestCase):
         scene = alembert.Scene(scene_file("textbook/double_pendulum.toml"))
         for equation in scene.derive().equations:
             self.assertTrue(scene.check(alembert.from_sympy(equation.sympy())))
+
+    def test_functions_that_a_scene_leaves_open_go_there_and_back(self):
+        for name in ("cam_with_follower", "central_field", "bead_on_any_curve"):
+            scene = alembert.Scene(scene_file(f"functions/{name}.toml"))
+            for equation in scene.derive().equations:
+                self.assertTrue(scene.check(alembert.from_sympy(equation.sympy())).verdicts == ["proved"], equation.text)
 
     def test_sympy_derives_the_same_pendulum(self):
         sympy = self.sympy

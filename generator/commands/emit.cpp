@@ -19,7 +19,7 @@ struct EmitVerb : SceneOptions {
     std::string folder;
     std::string language = "cpp";
     std::string functions;
-    std::vector<std::string> frames;
+    std::vector<std::string> frames, wrenches;
     EmissionOptions emission;
 };
 
@@ -28,6 +28,7 @@ int run(const EmitVerb& options) {
     wishes.by = options.by;
     wishes.functions = alembert::names_of(options.functions);
     wishes.frames = options.frames;
+    wishes.wrenches = options.wrenches;
     wishes.language = options.language == "c" ? CodeLanguage::c : CodeLanguage::cpp;
     const Emission e = emission(scene_of(options.scene), wishes);
     warn(e.warnings);
@@ -39,9 +40,7 @@ int run(const EmitVerb& options) {
         paths.push_back((std::filesystem::path(options.folder) / name).string());
         write_file(paths.back(), text, {options.scene});
     };
-    write(e.source.file, e.source.text);
-    if (e.source.header) write(e.source.header->name, e.source.header->text);
-    if (e.main) write(e.main->name, e.main->text);
+    for (const SourceFile& file : files_of(e)) write(file.name, file.text);
     if (options.json)
         show(as_json(e, paths));
     else
@@ -66,17 +65,25 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                 .one_of({"cpp", "c"});
             verb.add_flag("--standalone", options.emission.standalone,
                           say("also a main program that integrates and prints"));
+            verb.add_flag("--casadi", options.emission.casadi,
+                          say("with --language c: also functions for CasADi"));
             verb.add_flag("--fold", options.emission.fold, say("parameters as constants"));
             verb.add_flag("--jacobian", options.emission.jacobian,
                           say("also the derivatives of the right-hand side"));
             verb.add_option("--functions", options.functions,
                             say("functions of their own: inverse, mass, bias, gravity, loads, inverse_jacobian, "
-                                "mass_inverse, com, com_jacobian, "
-                                "momentum, regressor"))
+                                "mass_inverse, com, com_jacobian, momentum, centroidal, centroidal_drift, "
+                                "regressor; of each "
+                                "--frame: mobility, operational_inertia"))
                 .type_name(values::names);
             verb.add_option(
                     "--frame", options.frames,
                     say("a point or body, or P@F: pose, Jacobian, velocity, acceleration; may be repeated"))
+                .type_name(values::point);
+            verb.add_option(
+                    "--wrench", options.wrenches,
+                    say("a point or body, or P@F: an external force and torque on it as parameters; may be "
+                        "repeated"))
                 .type_name(values::point);
             verb.add_flag("--batch", options.emission.batch,
                           say("also the same functions for eight systems at once"));

@@ -19,9 +19,10 @@ namespace alembert {
 namespace {
 
 struct SimulateVerb : RunVerb {
-    std::string plot;     ///< an SVG file; empty for none
-    std::string section;  ///< of Poincaré; empty for none
-    std::string show;     ///< the names of the columns that it shows, with commas; if empty, all
+    std::string plot;         ///< an SVG file; empty for none
+    std::string section;      ///< of Poincaré; empty for none
+    std::string sensitivity;  ///< names with commas; empty for none
+    std::string show;         ///< the names of the columns that it shows, with commas; if empty, all
 };
 
 int run(const SimulateVerb& verb) {
@@ -30,6 +31,7 @@ int run(const SimulateVerb& verb) {
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);
+    wishes.sensitivity = names_of(verb.sensitivity);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     Scene scene = scene_of(verb.scene);
@@ -76,6 +78,9 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             add_show_option(verb, options.show, "--plot");
             verb.add_option("--poincare", options.section, say("section of Poincare, as in \"theta1 = 0\""))
                 .type_name(values::formula);
+            verb.add_option("--sensitivity", options.sensitivity,
+                            say("derivatives of the end by initial values, parameters"))
+                .type_name(values::names);
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));
             add_reactions_option(verb, options.wishes.reactions);

@@ -129,9 +129,15 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
 
 std::vector<std::string> names_of(const std::string& list) {
     std::vector<std::string> result;
-    std::istringstream names(list);
-    for (std::string name; std::getline(names, name, ',');)
-        if (!name.empty()) result.push_back(name);
+    if (list.empty()) return result;
+    std::istringstream names(list + ',');
+    for (std::string name; std::getline(names, name, ',');) {
+        if (name.empty())
+            throw ModelError(
+                say("'{}' has a comma beside which there is no name; expected names with one comma between two",
+                    list));
+        result.push_back(name);
+    }
     return result;
 }
 

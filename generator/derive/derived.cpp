@@ -13,6 +13,7 @@
 #include "formalism/recursive.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
+#include "lower/perturbed_tree.hpp"
 #include "model/sample_functions.hpp"
 #include "state/assemble.hpp"
 #include "state/diagnose.hpp"
@@ -150,6 +151,12 @@ Choice lowered(const Derived& d, bool fold) {
     if (d.by.empty() && d.equations.speeds_are_rates() && !d.equations.tree && !obstacle_to_recursive(d.mechanism))
         all.push_back(recursive(d.mechanism));
     return choose(d.mechanism, all, {.fold = fold});
+}
+
+std::optional<Differentiated> derivatives_of(const Derived& d, const Program& program, DerivativeWishes wishes,
+                                             bool fold) {
+    wishes.perturbed = perturbed_tree(program, d.mechanism, d.equations, fold);
+    return differentiated(program, wishes);
 }
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {

@@ -9,6 +9,7 @@
 
 #include "formalism/equations.hpp"
 #include "lower/choose.hpp"
+#include "program/differentiate.hpp"
 #include "state/prepared.hpp"
 
 namespace alembert {
@@ -55,6 +56,11 @@ void need_rates(const Derived& derived);
 /// Lowers the equations in the form that takes the fewest operations. If no formalism was requested, the
 /// recursions compete too. With `fold`, parameters become constants.
 Choice lowered(const Derived& derived, bool fold = false);
+
+/// The derivatives of a program that `lowered` gave with the same `fold`, by the tree of joints too where there is
+/// one (lower/perturbed_tree.hpp).
+std::optional<Differentiated> derivatives_of(const Derived& derived, const Program& program,
+                                             DerivativeWishes wishes = {}, bool fold = false);
 
 /// The reason, in terms of the scene, why the computation fails at a state: a combination of rates that has no
 /// inertia, constraints that lose rank, or a term of a body that is not finite. Nothing if none of these is the

@@ -7,6 +7,7 @@
 #include "lower/lower.hpp"
 #include "program/differentiate.hpp"
 #include "program/switches.hpp"
+#include "run/first_accelerations.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -77,11 +78,12 @@ UnitModel unit_model(Scene scene, const std::string& by) {
                 "gives those after\n",
                 model.scene.file));
     Program program = lowered(model).program;
-    add_impulses(program, model);
-    complete(model, std::move(program));
     Start start = start_of(model.mechanism);
     assemble(start, model.mechanism, lower_constraints(model.mechanism), {});
     model.start = state_of(start, model.mechanism, model.equations);
+    need_accelerations(model, program, model.start);
+    add_impulses(program, model);
+    complete(model, std::move(program));
     model.start.parameters.resize(model.program.parameters.size(), 1);
     model.duration = start.duration;
     model.tolerance = start.tolerance;

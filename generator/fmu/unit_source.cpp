@@ -102,8 +102,9 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     const auto rendered = [&file](std::string_view shape) {
         return kainjow::mustache::mustache{std::string(shape)}.render(file);
     };
-    return {scene + "_fmu.c",
-            rendered(template_fmu_model) + rendered(version == 2 ? template_fmi2 : template_fmi3)};
+    return {scene + "_fmu.c", rendered(template_fmu_model) + rendered(template_fmu_events) +
+                                  rendered(template_fmu_steps) +
+                                  rendered(version == 2 ? template_fmi2 : template_fmi3)};
 }
 
 }  // namespace alembert

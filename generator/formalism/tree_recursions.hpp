@@ -167,55 +167,71 @@ BodyTree<S> regrouped(BodyTree<S> tree) {
     return tree;
 }
 
-/// The force and moment that every body needs at w' = 0, about the link's origin. They follow from ω, ε and a,
-/// which are computed outwards.
+/// How a link moves: ω, ε and the acceleration of its origin.
+template <typename S>
+struct LinkMotion {
+    Triple<S> w = no_vector<S>(), e = no_vector<S>(), a = no_vector<S>();
+
+    /// Ω = ε̃ + ω̃ ω̃
+    Matrix<S> turning() const {
+        const S xx = w[0] * w[0], yy = w[1] * w[1], zz = w[2] * w[2];
+        const S xy = w[0] * w[1], yz = w[1] * w[2], zx = w[2] * w[0];
+        return {Triple<S>{-(yy + zz), xy - e[2], zx + e[1]}, Triple<S>{xy + e[2], -(zz + xx), yz - e[0]},
+                Triple<S>{zx - e[1], yz + e[0], -(xx + yy)}};
+    }
+};
+
+/// The motion of a link at w' = `drift`, from that of its parent and the parent's Ω.
 ///     ω_j = ω_i + w z,   ε_j = ε_i + ω_i × w z + w'₀ z,   a_j = a_i + Ω_i r;   sliding: a_j + 2 ω × w s + w'₀ s
+template <typename S>
+LinkMotion<S> motion_of(const BodyTree<S>& tree, const TreeLink<S>& link, const LinkMotion<S>* parent,
+                        const Matrix<S>* turning) {
+    LinkMotion<S> m{.a = -tree.gravity};
+    if (parent != nullptr)
+        m = {tree.from_parent(link, parent->w), tree.from_parent(link, parent->e),
+             parent->a + *turning * tree.arm(link)};
+    m.a = tree.from_parent(link, m.a);
+    if (link.slides) {
+        const Triple<S> s = tree.direction(link), ws = link.rate * s;
+        m.a = m.a + cross(m.w + m.w, ws) + link.drift * s;
+    } else if (link.absolute) {
+        m.w[2] = link.rate;
+        m.e[2] = link.drift;
+    } else {
+        m.e = {m.e[0] + m.w[1] * link.rate, m.e[1] - m.w[0] * link.rate, m.e[2] + link.drift};
+        m.w[2] = m.w[2] + link.rate;
+    }
+    return m;
+}
+
+/// The wrench that a body needs for its motion, about the link's origin.
+template <typename S>
+Wrench<S> needed_wrench(const RigidBody<S>& b, const Matrix<S>& O, const Triple<S>& acceleration) {
+    const Symmetric<S>& P = b.second;
+    Wrench<S> force{.n = cross(b.first, acceleration), .f = b.mass * acceleration + O * b.first};
+    for (int i = 0; i < 3; ++i) {  // X_kj − X_jk of X = Ω P, k and j after i
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        force.n[i] = force.n[i] + (O[k][j] * P[j] - O[j][k] * P[k] + (O[k][k] - O[j][j]) * P[place(j, k)]) +
+                     (O[k][i] * P[place(i, j)] - O[j][i] * P[place(i, k)]);
+    }
+    return force;
+}
+
+/// The motion of every link at w' = `drift`, computed outwards, and the wrench that its body needs.
 template <typename S>
 struct Bias {
     explicit Bias(const BodyTree<S>& tree) {
-        std::vector<Triple<S>> w, e, a;
         std::vector<Matrix<S>> turning;  // Ω
         for (const TreeLink<S>& link : tree.links) {
-            Triple<S> omega = no_vector<S>(), epsilon = no_vector<S>(), acceleration = -tree.gravity;
-            if (link.parent >= 0) {
-                omega = tree.from_parent(link, w[link.parent]);
-                epsilon = tree.from_parent(link, e[link.parent]);
-                acceleration = a[link.parent] + turning[link.parent] * tree.arm(link);
-            }
-            acceleration = tree.from_parent(link, acceleration);
-            if (link.slides) {
-                const Triple<S> s = tree.direction(link), ws = link.rate * s;
-                acceleration = acceleration + cross(omega + omega, ws) + link.drift * s;
-            } else if (link.absolute) {
-                omega[2] = link.rate;
-                epsilon[2] = link.drift;
-            } else {
-                epsilon = {epsilon[0] + omega[1] * link.rate, epsilon[1] - omega[0] * link.rate,
-                           epsilon[2] + link.drift};
-                omega[2] = omega[2] + link.rate;
-            }
-            const S xx = omega[0] * omega[0], yy = omega[1] * omega[1], zz = omega[2] * omega[2];
-            const S xy = omega[0] * omega[1], yz = omega[1] * omega[2], zx = omega[2] * omega[0];
-            turning.push_back({Triple<S>{-(yy + zz), xy - epsilon[2], zx + epsilon[1]},
-                               Triple<S>{xy + epsilon[2], -(zz + xx), yz - epsilon[0]},
-                               Triple<S>{zx - epsilon[1], yz + epsilon[0], -(xx + yy)}});
-            w.push_back(omega);
-            e.push_back(epsilon);
-            a.push_back(acceleration);
-            const RigidBody<S> b = tree.body(link);
-            const Matrix<S>& O = turning.back();
-            const Symmetric<S>& P = b.second;
-            Wrench<S> force{.n = cross(b.first, acceleration), .f = b.mass * acceleration + O * b.first};
-            for (int i = 0; i < 3; ++i) {  // X_kj − X_jk of X = Ω P, k and j after i
-                const int j = (i + 1) % 3, k = (i + 2) % 3;
-                force.n[i] = force.n[i] +
-                             (O[k][j] * P[j] - O[j][k] * P[k] + (O[k][k] - O[j][j]) * P[place(j, k)]) +
-                             (O[k][i] * P[place(i, j)] - O[j][i] * P[place(i, k)]);
-            }
-            wrenches.push_back(force);
+            const bool rooted = link.parent < 0;
+            motions.push_back(motion_of(tree, link, rooted ? nullptr : &motions[link.parent],
+                                        rooted ? nullptr : &turning[link.parent]));
+            turning.push_back(motions.back().turning());
+            wrenches.push_back(needed_wrench(tree.body(link), turning.back(), motions.back().a));
         }
     }
-    std::vector<Wrench<S>> wrenches;  ///< that each body itself needs
+    std::vector<LinkMotion<S>> motions;
+    std::vector<Wrench<S>> wrenches;
 };
 
 /// A wrench on the link, about its origin, converted to one on the parent.
@@ -233,18 +249,26 @@ S along_joint(const BodyTree<S>& tree, const TreeLink<S>& link, const Wrench<S>&
     return link.slides ? dot(tree.direction(link), w.f) : w.n[2];
 }
 
-/// The loads that the joints must apply for these wrenches on the bodies.
+/// The wrenches that the joints must apply for these wrenches on the bodies: each with those of the links that it
+/// carries.
 template <typename S>
-std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches) {
-    std::vector<S> loads(wrenches.size(), S(0));
+std::vector<Wrench<S>> carried_wrenches(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches) {
     for (int j = tree.size() - 1; j >= 0; --j) {
         const TreeLink<S>& link = tree.links[j];
-        loads[j] = along_joint(tree, link, wrenches[j]);
         if (link.parent < 0) continue;
         const Wrench<S> on = passed(tree, link, wrenches[j]);
         Wrench<S>& parent = wrenches[link.parent];
         parent = {parent.n + on.n, parent.f + on.f};
     }
+    return wrenches;
+}
+
+/// Their components along the joints.
+template <typename S>
+std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches) {
+    wrenches = carried_wrenches(tree, std::move(wrenches));
+    std::vector<S> loads;
+    for (int j = 0; j < tree.size(); ++j) loads.push_back(along_joint(tree, tree.links[j], wrenches[j]));
     return loads;
 }
 
@@ -377,14 +401,24 @@ Articulated<S> articulated(const RigidBody<S>& b) {
 /// U·acceleration)/D. A turning joint without a rotor passes Q and no inertia about its axis; these are set
 /// exactly, not computed.
 template <typename S>
-std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches,
-                                  const std::vector<S>& Q) {
+struct ArticulatedBodies {
+    ArticulatedBodies(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches, const std::vector<S>& Q);
+    std::vector<S> accelerations() const;
+
+    const BodyTree<S>& tree;
+    /// What is passed inwards, before the shift, I − U Uᵀ/D; of a link on the ground I itself.
+    std::vector<Articulated<S>> I = {};
+    std::vector<Wrench<S>> U;       ///< U/D
+    std::vector<S> inverses, free;  ///< 1/D, (Q − s·wrench)/D
+    std::vector<Triple<S>> arms;
+};
+
+template <typename S>
+ArticulatedBodies<S>::ArticulatedBodies(const BodyTree<S>& t, std::vector<Wrench<S>> wrenches,
+                                        const std::vector<S>& Q)
+    : tree(t), U(Q.size()), inverses(Q.size(), S(0)), free(Q.size(), S(0)), arms(Q.size(), no_vector<S>()) {
     const int n = tree.size();
-    std::vector<Articulated<S>> I;
     for (const TreeLink<S>& link : tree.links) I.push_back(articulated(tree.body(link)));
-    std::vector<Wrench<S>> U(n);   // U/D
-    std::vector<S> free(n, S(0));  // (Q − s·wrench)/D
-    std::vector<Triple<S>> arms(n, no_vector<S>());
     for (int j = n - 1; j >= 0; --j) {
         const TreeLink<S>& link = tree.links[j];
         Articulated<S>& own = I[j];
@@ -398,7 +432,7 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         }
         const S u = Q[j] - along_joint(tree, link, w);
         const S own_inertia = along_joint(tree, link, column);
-        const S inverse = S(1) / (link.has_rotor ? own_inertia + link.rotor : own_inertia);
+        const S inverse = inverses[j] = S(1) / (link.has_rotor ? own_inertia + link.rotor : own_inertia);
         free[j] = u * inverse;
         U[j] = {inverse * column.n, inverse * column.f};
         if (link.parent < 0) continue;
@@ -447,9 +481,13 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         parent.C = parent.C + C;
         for (int i = 0; i < 3; ++i) parent.B[i] = parent.B[i] + B[i];
     }
+}
+
+template <typename S>
+std::vector<S> ArticulatedBodies<S>::accelerations() const {
     std::vector<Triple<S>> e, a;
     std::vector<S> result;
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < tree.size(); ++j) {
         const TreeLink<S>& link = tree.links[j];
         Triple<S> epsilon = no_vector<S>(), acceleration = no_vector<S>();
         if (link.parent >= 0) {
@@ -473,6 +511,12 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         a.push_back(acceleration);
     }
     return result;
+}
+
+template <typename S>
+std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches,
+                                  const std::vector<S>& Q) {
+    return ArticulatedBodies<S>(tree, std::move(wrenches), Q).accelerations();
 }
 
 }  // namespace alembert

@@ -88,7 +88,8 @@ std::vector<FunctionProgram> frame_functions(const Scene& scene, const Mechanism
 }
 
 const std::vector<std::string>& functions_of_masses() {
-    static const std::vector<std::string> names{"com", "com_jacobian", "momentum"};
+    static const std::vector<std::string> names{"com", "com_jacobian", "momentum", "centroidal",
+                                                "centroidal_drift"};
     return names;
 }
 
@@ -113,6 +114,19 @@ FunctionProgram mass_function(const Scene& scene, const Mechanism& mechanism, co
             }
             return by_rows(columns);
         };
+    } else if (name == "centroidal") {
+        function.about = "A of the momentum A q': linear, then angular about the mass centre, along N.";
+        function.rows = 6;
+        function.columns = n;
+        function.values = [n](SceneMotion& motion) {
+            std::vector<std::vector<Symbolic>> columns;
+            for (int k = 0; k < n; ++k) columns.push_back(listed(motion.momentum_column(k)));
+            return by_rows(columns);
+        };
+    } else if (name == "centroidal_drift") {
+        function.about = "A' q': the derivative of the momentum by time at q'' = 0, along N.";
+        function.rows = 6;
+        function.values = [](SceneMotion& motion) { return listed(motion.momentum_drift()); };
     } else {
         function.about = "Linear momentum, and angular momentum about the mass centre, along N.";
         function.rows = 6;

@@ -19,6 +19,8 @@
 ///     com           the mass centre, 3 values
 ///     com_jacobian  3 × n
 ///     momentum      linear momentum, and angular momentum about the mass centre, 6 values
+///     centroidal    6 × n, A: momentum = A q' in scenes where nothing moves by itself
+///     centroidal_drift   A' q', 6 values
 
 #include "model/mechanism.hpp"
 #include "program/named_function.hpp"

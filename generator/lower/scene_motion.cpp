@@ -277,12 +277,19 @@ SymbolicVector SceneMotion::linear_momentum(const Rates& rates) {
     return result;
 }
 
-LinearAngular SceneMotion::momentum() {
+Symmetric<Symbolic> SceneMotion::inertia_along_N(const MassElement& mass) {
+    const std::array<ex, 6> inertia = central_inertia(mass, *m_.z);
+    Symmetric<Symbolic> I;
+    for (std::size_t k = 0; k < 6; ++k) I[k] = symbolic_(inertia[k]);
+    return congruent(rotation(spot_of(mass).frame), I);
+}
+
+LinearAngular SceneMotion::momentum(const Rates& rates) {
     const SymbolicVector centre = mass_centre();
     LinearAngular result;
     for (const MassElement& mass : m_.masses) {
         const Spot spot = spot_of(mass);
-        const SymbolicVector mv = symbolic_(mass.mass) * velocity(spot, symbolic_).linear;
+        const SymbolicVector mv = symbolic_(mass.mass) * velocity(spot, rates).linear;
         result.linear = result.linear + mv;
         result.angular = result.angular + cross(position(spot.point) - centre, mv);
         if (!mass.rotation) continue;
@@ -291,8 +298,29 @@ LinearAngular SceneMotion::momentum() {
         for (std::size_t k = 0; k < 6; ++k) I[k] = symbolic_(inertia[k]);
         const Vector3& w = places().attitude(spot.frame).w_NF_F;
         result.angular =
-            result.angular +
-            rotation(spot.frame) * (I * SymbolicVector{symbolic_(w[0]), symbolic_(w[1]), symbolic_(w[2])});
+            result.angular + rotation(spot.frame) * (I * SymbolicVector{rates(w[0]), rates(w[1]), rates(w[2])});
+    }
+    return result;
+}
+
+LinearAngular SceneMotion::momentum_column(int k) {
+    const LinearAngular moving = momentum(unit_rate(k)), resting = momentum(resting_);
+    return {moving.linear - resting.linear, moving.angular - resting.angular};
+}
+
+// With Σ m (r − c) × a about the moving mass centre: its velocity is parallel to the momentum and adds nothing.
+LinearAngular SceneMotion::momentum_drift() {
+    const SymbolicVector centre = mass_centre();
+    LinearAngular result;
+    for (const MassElement& mass : m_.masses) {
+        const Spot spot = spot_of(mass);
+        const SymbolicVector ma = symbolic_(mass.mass) * acceleration(spot, false).linear;
+        result.linear = result.linear + ma;
+        result.angular = result.angular + cross(position(spot.point) - centre, ma);
+        if (!mass.rotation) continue;
+        const Symmetric<Symbolic> I = inertia_along_N(mass);
+        const SymbolicVector w = angular(spot.frame, symbolic_);
+        result.angular = result.angular + I * angular_rate(spot.frame, unaccelerated_) + cross(w, I * w);
     }
     return result;
 }

@@ -94,7 +94,11 @@ public:
         return linear_momentum(unit_rate(k)) - linear_momentum(resting_);
     }
     /// Σ m v, and the angular momentum about the mass centre.
-    LinearAngular momentum();
+    LinearAngular momentum() { return momentum(symbolic_); }
+    /// The same at q'_k = 1 and all other rates 0, without what moves when all rates are zero.
+    LinearAngular momentum_column(int k);
+    /// The derivative of the momentum by time at q'' = 0.
+    LinearAngular momentum_drift();
 
 private:
     SymbolicVector along_N(int frame, const Vector3& components, const Rates& rates);
@@ -109,6 +113,9 @@ private:
     std::vector<int> way(int point);  ///< the points from O to this one, without O
     bool same(const SymbolicVector& a, const SymbolicVector& b);
     SymbolicVector linear_momentum(const Rates& rates);
+    LinearAngular momentum(const Rates& rates);
+    /// The tensor of inertia about the mass centre, along N.
+    Symmetric<Symbolic> inertia_along_N(const MassElement& mass);
     void gather_masses();
     /// The rates of Σ m ρ over the step to this point and all beyond it: with turns, and of shifts alone.
     SymbolicVector moment_rate(int point, const Rates& rates);

@@ -47,8 +47,13 @@ public:
     Substitution(Program& program, std::map<int, int> values) : p_(program), known_(std::move(values)) {}
 
     int operator()(int root) {
-        for (const int id : p_.needed(std::vector<int>{root})) rebuild(id);
-        return at(root);
+        std::vector<int> roots{root};
+        (*this)(roots);
+        return roots[0];
+    }
+    void operator()(std::vector<int>& roots) {
+        for (const int id : p_.needed(roots)) rebuild(id);
+        for (int& root : roots) root = at(root);
     }
 
 private:
@@ -147,6 +152,20 @@ public:
             result->emplace_back();
             for (const std::vector<int>& column : *derivative)
                 result->back().push_back(column[static_cast<std::size_t>(i)]);
+        }
+        return result;
+    }
+
+    /// The same from equations in their place, whose program is that of this object.
+    std::optional<Matrix> of_changes(const std::vector<int>& inputs, const Perturbed& equations) {
+        std::optional<Matrix> result = rates(inputs, EliminationOrder::least_fill);
+        if (!result) return result;
+        auto below = of(equations.outputs, inputs, EliminationOrder::least_fill, equations.stages);
+        if (!below) return std::nullopt;
+        Substitution at_motion(p_, equations.held);
+        for (std::vector<int>& row : *below) {
+            at_motion(row);
+            result->push_back(std::move(row));
         }
         return result;
     }
@@ -297,8 +316,8 @@ private:
     }
 
     std::optional<Matrix> of(const std::vector<int>& outputs, const std::vector<int>& inputs,
-                             EliminationOrder order) {
-        const auto parts = partials(p_, outputs, inputs, order, budget_);
+                             EliminationOrder order, const std::vector<int>& stages = {}) {
+        const auto parts = partials(p_, outputs, inputs, order, budget_, stages);
         if (!parts) return std::nullopt;
         Matrix result(outputs.size(), std::vector<int>(inputs.size(), p_.number(0)));
         for (const Partial& part : *parts)
@@ -326,8 +345,9 @@ private:
 
 struct Route {
     const char* name;
-    enum { by_energy, by_matrix, direct } through;
+    enum { by_energy, by_matrix, direct, of_changes } through;
     EliminationOrder order;
+    const Perturbed* equations = nullptr;  ///< for of_changes
 };
 
 constexpr Route routes[] = {
@@ -339,31 +359,47 @@ constexpr Route routes[] = {
     {"direct, least fill", Route::direct, EliminationOrder::least_fill},
     {"direct, forward", Route::direct, EliminationOrder::forward}};
 constexpr int few_operations =
-    2000;  ///< up to this size all routes are tried; for larger systems, only the two that are shortest there
+    2000;  ///< up to this size all routes are tried; for larger systems, only those that are shortest there
+
+/// The routes that are worth a trial.
+std::vector<Route> candidates(const Program& program, const DerivativeWishes& wishes) {
+    std::vector<Route> result;
+    const bool is_large = program.count(program.right_hand_side()).total() > few_operations;
+    for (const Perturbed& equations : wishes.perturbed)
+        result.push_back({"articulated bodies", Route::of_changes, EliminationOrder::least_fill, &equations});
+    if (program.nodes_of(Group::mass).empty() || (is_large && !result.empty())) return result;
+    for (const Route& route : routes)
+        if (!is_large || (route.through != Route::direct && route.order == EliminationOrder::reverse))
+            result.push_back(route);
+    return result;
+}
+
+Differentiation begun(const Route& route, const Program& program, const DerivativeWishes& wishes) {
+    return {route.equations != nullptr ? route.equations->program : program, wishes.budget};
+}
 
 std::optional<Matrix> jacobian_by(const Route& route, Differentiation& d, const std::vector<int>& inputs) {
-    return route.through == Route::direct ? d.direct(inputs, route.order)
-                                          : d.implicit(inputs, route.order, route.through == Route::by_energy);
+    return route.through == Route::of_changes ? d.of_changes(inputs, *route.equations)
+           : route.through == Route::direct   ? d.direct(inputs, route.order)
+                                              : d.implicit(inputs, route.order, route.through == Route::by_energy);
 }
 
 }  // namespace
 
 std::optional<Differentiated> differentiated(const Program& program, const DerivativeWishes& wishes) {
-    if (program.singular || program.nodes_of(Group::mass).empty()) return std::nullopt;
-    const Route* best = nullptr;
+    if (program.singular) return std::nullopt;
+    std::optional<Route> best;
     Operations fewest;
-    const bool is_large = program.count(program.right_hand_side()).total() > few_operations;
-    for (const Route& route : routes) {
-        if (is_large && (route.through == Route::direct || route.order != EliminationOrder::reverse)) continue;
-        Differentiation trial(program, wishes.budget);
+    for (const Route& route : candidates(program, wishes)) {
+        Differentiation trial = begun(route, program, wishes);
         const auto jacobian = jacobian_by(route, trial, trial.state());
         if (!jacobian) continue;
         const Operations cost = trial.cost(*jacobian);
-        if (best == nullptr || cost.total() < fewest.total()) best = &route, fewest = cost;
+        if (!best || cost.total() < fewest.total()) best = route, fewest = cost;
     }
-    if (best == nullptr) return std::nullopt;
+    if (!best) return std::nullopt;
 
-    Differentiation chosen(program, wishes.budget);
+    Differentiation chosen = begun(*best, program, wishes);
     const Matrix jacobian = *jacobian_by(*best, chosen, chosen.state());
     chosen.keep(Group::jacobian, "J", jacobian);
     if (wishes.parameters && !program.parameters.empty()) {

@@ -12,10 +12,11 @@
 ///     K ∂x/∂y = ∂R/∂y |_x,
 ///
 /// which is solved with the factors of K that the right-hand side has anyway. ∂R/∂y comes from partials.hpp. There
-/// are three routes. The first differentiates each entry of M in M u'. The second uses that the same vector is
+/// are four routes. The first differentiates each entry of M in M u'. The second uses that the same vector is
 /// ∂(∂T/∂u)/∂u · u', with as many operations as T, if numbers at random states confirm this. The third
 /// differentiates the solved accelerations directly. Each is tried with several orders of elimination, and the one
-/// with the fewest operations is taken.
+/// with the fewest operations is taken. A fourth route takes the equations that a caller has for it, those of a
+/// tree of joints (lower/perturbed_tree.hpp); for long programs it is the only one that is tried.
 ///
 /// If the right-hand side has a kink, the entries are those of the side on which the state lies. On the kink
 /// itself abs, min and max have the mean of both sides (0 for abs, 1/2 for each argument of min and max), sign has
@@ -30,13 +31,14 @@
 #include <optional>
 #include <string>
 
-#include "program/program.hpp"
+#include "program/perturbed.hpp"
 
 namespace alembert {
 
 struct DerivativeWishes {
     bool parameters = false, power = false, values = false;
-    long budget = 400000;  ///< the most products of labels in each order of elimination
+    long budget = 400000;                   ///< the most products of labels in each order of elimination
+    std::vector<Perturbed> perturbed = {};  ///< equations for a route of their own, if there are some
 };
 
 struct Differentiated {
@@ -46,7 +48,8 @@ struct Differentiated {
     std::string route;  ///< the shortest route: "implicit, least fill" and so on
 };
 
-/// Nothing if the program is singular or has no M, or if its derivatives would exceed the budget.
+/// Nothing if the program is singular, if it has neither M nor equations for the fourth route, or if its
+/// derivatives would exceed the budget.
 std::optional<Differentiated> differentiated(const Program& program, const DerivativeWishes& wishes = {});
 
 }  // namespace alembert

@@ -16,7 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <numeric>
 #include <utility>
 
 #include "program/order.hpp"
@@ -188,7 +188,9 @@ std::vector<Real> interpret_nodes(const Program& program, const State<Real>& sta
 /// The values of all nodes, including those that are not needed.
 template <typename Real>
 std::vector<Real> interpret(const Program& program, const State<Real>& state) {
-    return interpret_nodes(program, state, std::views::iota(0, program.size()));
+    std::vector<int> every(static_cast<std::size_t>(program.size()));
+    std::iota(every.begin(), every.end(), 0);
+    return interpret_nodes(program, state, every);
 }
 
 }  // namespace alembert

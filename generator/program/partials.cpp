@@ -123,9 +123,9 @@ public:
         first_output_ = size;
     }
 
-    bool eliminate(EliminationOrder order, long budget) {
+    bool eliminate(EliminationOrder order, long budget, std::span<const int> stages) {
         left_ = budget;
-        if (order == EliminationOrder::least_fill) return eliminate_least_fill();
+        if (order == EliminationOrder::least_fill) return eliminate_least_fill(stages);
         if (order == EliminationOrder::reverse) std::reverse(inner_.begin(), inner_.end());
         return std::all_of(inner_.begin(), inner_.end(), [&](int v) { return eliminate(v); });
     }
@@ -198,18 +198,23 @@ private:
         return true;
     }
 
-    bool eliminate_least_fill() {
-        using Entry = std::tuple<std::size_t, int>;  // pairs, vertex
+    bool eliminate_least_fill(std::span<const int> stages) {
+        using Entry = std::tuple<int, std::size_t, int>;  // stage, pairs, vertex
+        const auto stage = [&](int v) {
+            return static_cast<std::size_t>(v) < stages.size() ? stages[static_cast<std::size_t>(v)] : 0;
+        };
         const auto pairs = [&](int v) {
             return before_[static_cast<std::size_t>(v)].size() * after_[static_cast<std::size_t>(v)].size();
         };
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
         std::vector<std::size_t> known(before_.size(), 0);
         std::vector<char> is_left(before_.size(), 0);
-        const auto enter = [&](int v) { queue.emplace(known[static_cast<std::size_t>(v)] = pairs(v), v); };
+        const auto enter = [&](int v) {
+            queue.emplace(stage(v), known[static_cast<std::size_t>(v)] = pairs(v), v);
+        };
         for (const int v : inner_) is_left[static_cast<std::size_t>(v)] = 1, enter(v);
         while (!queue.empty()) {
-            const auto [count, v] = queue.top();
+            const auto [turn, count, v] = queue.top();
             queue.pop();
             if (!is_left[static_cast<std::size_t>(v)] || count != known[static_cast<std::size_t>(v)]) continue;
             std::vector<int> neighbours(after_[static_cast<std::size_t>(v)].begin(),
@@ -237,9 +242,10 @@ private:
 }  // namespace
 
 std::optional<std::vector<Partial>> partials(Program& program, std::span<const int> outputs,
-                                             std::span<const int> inputs, EliminationOrder order, long budget) {
+                                             std::span<const int> inputs, EliminationOrder order, long budget,
+                                             std::span<const int> stages) {
     Graph graph(program, outputs, inputs);
-    if (!graph.eliminate(order, budget)) return std::nullopt;
+    if (!graph.eliminate(order, budget, stages)) return std::nullopt;
     return graph.result();
 }
 

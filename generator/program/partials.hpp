@@ -35,9 +35,10 @@ struct Partial {
 };
 
 /// All partial derivatives that are not identically zero, row by row. Nothing if more than `budget` products of
-/// labels would be made.
+/// labels would be made. `stages`, one for each node of the program, or for the first of them: the nodes of a
+/// lower stage are eliminated before those of a higher one, by least fill.
 std::optional<std::vector<Partial>> partials(Program& program, std::span<const int> outputs,
                                              std::span<const int> inputs, EliminationOrder order,
-                                             long budget = 400000);
+                                             long budget = 400000, std::span<const int> stages = {});
 
 }  // namespace alembert

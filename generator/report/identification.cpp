@@ -48,8 +48,13 @@ Json as_json(const Identification& found) {
 
 std::string as_text(const Identification& found) {
     std::string page;
-    say_on(page, "Of {} inertial parameters, motion and loads show {} combinations:\n", found.parameters.size(),
-           found.base.size());
+    const std::size_t all = found.parameters.size(), shown = found.base.size();
+    if (all == 1 && shown == 1)
+        say_on(page, "Motion and loads show the only inertial parameter:\n");
+    else if (shown == 1)
+        say_on(page, "Of {} inertial parameters, motion and loads show one combination:\n", all);
+    else
+        say_on(page, "Of {} inertial parameters, motion and loads show {} combinations:\n", all, shown);
     for (const BaseParameter& base : found.base) put(page, "  {} = {:.10g}\n", sum_of(base), base.value);
     if (!found.without_influence.empty())
         say_on(page, "without influence: {}\n", fmt::join(found.without_influence, ", "));

@@ -229,6 +229,20 @@ void add_motion(std::string& page, const Run& run) {
     say_on(page, "closed: {}\n", closed.empty() ? say("no contact") : closed);
 }
 
+/// Adds ∂(end)/∂(start, parameters), a column for each name.
+void add_sensitivity(std::string& page, const Sensitivity& s) {
+    say_on(page, "\nderivatives of the state at t = {:.15g} ({})\n", s.time, shown_count(s.steps, to_say("step")));
+    const std::size_t width = column_for(s.of, 16);
+    put(page, "{:<{}}", "", width);
+    for (const std::string& name : s.by) put(page, "{:>24}", say("by {}", name));
+    page += '\n';
+    for (std::size_t i = 0; i < s.of.size(); ++i) {
+        put(page, "{:<{}}", s.of[i], width);
+        for (const double value : s.values[i]) put(page, "{:>24.16g}", value);
+        page += '\n';
+    }
+}
+
 /// Adds the accuracy of the numbers.
 void add_account(std::string& page, const Run& run) {
     if (run.estimate && run.estimate->value) {
@@ -278,6 +292,10 @@ Json as_json(const Run& run) {
     if (energy.jacobi_conserved) result["jacobi_drift"] = energy.jacobi_drift;
     result["constraint_drift"] = run.constraint_drift;
     if (run.estimate) result["error_estimate"] = json_of(*run.estimate, run.doubts);
+    if (run.sensitivity)
+        result["sensitivity"] = {{"time", run.sensitivity->time},   {"of", run.sensitivity->of},
+                                 {"by", run.sensitivity->by},       {"values", run.sensitivity->values},
+                                 {"steps", run.sensitivity->steps}, {"evaluations", run.sensitivity->evaluations}};
     if (!run.adjusted.empty()) result["adjusted"] = run.adjusted;
     result["events"] = Json::array();
     for (const EventRecord& event : run.motion.events) result["events"].push_back(json_of(event, run.mechanism));
@@ -303,6 +321,7 @@ std::string as_text(const Run& run, const Ink& ink) {
     if (const std::string warning = warning_of(run); !warning.empty())
         put(page, "{}{}{}\n", ink.bad, warning, ink.end);
     add_motion(page, run);
+    if (run.sensitivity) add_sensitivity(page, *run.sensitivity);
     add_account(page, run);
     return page;
 }

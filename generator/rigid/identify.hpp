@@ -47,7 +47,8 @@ struct Identification : Prepared {
     std::vector<std::string> without_influence = {};  ///< parameters that no motion shows
 };
 
-/// Throws ModelError for a scene with constraints, without coordinates, or that gives energies in place of masses.
+/// Throws ModelError for a scene without coordinates or that gives energies in place of masses, and for
+/// constraints without exact states (column_dependence.hpp).
 Identification identify(Scene scene);
 
 }  // namespace alembert

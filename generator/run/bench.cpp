@@ -19,12 +19,12 @@
 #include "program/switches.hpp"
 #include "run/bounces.hpp"
 #include "run/canonical.hpp"
+#include "run/first_accelerations.hpp"
 #include "run/loaded_modes.hpp"
 #include "run/method.hpp"
 #include "run/peers.hpp"
 #include "run/separable.hpp"
 #include "state/assemble.hpp"
-#include "state/diagnose.hpp"
 
 namespace alembert {
 
@@ -145,10 +145,7 @@ public:
         start_ = start_of(m);
         assemble(start_, m, lower_constraints(m), {});
         const State<double> first = state_of(start_, m, result_.equations);
-        if (program.singular || massless_combination(program, first))
-            throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", start_.t,
-                                       failure_at(result_, first).value_or(say("the mass matrix is singular"))),
-                                   start_.t, start_.q);
+        need_accelerations(result_, program, first);
         const double duration = wishes_.duration >= 0 ? wishes_.duration : start_.duration;
         if (has_jumps(m) || !m.frictions.empty() || switched(program)) return measure_jumps(program, first);
 

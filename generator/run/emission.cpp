@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <map>
 
+#include "emit/casadi.hpp"
 #include "emit/names.hpp"
 #include "emit/standalone.hpp"
 #include "language/say.hpp"
 #include "lower/frame_functions.hpp"
+#include "lower/operational_space.hpp"
 #include "lower/regressor.hpp"
 #include "lower/robot_functions.hpp"
+#include "run/wrenches.hpp"
 #include "scene/text.hpp"
 #include "state/assemble.hpp"
 
@@ -44,13 +47,14 @@ void check_functions(const Emission& e, const EmissionOptions& options) {
         throw ModelError(say(
             "functions such as 'inverse' take coordinates and their rates, and the equations are in other speeds; "
             "leave out the table [speeds], and choose no formalism that has speeds of its own"));
-    std::vector<std::string> known = RobotFunctions::of_dynamics();
-    known.insert(known.end(), functions_of_masses().begin(), functions_of_masses().end());
-    known.emplace_back("regressor");
+    const std::vector<std::string>& known = all_functions();
+    const std::vector<std::string>& of_frames = functions_of_operational_space();
     for (const std::string& name : options.functions)
         if (!holds(known, name))
             throw ModelError(say("there is no function {} to emit; expected some of: {}", in_quotes(name),
                                  fmt::join(known, ", ")));
+        else if (holds(of_frames, name) && options.frames.empty())
+            throw ModelError(say("'{}' is that of a frame; say of which with --frame", name));
 }
 
 /// Adds the functions to `program`, each once.
@@ -63,7 +67,7 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
     };
     const RobotFunctions dynamics(e.mechanism, options.fold);
     for (const std::string& name : options.functions) {
-        if (is_there(name)) continue;
+        if (is_there(name) || holds(functions_of_operational_space(), name)) continue;
         const FunctionProgram function =
             name == "regressor"                  ? regressor(e.scene, e.mechanism, options.fold).function
             : holds(functions_of_masses(), name) ? mass_function(e.scene, e.mechanism, name, options.fold)
@@ -81,18 +85,42 @@ std::vector<NamedFunction> named_functions(Program& program, const Emission& e, 
         if (!is_new) continue;
         for (const FunctionProgram& f : frame_functions(e.scene, e.mechanism, frame, prefix, options.fold))
             result.push_back(absorbed(program, f));
+        for (const std::string& name : functions_of_operational_space())
+            if (holds(options.functions, name))
+                result.push_back(absorbed(
+                    program, operational_function(e.scene, e.mechanism, frame, prefix, name, options.fold)));
     }
     return result;
 }
 
 }  // namespace
 
+const std::vector<std::string>& all_functions() {
+    static const std::vector<std::string> known = [] {
+        std::vector<std::string> names = RobotFunctions::of_dynamics();
+        names.insert(names.end(), functions_of_masses().begin(), functions_of_masses().end());
+        names.emplace_back("regressor");
+        names.insert(names.end(), functions_of_operational_space().begin(),
+                     functions_of_operational_space().end());
+        return names;
+    }();
+    return known;
+}
+
+std::vector<SourceFile> files_of(const Emission& e) {
+    std::vector<SourceFile> files = {{e.source.file, e.source.text}};
+    for (const std::optional<SourceFile>* other : {&e.source.header, &e.main, &e.casadi})
+        if (*other) files.push_back(**other);
+    return files;
+}
+
 Emission emission(Scene scene, const EmissionOptions& options) {
+    for (const std::string& place : options.wrenches) with_wrench(scene, place, ascii_identifier(place));
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
     e.choice = lowered(e, options.fold);
-    if (options.jacobian) {
-        e.derivatives = differentiated(e.choice.program, {.parameters = true, .power = true});
-        if (!e.derivatives)
+    if (options.jacobian || options.casadi) {
+        e.derivatives = derivatives_of(e, e.choice.program, {.parameters = true, .power = true}, options.fold);
+        if (!e.derivatives && options.jacobian)
             throw ModelError(say(
                 "the derivatives of the right-hand side are too long to be written out; leave the Jacobian out"));
     }
@@ -100,6 +128,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     e.functions = named_functions(program, e, options);
     e.source = emit(program, {.batch = options.batch, .language = options.language, .functions = e.functions});
     if (options.standalone) e.main = main_program(e, program, options.language);
+    if (options.casadi)
+        e.casadi = casadi_functions(program, {.language = options.language, .functions = e.functions});
     return e;
 }
 

@@ -25,7 +25,10 @@ struct EmissionOptions {
     std::vector<std::string> functions = {};
     /// Points, bodies, or points with the axes of a frame, "P@F": their functions of frame_functions.hpp.
     std::vector<std::string> frames = {};
+    /// Points or bodies with external wrenches as parameters (wrenches.hpp), "P" or "P@F".
+    std::vector<std::string> wrenches = {};
     bool standalone = false;  ///< whether to add a main program that integrates and prints
+    bool casadi = false;  ///< in C: whether to add functions for CasADi, and derivatives if they are not too long
 };
 
 struct Emission : Derived {
@@ -33,12 +36,20 @@ struct Emission : Derived {
     std::optional<Differentiated> derivatives = {};
     std::vector<NamedFunction> functions = {};
     Source source = {};
-    std::optional<SourceFile> main = {};  ///< set if it was requested
+    std::optional<SourceFile> main = {};    ///< set if it was requested
+    std::optional<SourceFile> casadi = {};  ///< likewise
 };
+
+/// All files, the equations first.
+std::vector<SourceFile> files_of(const Emission& emission);
+
+/// The names of all functions that EmissionOptions::functions may have.
+const std::vector<std::string>& all_functions();
 
 /// Throws what `derived` throws; ModelError for a main program of a scene with contacts, dry friction or events
 /// that change the motion, which it would ignore; for a singular system; for derivatives that are too long to be
-/// written out; for functions whose name is unknown, and for functions where the state is not (q, q').
+/// written out; for functions whose name is unknown, for functions where the state is not (q, q'), and for
+/// functions for CasADi in C++.
 Emission emission(Scene scene, const EmissionOptions& options = {});
 
 }  // namespace alembert

@@ -12,10 +12,10 @@
 #include "model/friction.hpp"
 #include "program/differentiate.hpp"
 #include "run/canonical.hpp"
+#include "run/first_accelerations.hpp"
 #include "run/held_state.hpp"
 #include "run/sides.hpp"
 #include "run/sundials_methods.hpp"
-#include "state/diagnose.hpp"
 
 namespace alembert {
 
@@ -233,12 +233,7 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
                                closed.empty() ? derived_.by : "routh");
     seconds_.derive += lap();
     Program program = free_ && is_own ? *std::move(free_) : lowered(derived).program;
-    State<double> first = first_;
-    first.parameters = with_held_parameters(first.parameters, program);
-    if (program.singular || (loaded_.size() == 1 && massless_combination(program, first)))
-        throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", start_.t,
-                                   failure_at(derived, first).value_or(say("the mass matrix is singular"))),
-                               start_.t, start_.q);
+    if (program.singular || loaded_.size() == 1) need_accelerations(derived, program, first_);
     std::optional<Switched> jumps;
     if (method_.sundials.empty() && !needs_canonical(method_.method)) jumps = switched(program);
     const Program& smooth = jumps ? jumps->program : program;

@@ -24,6 +24,10 @@ struct RunOptions {
     /// Columns that the table of rows must have. A missing one is reported before the motion is integrated.
     std::vector<std::string> columns = {};
 
+    /// Coordinates, rates, speeds and parameters by whose values at the start the end is differentiated
+    /// (sensitivity.hpp).
+    std::vector<std::string> sensitivity = {};
+
     /// Called now and then with the current task and the part of it that is done, from 0 to 1.
     std::function<void(std::string_view what, double part)> progress = {};
 };

@@ -19,14 +19,6 @@ namespace alembert {
 
 namespace {
 
-/// The program in the same folder as this one.
-std::filesystem::path peers_program() {
-    std::error_code failed;
-    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
-    const std::filesystem::path beside = self.parent_path() / "alembert-peers";
-    return !failed && std::filesystem::exists(beside) ? beside : std::filesystem::path();
-}
-
 void write_list(std::ofstream& out, const std::vector<double>& list) {
     out << list.size();
     for (const double x : list) out << fmt::format(" {:.17g}", x);
@@ -47,7 +39,7 @@ std::filesystem::path new_file() {
 }  // namespace
 
 Peers measure_peers(const PeerRequest& request, const std::function<double(const std::vector<double>&)>& judge) {
-    const std::filesystem::path program = peers_program();
+    const std::filesystem::path program = beside_this_program("alembert-peers");
     if (program.empty())
         return {.runs = {},
                 .missing = say(

@@ -66,6 +66,7 @@ public:
         start_ = start_of(run_.mechanism);
         run_.adjusted = assemble(start_, run_.mechanism, lower_constraints(run_.mechanism), {});
         first_ = state_of(start_, run_.mechanism, run_.equations);
+        if (!wishes_.sensitivity.empty()) sensitivities_.emplace(run_, program, start_, wishes_.sensitivity);
         choice_ = method_for(wishes_, run_, program, start_);
         options_ = options_of(wishes_, choice_, start_);
         prepare_contacts();
@@ -108,6 +109,8 @@ public:
         watch.is_over = true;
         settle_account(watch);
         if (wishes_.estimate && !run_.motion.failure && options_.duration > 0) estimate(modes, free, watch);
+        if (sensitivities_ && !run_.motion.failure)
+            run_.sensitivity = sensitivities_->at(run_.motion.final_time(), options_.tolerance, wishes_.budget);
         describe(modes, free);
     }
 
@@ -297,6 +300,7 @@ private:
     std::optional<JointReactions> reactions_;
     std::optional<AnglesOfFrame> angles_;
     std::optional<ChartRun> charts_;
+    std::optional<Sensitivities> sensitivities_;
 };
 
 }  // namespace

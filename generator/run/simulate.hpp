@@ -19,6 +19,7 @@
 #include "run/estimate.hpp"
 #include "run/options.hpp"
 #include "run/rows.hpp"
+#include "run/sensitivity.hpp"
 
 namespace alembert {
 
@@ -76,6 +77,7 @@ struct Run : Derived {
     std::vector<std::string> doubts = {};  ///< reasons why the result should not be trusted
     /// The values that were moved at the start so that the constraints hold.
     std::vector<std::string> adjusted = {};
+    std::optional<Sensitivity> sensitivity = {};  ///< if it was requested, and the motion did not fail
     MotionTable rows = {};
     Timings timings = {};
     /// The reason why the motion ended early, in terms of the scene. The results until then are kept.

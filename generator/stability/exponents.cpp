@@ -29,7 +29,7 @@ constexpr double forgotten = 0.1;  // of the motion, before estimates begin
 constexpr int most_intervals = 20000, least_intervals = 400, most_rows = 20;
 
 Rhs emitted(const Derived& d, const Start& start) {
-    auto program = differentiated(lowered(d).program);
+    auto program = derivatives_of(d, lowered(d).program);
     if (!program)
         throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
     const Source source = emit(program->program);

@@ -57,7 +57,7 @@ Program differentiated_program(const Derived& d) {
         throw ModelError(
             say("multipliers are computed for scenes without contacts; put a constraint in place of a "
                 "contact that stays closed"));
-    auto program = differentiated(lowered(d).program);
+    auto program = derivatives_of(d, lowered(d).program);
     if (!program)
         throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
     return std::move(program->program);

@@ -16,7 +16,7 @@
 
 #include "derive/derived.hpp"
 #include "linear/tangent.hpp"
-#include "stability/variation.hpp"
+#include "program/variation.hpp"
 
 namespace alembert {
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "alembert/error.hpp"
+#include "alembert/own_file.hpp"
 
 namespace alembert {
 
@@ -25,6 +26,12 @@ ObjectFile::ObjectFile(const std::filesystem::path& path) {
 
 void* ObjectFile::find(const char* name) const {
     return dlsym(handle_.get(), name);
+}
+
+std::filesystem::path own_file() {
+    Dl_info found;
+    if (dladdr(reinterpret_cast<const void*>(&own_file), &found) == 0 || found.dli_fname == nullptr) return {};
+    return found.dli_fname;
 }
 
 Module load(const std::filesystem::path& object) {

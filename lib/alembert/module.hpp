@@ -39,6 +39,8 @@ public:
     const alembert_projection_table* projection() const { return projection_; }
     /// Null if the file was emitted without `--batch`.
     const alembert_pack_table* pack() const { return pack_; }
+    /// Null if the file was emitted without functions of their own.
+    const alembert_function_table* functions() const { return functions_; }
     /// A function of that name (`emit --functions`); null if the file has none.
     const alembert_named_function* function(const std::string& name) const;
 

@@ -19,6 +19,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/leftover.hpp"
+#include "alembert/own_file.hpp"
 
 namespace alembert {
 namespace {
@@ -138,9 +139,13 @@ std::filesystem::path find_program(const std::string& program) {
 
 std::filesystem::path beside_this_program(const std::string& name) {
     std::error_code failed;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
-    const std::filesystem::path beside = program.parent_path() / name;
-    return failed || !std::filesystem::exists(beside, failed) ? std::filesystem::path() : beside;
+    const std::filesystem::path homes[] = {std::filesystem::read_symlink("/proc/self/exe", failed), own_file()};
+    for (const std::filesystem::path& home : homes) {
+        const std::filesystem::path beside = home.parent_path() / name;
+        if (!home.empty() && std::filesystem::exists(beside, failed))
+            return std::filesystem::absolute(beside, failed);
+    }
+    return {};
 }
 
 }  // namespace alembert

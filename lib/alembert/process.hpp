@@ -27,7 +27,8 @@ Finished run(const std::vector<std::string>& argv);
 /// $PATH. Empty if there is none.
 std::filesystem::path find_program(const std::string& program);
 
-/// A file of that name in the folder of this program; empty if there is none.
+/// A file of that name in the folder of this program, or of the library that has this function (the module of
+/// Python); empty if there is none.
 std::filesystem::path beside_this_program(const std::string& name);
 
 }  // namespace alembert

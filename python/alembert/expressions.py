@@ -4,7 +4,8 @@
     to_sympy("m*l^2*theta'' + m*g*l*sin(theta) = 0")     # sympy.Eq; theta is Function("theta")(t)
     from_sympy(equation)                                  # "m*l^2*theta'' + … = 0", a valid claim
 
-A name that has a prime somewhere in the text is a function of t; `functions` names others that are.
+A name that has a prime somewhere in the text is a function of t; `functions` names others that are. A function that
+the scene leaves open, V(r), is an undefined function of SymPy, and diff(V(r), r) its derivative.
 """
 
 import re
@@ -82,13 +83,8 @@ class _Parser:
         self.position += 1
         if number:
             return self.sympy.Rational(number)
-        if self.symbol() == "(" and name in _FUNCTIONS and not primes:
-            self.expect("(")
-            arguments = [self.sum()]
-            while self.take(","):
-                arguments.append(self.sum())
-            self.expect(")")
-            return getattr(self.sympy, _RENAMED.get(name, name))(*arguments)
+        if self.symbol() == "(" and not primes:
+            return self.call(name)
         if name == "pi":
             return self.sympy.pi
         if name == "t":
@@ -97,6 +93,20 @@ class _Parser:
             value = self.sympy.Function(name)(self.t)
             return value.diff(self.t, len(primes)) if primes else value
         return self.sympy.Symbol(name)
+
+
+    def call(self, name):
+        """A known function, a partial derivative diff(f(x), x), or a function that the scene leaves open."""
+        self.expect("(")
+        arguments = [self.sum()]
+        while self.take(","):
+            arguments.append(self.sum())
+        self.expect(")")
+        if name == "diff":
+            return self.sympy.Derivative(*arguments)
+        if name in _FUNCTIONS:
+            return getattr(self.sympy, _RENAMED.get(name, name))(*arguments)
+        return self.sympy.Function(name)(*arguments)
 
 
 def to_sympy(text, functions=()):
@@ -129,10 +139,14 @@ def from_sympy(value):
         _print_LatticeOp = _print_Function
 
         def _print_Derivative(self, e):
-            (variable, order), = e.variable_count
-            if variable != sympy.Symbol("t"):
-                raise ValueError(f"{e} is not a derivative by t")
-            return f"{self._print(e.expr)}" + "'" * int(order)
+            text = self._print(e.expr)
+            for variable, order in e.variable_count:
+                if variable == sympy.Symbol("t") and re.fullmatch(r"\w+'*", text):
+                    text += "'" * int(order)
+                    continue
+                for _ in range(int(order)):
+                    text = f"diff({text}, {self._print(variable)})"
+            return text
 
         def _print_Pow(self, e, rational=False):
             return super()._print_Pow(e, rational).replace("**", "^")

@@ -7,6 +7,8 @@
 ///     std::vector<Quad> y = …;                      // x, then the columns of Φ
 ///     f(t, y.data(), rate.data(), columns);
 ///
+/// A column c of Φ that is the derivative by a parameter p obeys Φ_c' = ∂f/∂x Φ_c + ∂f/∂p instead.
+///
 /// x are the coordinates, then the speeds. With constraints f keeps them, and Φ keeps its columns in the tangent
 /// space if they begin there.
 
@@ -18,12 +20,16 @@ namespace alembert {
 template <typename Real>
 class Variation {
 public:
-    Variation(const Program& program, const std::vector<Real>& parameters)
-        : n_(program.coordinates.size()),
+    /// `by`: for each of the first columns the position of its parameter, or −1 if it is not one's. The program
+    /// then has derivatives with respect to parameters.
+    Variation(const Program& program, const std::vector<Real>& parameters, std::vector<int> by = {})
+        : by_(std::move(by)),
+          parameters_(program.parameters.size()),
+          n_(program.coordinates.size()),
           rates_(program.nodes_of(Group::rate).size()),
           size_(n_ + program.nodes_of(Group::acceleration).size()),
-          tape_(program, wanted(program), parameters),
-          out_(wanted(program).size()) {}
+          tape_(program, wanted(program, !by_.empty()), parameters),
+          out_(tape_.size()) {}
 
     std::size_t size() const { return size_; }
 
@@ -31,10 +37,11 @@ public:
         const std::size_t N = size_;
         tape_(t, y, y + n_, out_.data());
         for (std::size_t i = 0; i < N; ++i) rate[i] = rates_ > 0 ? out_[i] : i < n_ ? y[n_ + i] : out_[i - n_];
-        const Real* const J = out_.data() + (rates_ > 0 ? N : N - n_);
+        const Real *const J = out_.data() + (rates_ > 0 ? N : N - n_), *const P = J + N * N;
         for (std::size_t c = 0; c < columns; ++c)
             for (std::size_t i = 0; i < N; ++i) {
-                Real sum = 0;
+                Real sum =
+                    c < by_.size() && by_[c] >= 0 ? P[i * parameters_ + static_cast<std::size_t>(by_[c])] : 0;
                 for (std::size_t k = 0; k < N; ++k) sum += J[i * N + k] * y[N + c * N + k];
                 rate[N + c * N + i] = sum;
             }
@@ -47,16 +54,18 @@ public:
     }
 
 private:
-    static std::vector<int> wanted(const Program& program) {
+    static std::vector<int> wanted(const Program& program, bool by_parameters) {
         std::vector<int> result;
-        for (const Group group : {Group::rate, Group::acceleration, Group::jacobian}) {
+        for (const Group group : {Group::rate, Group::acceleration, Group::jacobian, Group::parameter_jacobian}) {
+            if (group == Group::parameter_jacobian && !by_parameters) continue;
             const std::vector<int> nodes = program.nodes_of(group);
             result.insert(result.end(), nodes.begin(), nodes.end());
         }
         return result;
     }
 
-    std::size_t n_, rates_, size_;
+    std::vector<int> by_;
+    std::size_t parameters_, n_, rates_, size_;
     mutable Tape<Real> tape_;
     mutable std::vector<Real> out_;
 };

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Motions as arrays: one motion, or many."""
+
+import json as _json
+import os as _os
+
+from ._results import Figure, Result, warn, write
+
+
+class Run(Result):
+    """A motion: the table of rows as NumPy arrays that are views, not copies.
+
+    `run.t`, `run["theta1"]`, `run["theta1'"]`, `run.table` (rows × columns), `run.columns`. `run(t)` is the state at any
+    time, or at each of an array of times. The attributes are those of the JSON object of `simulate`: `final`, `events`,
+    `contacts`, `error_estimate` and so on. A motion that broke off has `failure` (a text); what was computed until then
+    is there.
+    """
+
+    def __init__(self, run):
+        json, said = run.json()
+        warn(said)
+        super().__init__(_json.loads(json))
+        self._run = run
+        self.columns = run.columns
+        self.table = run.table
+        self.failure = run.failure
+
+    @property
+    def t(self):
+        """Times of the rows, in seconds."""
+        return self["t"]
+
+    def __getitem__(self, column):
+        try:
+            return self.table[:, self.columns.index(column)]
+        except ValueError:
+            raise KeyError(f"no column '{column}'; there are {', '.join(self.columns)}") from None
+
+    def __call__(self, t):
+        """The state at the time t between the first row and the last: coordinates, then rates (or speeds), as
+        `System.rhs` takes them. For an array of times an array with one more axis. Where rates jump it is the state
+        after the jump. The error is that of the rows: the motion is integrated from the row before t."""
+        return self._run.states_at(t)
+
+    def plot(self, *columns):
+        """A Figure of these columns over time; of all coordinates if none is named."""
+        return Figure(self._run.plot(list(columns)))
+
+    def save(self, path):
+        """Writes the table as CSV, or as NAME.npz (NumPy) or NAME.h5 (HDF5), as `simulate -o` does."""
+        write(path, self._run.file(_os.fspath(path)))
+
+    def _repr_html_(self):
+        return super()._repr_html_() + self.plot().svg
+
+    def __repr__(self):
+        return self._run.text()
+
+
+class Swept(Result):
+    """Many motions: `swept["theta1"]` is an array of the ends, in the shape of the grid; so are the varied quantities,
+    "t" and "energy_drift" (or "work_balance"). `status` is "done", "stopped" or why a motion failed, one after the
+    other."""
+
+    def __init__(self, json, text, columns, table, shape):
+        super().__init__(json, text)
+        self.columns = columns
+        self.table = table
+        self._shape = shape
+
+    def __getitem__(self, column):
+        try:
+            return self.table[:, self.columns.index(column)].reshape(self._shape)
+        except ValueError:
+            raise KeyError(f"no column '{column}'; there are {', '.join(self.columns)}") from None

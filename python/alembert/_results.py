@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What verbs give: JSON objects with attributes, claims with verdicts, derivations, pictures."""
+
+import html as _html
+import json as _json
+import os as _os
+import warnings as _warnings
+
+from . import _alembert
+from .expressions import to_sympy
+
+
+class SceneWarning(UserWarning):
+    """Something about a scene that is no error: redundant constraints, an inertia that no body can have."""
+
+
+def warn(said):
+    """Warnings of the program become warnings of the line that called the package."""
+    for one in said:
+        _warnings.warn(one.strip(), SceneWarning, stacklevel=4)
+
+
+def write(path, content):
+    """Writes bytes or text to the file of that name."""
+    with open(_os.fspath(path), "wb") as file:
+        file.write(content if isinstance(content, bytes) else content.encode())
+
+
+def values_at(at):
+    """`{"theta": 0.3, "m": "pi/2"}` as the NAME=VALUE of the command line."""
+    return [f"{name}={value if isinstance(value, str) else repr(float(value))}" for name, value in (at or {}).items()]
+
+
+def axis(over):
+    """(name, from, to) or (name, from, to, count) as the program takes it."""
+    try:
+        name, first, last, *count = over
+        if not isinstance(name, str) or len(count) > 1:
+            raise ValueError
+        return [name, float(first), float(last), *map(int, count)]
+    except (TypeError, ValueError):
+        raise ValueError(f"{over!r}: expected (name, from, to) or (name, from, to, count)") from None
+
+
+def run_numbers(**given):
+    """Options of a motion as numbers; what is None is the scene's, which the program writes as -1."""
+    for name, value in given.items():
+        if value is not None and not (value >= 0 if name == "duration" else value > 0):
+            least = "of zero or more" if name == "duration" else "above zero"
+            raise ValueError(f"{name}={value}: expected a number {least}")
+    return {name: -1.0 if value is None else float(value) for name, value in given.items()}
+
+
+class Figure:
+    """A picture. Notebooks show it; `svg` is its text, `save("file.svg")` writes it."""
+
+    def __init__(self, svg):
+        self.svg = svg
+
+    def _repr_svg_(self):
+        return self.svg
+
+    def save(self, path):
+        """Writes the picture to an SVG file."""
+        write(path, self.svg)
+
+    def __repr__(self):
+        return f"Figure({len(self.svg)} characters of SVG)"
+
+
+class Result:
+    """A JSON object of the program: its fields are attributes, `.json` is the whole, printing shows the page that the
+    command prints."""
+
+    def __init__(self, json, text="", files=None):
+        self.json = json
+        self._text = text
+        self._files = files or {}
+
+    def __getattr__(self, name):
+        json = self.__dict__.get("json", {})
+        if name in json:
+            return json[name]
+        raise AttributeError(f"there is no '{name}' here; there are {', '.join(json)}")
+
+    def __dir__(self):
+        return [*super().__dir__(), *self.json]
+
+    def __repr__(self):
+        return self._text.rstrip("\n") or f"{type(self).__name__}({', '.join(self.json)})"
+
+    def _repr_html_(self):
+        return f"<pre>{_html.escape(repr(self))}</pre>"
+
+
+class Checked(Result):
+    """Claims and their verdicts."""
+
+    @property
+    def verdicts(self):
+        """"proved", "refuted", "undecided" or "vacuous", in the order of the claims."""
+        return [claim["verdict"] for claim in self.json["claims"]]
+
+    def __bool__(self):
+        """True if every claim is proved."""
+        return all(verdict == "proved" for verdict in self.verdicts)
+
+
+class Drawn(Result):
+    """A result with a picture and a table: branches of equilibria, a chart of stability, a root locus, a benchmark."""
+
+    @property
+    def figure(self):
+        """The picture, a Figure."""
+        if "svg" not in self._files:
+            raise AttributeError("there is no picture of this")
+        return Figure(self._files["svg"].decode())
+
+    @property
+    def csv(self):
+        """The table as text, as `-o FILE.csv` writes it."""
+        return self._files["csv"].decode()
+
+    def _repr_html_(self):
+        return self.figure.svg if "svg" in self._files else super()._repr_html_()
+
+
+class Sources(Result):
+    """Emitted files: `sources` has their texts by name."""
+
+    @property
+    def sources(self):
+        return {name: text.decode() for name, text in self._files.items()}
+
+
+class Equation:
+    """One equation of motion: `text` (a valid claim), `latex`, `sympy()`."""
+
+    def __init__(self, text, latex):
+        self.text = text
+        self.latex = latex
+
+    def _repr_latex_(self):
+        return f"$\\displaystyle {self.latex}$"
+
+    def __repr__(self):
+        return self.text
+
+    def sympy(self):
+        """The same as sympy.Eq; coordinates are functions of the symbol t."""
+        return to_sympy(self.text)
+
+
+class Derivation(Result):
+    """Equations of motion by one formalism. A notebook shows them as formulas."""
+
+    def __init__(self, derived):
+        json, said = derived.json()
+        warn(said)
+        super().__init__(_json.loads(json))
+        self._derived = derived
+
+    @property
+    def equations(self):
+        """A list of Equation."""
+        return [Equation(one["text"], one["latex"]) for one in self.json["equations"]]
+
+    def page(self, format="text", steps=False):
+        """The whole derivation as text, latex or mathml; with `steps` all that leads to the equations."""
+        return self._derived.page(format, steps)
+
+    def _repr_latex_(self):
+        lines = " \\\\\n".join(one.latex for one in self.equations)
+        return f"$$\\begin{{gathered}}\n{lines}\n\\end{{gathered}}$$"
+
+    def _repr_html_(self):
+        return self.page("mathml")
+
+    def __repr__(self):
+        return self.page("text")
+
+
+def ask(verb, text, file, options, kind=Result):
+    """The value of a verb (verbs.hpp); `options` that are None are left out."""
+    given = {name: value for name, value in options.items() if value is not None}
+    json, page, said, files, _, _ = _alembert.ask(verb, text, file, _json.dumps(given, allow_nan=False))
+    warn(said)
+    return kind(_json.loads(json), page, files)

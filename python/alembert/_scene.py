@@ -1,0 +1,229 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A scene and its verbs."""
+
+import itertools as _itertools
+import json as _json
+import os as _os
+from collections.abc import Mapping as _Mapping
+
+from . import _alembert
+from ._motion import Run, Swept
+from ._results import (
+    Checked, Derivation, Drawn, Figure, Result, Sources, ask, axis, run_numbers, values_at, warn, write)  # yapf: disable
+from ._system import Robot, System
+from ._toml import to_toml
+
+#: What `Scene.robot` takes if nothing is named.
+ROBOT_FUNCTIONS = ("inverse", "mass", "bias", "gravity", "loads", "mass_inverse", "com", "com_jacobian", "momentum")
+
+
+class Scene:
+    """The description of a mechanical system, from a file, a text, or a dictionary of the same tables.
+
+        Scene("pendulum.toml")
+        Scene(text='[coordinates]\\ntheta = 0.3\\n…')
+        Scene({"coordinates": {"theta": 0.3}, "energy": {"kinetic": "…", "potential": "…"}})
+
+    A verb of the command line is a method with the same name and options. Where it takes `at`, that is a dictionary of
+    values which replace the scene's: numbers or expressions, {"theta": "pi/2", "theta'": 0}.
+    """
+
+    def __init__(self, source=None, *, text=None, name=None):
+        if (source is None) == (text is None):
+            raise TypeError("give a file or a dictionary, or text=…")
+        if isinstance(source, _Mapping):
+            text = to_toml(source)
+        elif source is not None:
+            name = name or _os.fspath(source)
+            with open(source, encoding="utf-8", newline="") as file:
+                text = file.read()
+        self.text = text
+        self.name = name or "scene.toml"
+
+    @classmethod
+    def from_robot(cls, path, *, loops=None, floating=False, quaternion=False, drives=False, friction=False, stops=False,
+                   right_angles=False):
+        """The scene of a robot description in URDF (or another form that `import` reads); `loops` is a file of joints
+        that close loops. `.imported` says what became of its parts."""
+        options = {"floating": floating, "quaternion": quaternion, "drives": drives, "friction": friction,
+                   "stops": stops, "right_angles": right_angles,
+                   "loops": None if loops is None else _os.fspath(loops)}  # yapf: disable
+        found = ask("import", "", _os.fspath(path), options)
+        stem = _os.path.splitext(_os.path.basename(_os.fspath(path)))[0]
+        scene = cls(text=found._files["scene"].decode(), name=f"{stem}.toml")
+        scene.imported = found
+        return scene
+
+    def _ask(self, verb, kind=Result, **options):
+        return ask(verb, self.text, self.name, options, kind)
+
+    # Derivation and proof
+
+    def derive(self, by="", *, reactions=False):
+        """The equations of motion, by the formalism named, or by the one that a teacher would choose."""
+        return Derivation(_alembert.derive(self.text, self.name, by, reactions))
+
+    def draw(self):
+        """The figure of the scene at its initial state."""
+        return self._ask("draw", lambda json, text, files: Figure(files["svg"].decode()))
+
+    def check(self, claims=None, *, by=""):
+        """Claims held against the derived equations: a text with an equation a line, or the scene's own."""
+        if claims is not None and not isinstance(claims, str):
+            claims = "\n".join(claims)
+        return self._ask("check", Checked, claims=claims, by=by)
+
+    def audit(self):
+        """Constraints: kinds, ranks, which are redundant or integrable."""
+        return self._ask("audit")
+
+    def agree(self):
+        """Derives by every formalism that applies and proves them equal."""
+        return self._ask("agree")
+
+    # One state
+
+    def eval(self, at=None, *, by="", reactions=False):
+        """One evaluation, at the initial state or with `at={"theta": 0.3, "theta'": 1}`; needs no compiler."""
+        return self._ask("eval", at=values_at(at), by=by, reactions=reactions)
+
+    def inverse(self, at=None, *, by=""):
+        """The loads for given accelerations: `at={"q1''": 2}`."""
+        return self._ask("inverse", at=values_at(at), by=by)
+
+    def impact(self):
+        """The rates after the scene's impulses."""
+        return self._ask("impact")
+
+    def kinematics(self, of=(), at=None, *, steps=False, jacobian=False):
+        """Positions, velocities and accelerations of frames, bodies and points (all of them, or those named)."""
+        return self._ask("kinematics", of=list(of), at=values_at(at), steps=steps, jacobian=jacobian)
+
+    def inertia(self, of=(), about="", at=None):
+        """Masses, centres of mass and moments of inertia of bodies (all of them, or those named)."""
+        return self._ask("inertia", of=list(of), about=about, at=values_at(at))
+
+    def identify(self):
+        """Which combinations of masses and moments of inertia motion can show (base parameters)."""
+        return self._ask("identify")
+
+    def initial_state(self):
+        """Coordinates, then rates (or speeds), at the start: as `System.rhs` takes them."""
+        import numpy
+
+        at = self.eval().json
+        second = at["speeds"] if at.get("speeds") else at["rates"]
+        return numpy.array([*at["coordinates"].values(), *second.values()], dtype=float)
+
+    # Equilibrium and stability
+
+    def equilibrium(self, at=None, *, by="", starts=0):
+        """Where the system can stay at rest or move steadily: `equilibria`."""
+        return self._ask("equilibrium", at=values_at(at), by=by, starts=starts)
+
+    def branches(self, over, at=None, *, by=""):
+        """Equilibria followed over a parameter: `over=("Omega", 0, 20)`; `.figure` is the bifurcation diagram."""
+        return self._ask("branches", Drawn, over=axis(over), at=values_at(at), by=by)
+
+    def linearize(self, at=None, *, by=""):
+        """Matrices and eigenvalues near an equilibrium or a steady motion."""
+        return self._ask("linearize", at=values_at(at), by=by)
+
+    def stability(self, at=None, *, by="", period=0.0, lyapunov=""):
+        """Is an equilibrium or a steady motion stable, and why? `verdict`, `by` and the rest of the command's."""
+        return self._ask("stability", at=values_at(at), by=by, period=period, lyapunov=lyapunov)
+
+    def stability_chart(self, x, y, at=None, *, by="", period=0.0):
+        """Stability over two parameters, each (name, from, to) or (name, from, to, count); `.figure` is the chart."""
+        return self._ask("chart", Drawn, over=[axis(x), axis(y)], at=values_at(at), by=by, period=period)
+
+    def root_locus(self, over, at=None, *, by="", period=0.0):
+        """The eigenvalues (or, with a period, multipliers) over a parameter: `over=("k", 0, 20)`; `.figure`."""
+        return self._ask("locus", Drawn, over=axis(over), at=values_at(at), by=by, period=period)
+
+    def exponents(self, count=1, at=None, *, by="", duration=1000.0):
+        """Lyapunov exponents of the motion, the largest first; all of them for count=0."""
+        return self._ask("exponents", Drawn, count=count, at=values_at(at), by=by, duration=duration)
+
+    # Motion
+
+    def simulate(self, duration=None, tolerance=None, *, method="", step=None, sample=None, max_step=None,
+                 budget=10_000_000, estimate=True, reactions=False, by="", fast_math=False, poincare=""):
+        """Integrates the motion. What is not given is the scene's. With `poincare="theta1 = 0"` the result has the
+        crossings of that section."""
+        given = run_numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
+        run_numbers(budget=budget)
+        return Run(_alembert.simulate(self.text, self.name, by, method, list(given.values()), int(budget), estimate,
+                                      reactions, fast_math, poincare))
+
+    def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
+              budget=10_000_000, by="", threads=0):
+        """The ends of many motions: `values={"l1": numpy.linspace(1, 2, 100), "theta1": [0.1, 0.2]}` gives a Swept of
+        shape (100, 2); with grid=False the lists have one length and are taken side by side."""
+        import numpy
+
+        lists = [numpy.asarray(one, dtype=float).ravel().tolist() for one in values.values()]
+        shape = tuple(map(len, lists)) if grid else (len(lists[0]) if lists else 0,)
+        if not lists or 0 in shape:
+            raise ValueError("there is nothing to vary; values={'theta1': [0.1, 0.2]} is wanted")
+        if not grid and any(len(one) != len(lists[0]) for one in lists):
+            raise ValueError("with grid=False every quantity needs as many values as the others")
+        points = [x for point in (_itertools.product(*lists) if grid else zip(*lists)) for x in point]
+        given = {"names": list(values), "points": points, "method": method, "by": by, "threads": threads,
+                 **run_numbers(duration=duration, tolerance=tolerance, step=step, max_step=max_step, budget=budget)}
+        json, text, said, _, columns, table = _alembert.ask("sweep", self.text, self.name, _json.dumps(given))
+        warn(said)
+        return Swept(_json.loads(json), text, columns, table, shape)
+
+    def bench(self, duration=None, *, method="", budget=10_000_000, peers=False, by=""):
+        """Speed against error of every method; `.figure` is the diagram."""
+        return self._ask("bench", Drawn, method=method, peers=peers, by=by,
+                         **run_numbers(duration=duration, budget=budget))
+
+    # For other programs
+
+    def system(self, by="", *, jacobian=True):
+        """The compiled right-hand side, for other people's solvers."""
+        return System(self, by, jacobian)
+
+    def robot(self, functions=ROBOT_FUNCTIONS, frames=(), *, by=""):
+        """The compiled functions that control and planning need, over arrays of states; those of `frames` (points,
+        bodies, or "P@F") too. `functions` may have "inverse_jacobian" and "regressor" besides."""
+        return Robot(self, functions, frames, by)
+
+    def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
+             frames=(), batch=False, casadi=False, by=""):
+        """The C++ (or C) of the system: `.sources`; written into a folder if one is named, and then `.files`."""
+        if language not in ("cpp", "c"):
+            raise ValueError(f"language={language!r}: there are 'cpp' and 'c'")
+        place = "" if folder is None else _os.path.join(_os.fspath(folder), "")
+        found = self._ask("emit", Sources, folder=place, language=language, standalone=standalone, fold=fold,
+                          jacobian=jacobian, functions=list(functions), frames=list(frames), batch=batch,
+                          casadi=casadi, by=by)
+        if folder is not None:
+            _os.makedirs(folder, exist_ok=True)
+            for name, text in found.sources.items():
+                write(place + name, text)
+        return found
+
+    def fmu(self, path, *, fmi=2, by=""):
+        """Writes a functional mock-up unit of FMI 2.0 or 3.0 to this file; its states, inputs, outputs, parameters."""
+        if fmi not in (2, 3):
+            raise ValueError(f"fmi={fmi!r}: there are the versions 2 and 3")
+        path = _os.fspath(path)
+        if not path.endswith(".fmu"):
+            raise ValueError(f"{path!r}: other tools know a unit by its ending; call it NAME.fmu")
+        unit = self._ask("fmu", path=path, fmi=fmi, by=by)
+        write(path, unit._files["fmu"])
+        return unit
+
+    def report(self, path, *, duration=None, motion=True, by=""):
+        """Writes the page of the scene, with the figure that moves, to this HTML file."""
+        page = self._ask("report", motion=motion, by=by, **run_numbers(duration=duration))
+        write(path, page._files["html"])
+
+    def _repr_latex_(self):
+        return self.derive()._repr_latex_()
+
+    def __repr__(self):
+        return f"Scene({self.name!r})"

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verbs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "commands/import.hpp"
+#include "commands/verb.hpp"
+#include "linear/about.hpp"
+#include "report/agree.hpp"
+#include "report/audit.hpp"
+#include "report/bench.hpp"
+#include "report/branches.hpp"
+#include "report/check.hpp"
+#include "report/emission.hpp"
+#include "report/equilibria.hpp"
+#include "report/evaluation.hpp"
+#include "report/figure.hpp"
+#include "report/fmu.hpp"
+#include "report/identification.hpp"
+#include "report/impact.hpp"
+#include "report/inertia.hpp"
+#include "report/inverse.hpp"
+#include "report/kinematics.hpp"
+#include "report/linearization.hpp"
+#include "report/scene_page.hpp"
+#include "report/stability.hpp"
+#include "report/stability_charts.hpp"
+#include "report/sweep.hpp"
+#include "scene/claims_file.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+/// The options of a call.
+class Asked {
+public:
+    Asked(Json options, const ToldProgress& progress) : progress(progress), options_(std::move(options)) {}
+
+    bool has(const char* name) const { return options_.contains(name); }
+    bool flag(const char* name) const { return options_.value(name, false); }
+    double number(const char* name, double missing) const { return options_.value(name, missing); }
+    std::string text(const char* name) const { return options_.value(name, std::string()); }
+    Texts texts(const char* name) const { return options_.value(name, Texts()); }
+    std::string by() const { return text("by"); }
+    Overrides at() const { return overrides_of(texts("at")); }
+    /// The values as they were written.
+    ExactOverrides exact_at() const {
+        ExactOverrides result;
+        for (const std::string& item : texts("at"))
+            result.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
+        return result;
+    }
+    /// [name, from, to] or [name, from, to, count]
+    Axis axis(const char* name, std::size_t count) const { return axis_of(options_.at(name), count); }
+    std::vector<Axis> axes(const char* name, std::size_t count) const {
+        std::vector<Axis> result;
+        for (const Json& one : options_.at(name)) result.push_back(axis_of(one, count));
+        return result;
+    }
+    RunOptions run_options() const {
+        return {.by = by(),
+                .method = text("method"),
+                .duration = number("duration", -1),
+                .tolerance = number("tolerance", -1),
+                .step = number("step", -1),
+                .max_step = number("max_step", -1),
+                .budget = static_cast<long>(number("budget", 10'000'000)),
+                .progress = progress};
+    }
+
+    const ToldProgress& progress;
+    const Json& options() const { return options_; }
+
+private:
+    static Axis axis_of(const Json& range, std::size_t count) {
+        return {.name = range.at(0).get<std::string>(),
+                .from = range.at(1).get<double>(),
+                .to = range.at(2).get<double>(),
+                .count = range.size() > 3 ? range.at(3).get<std::size_t>() : count};
+    }
+
+    Json options_;
+};
+
+template <typename Value>
+Answer shown(const Value& value) {
+    return {.json = as_json(value), .text = as_text(value), .warnings = value.warnings};
+}
+
+/// The same for what has a picture and a table.
+template <typename Value>
+Answer drawn(const Value& value) {
+    Answer answer{.json = as_json(value), .text = as_text(value), .files = {{"csv", as_csv(value)}}};
+    if constexpr (requires { value.warnings; }) answer.warnings = value.warnings;
+    if constexpr (requires { as_svg(value); }) answer.files["svg"] = as_svg(value);
+    return answer;
+}
+
+Answer do_check(Scene scene, const Asked& asked) {
+    if (asked.has("claims")) scene = with_claims(std::move(scene), asked.text("claims"), "claims");
+    return shown(check(std::move(scene), asked.by()));
+}
+
+Answer do_audit(Scene scene, const Asked&) {
+    return shown(audit(std::move(scene)));
+}
+
+Answer do_agree(Scene scene, const Asked&) {
+    return shown(agree(std::move(scene)));
+}
+
+Answer do_impact(Scene scene, const Asked&) {
+    return shown(impact(std::move(scene)));
+}
+
+Answer do_eval(Scene scene, const Asked& asked) {
+    const bool reactions = asked.flag("reactions");
+    const Evaluation value =
+        evaluate(std::move(scene), {.by = asked.by(), .at = asked.at(), .reactions = reactions});
+    return {.json = as_json(value, reactions), .text = as_text(value), .warnings = value.warnings};
+}
+
+Answer do_inverse(Scene scene, const Asked& asked) {
+    return shown(inverse(std::move(scene), {.by = asked.by(), .at = asked.at()}));
+}
+
+Answer do_linearize(Scene scene, const Asked& asked) {
+    return shown(linearize(std::move(scene), {.by = asked.by(), .at = asked.at(), .exact_at = asked.exact_at()}));
+}
+
+StabilityOptions stability_options(const Asked& asked) {
+    return {.by = asked.by(),
+            .at = asked.at(),
+            .exact_at = asked.exact_at(),
+            .period = asked.number("period", 0),
+            .lyapunov = asked.text("lyapunov")};
+}
+
+Answer do_stability(Scene scene, const Asked& asked) {
+    return shown(stability(std::move(scene), stability_options(asked)));
+}
+
+Answer do_chart(Scene scene, const Asked& asked) {
+    const std::vector<Axis> over = asked.axes("over", 60);
+    if (over.size() != 2) throw std::invalid_argument("a chart of stability is drawn over two parameters");
+    return drawn(stability_chart(std::move(scene), over[0], over[1],
+                                 {.stability = stability_options(asked), .progress = asked.progress}));
+}
+
+Answer do_locus(Scene scene, const Asked& asked) {
+    return drawn(root_locus(std::move(scene), asked.axis("over", 200),
+                            {.stability = stability_options(asked), .progress = asked.progress}));
+}
+
+Answer do_exponents(Scene scene, const Asked& asked) {
+    return drawn(lyapunov_exponents(std::move(scene), {.by = asked.by(),
+                                                       .at = asked.at(),
+                                                       .count = static_cast<int>(asked.number("count", 1)),
+                                                       .duration = asked.number("duration", 1000),
+                                                       .progress = asked.progress}));
+}
+
+Answer do_equilibrium(Scene scene, const Asked& asked) {
+    return shown(equilibria(std::move(scene), {.by = asked.by(),
+                                               .at = asked.at(),
+                                               .starts = static_cast<int>(asked.number("starts", 0)),
+                                               .progress = asked.progress}));
+}
+
+Answer do_branches(Scene scene, const Asked& asked) {
+    const Axis over = asked.axis("over", 0);
+    return drawn(branches(std::move(scene), {.by = asked.by(),
+                                             .at = asked.at(),
+                                             .name = over.name,
+                                             .from = over.from,
+                                             .to = over.to,
+                                             .progress = asked.progress}));
+}
+
+Answer do_kinematics(Scene scene, const Asked& asked) {
+    const bool steps = asked.flag("steps");
+    const SceneKinematics found = kinematics(
+        std::move(scene),
+        {.of = asked.texts("of"), .at = asked.at(), .steps = steps, .jacobian = asked.flag("jacobian")});
+    return {.json = as_json(found, steps),
+            .text = as_page(found, "text", steps) + jacobian_page(found),
+            .warnings = found.warnings};
+}
+
+Answer do_inertia(Scene scene, const Asked& asked) {
+    return shown(
+        inertia(std::move(scene), {.of = asked.texts("of"), .about = asked.text("about"), .at = asked.at()}));
+}
+
+Answer do_identify(Scene scene, const Asked&) {
+    return shown(identify(std::move(scene)));
+}
+
+Answer do_fmu(Scene scene, const Asked& asked) {
+    const std::string path = asked.text("path");
+    const FunctionalUnit unit =
+        functional_unit(std::move(scene), {.by = asked.by(), .version = static_cast<int>(asked.number("fmi", 2))});
+    return {.json = as_json(unit, path),
+            .text = as_text(unit, path),
+            .warnings = unit.warnings,
+            .files = {{"fmu", unit.archive}}};
+}
+
+Answer do_emit(Scene scene, const Asked& asked) {
+    const Emission e = emission(std::move(scene),
+                                {.by = asked.by(),
+                                 .fold = asked.flag("fold"),
+                                 .jacobian = asked.flag("jacobian"),
+                                 .batch = asked.flag("batch"),
+                                 .language = asked.text("language") == "c" ? CodeLanguage::c : CodeLanguage::cpp,
+                                 .functions = asked.texts("functions"),
+                                 .frames = asked.texts("frames"),
+                                 .standalone = asked.flag("standalone"),
+                                 .casadi = asked.flag("casadi")});
+    Answer answer{.json = {}, .warnings = e.warnings};
+    std::vector<std::string> paths;
+    for (const SourceFile& file : files_of(e)) {
+        paths.push_back(asked.text("folder") + file.name);
+        answer.files[file.name] = file.text;
+    }
+    answer.json = as_json(e, paths);
+    answer.text = as_text(e, paths);
+    return answer;
+}
+
+Answer do_sweep(Scene scene, const Asked& asked) {
+    Grid grid;
+    for (const std::string& name : asked.texts("names")) grid.axes.push_back({.name = name});
+    grid.listed = asked.options().at("points").get<std::vector<double>>();
+    for (Axis& axis : grid.axes) axis.count = grid.listed.size() / grid.axes.size();
+    RunOptions wishes = asked.run_options();
+    wishes.progress = {};  // told by other threads
+    const Sweep swept = sweep(std::move(scene), grid, wishes, static_cast<int>(asked.number("threads", 0)));
+    const SweepTotals totals = totals_of(swept);
+    Answer answer{.json = as_json(swept, totals), .text = as_text(swept, totals), .warnings = swept.warnings};
+    answer.table.columns = grid.names();
+    for (const std::string& name : end_columns(swept)) answer.table.columns.push_back(name);
+    Json& status = answer.json["status"] = Json::array();
+    for (const SweptMotion& member : swept.members) {
+        const std::vector<double> end = end_values(member);
+        answer.table.values.insert(answer.table.values.end(), member.varied.begin(), member.varied.end());
+        answer.table.values.insert(answer.table.values.end(), end.begin(), end.end());
+        status.push_back(member.status);
+    }
+    return answer;
+}
+
+Answer do_bench(Scene scene, const Asked& asked) {
+    return drawn(bench(std::move(scene), {.wishes = asked.run_options(), .peers = asked.flag("peers")}));
+}
+
+Answer do_report(Scene scene, const Asked& asked) {
+    OverviewOptions options{.by = asked.by(), .wishes = asked.run_options(), .moves = asked.flag("motion")};
+    options.wishes.budget = static_cast<long>(asked.number("budget", 3'000'000));
+    const Overview all = overview(std::move(scene), options);
+    return {.json = Json::object(),
+            .warnings = all.warnings,
+            .files = {{"html", as_html(all, {.version = ALEMBERT_VERSION, .by = asked.by()})}}};
+}
+
+Answer do_draw(Scene scene, const Asked&) {
+    return {.json = Json::object(), .files = {{"svg", figure_of(scene)}}};
+}
+
+using VerbFunction = Answer (*)(Scene scene, const Asked& asked);
+const std::map<std::string, VerbFunction> verb_functions = {{"agree", do_agree},
+                                                            {"audit", do_audit},
+                                                            {"bench", do_bench},
+                                                            {"branches", do_branches},
+                                                            {"chart", do_chart},
+                                                            {"check", do_check},
+                                                            {"draw", do_draw},
+                                                            {"emit", do_emit},
+                                                            {"equilibrium", do_equilibrium},
+                                                            {"eval", do_eval},
+                                                            {"exponents", do_exponents},
+                                                            {"fmu", do_fmu},
+                                                            {"identify", do_identify},
+                                                            {"impact", do_impact},
+                                                            {"inertia", do_inertia},
+                                                            {"inverse", do_inverse},
+                                                            {"kinematics", do_kinematics},
+                                                            {"linearize", do_linearize},
+                                                            {"locus", do_locus},
+                                                            {"report", do_report},
+                                                            {"stability", do_stability},
+                                                            {"sweep", do_sweep}};
+
+/// A robot description is no scene yet: `file` is its path.
+Answer import_robot(const std::string& file, const Asked& asked) {
+    const ImportedRobot imported = imported_robot(file,
+                                                  {.source = {},
+                                                   .floating = asked.flag("floating"),
+                                                   .quaternion = asked.flag("quaternion"),
+                                                   .drives = asked.flag("drives"),
+                                                   .friction = asked.flag("friction"),
+                                                   .stops = asked.flag("stops")},
+                                                  asked.flag("right_angles"), asked.text("loops"));
+    return {.json = as_json(imported, file), .files = {{"scene", imported.scene.text}}};
+}
+
+}  // namespace
+
+Answer answer_of(const std::string& verb, const std::string& text, const std::string& file,
+                 const std::string& options, const ToldProgress& progress) {
+    try {
+        const Asked asked(Json::parse(options), progress);
+        if (verb == "import") return import_robot(file, asked);
+        const auto known = verb_functions.find(verb);
+        if (known == verb_functions.end()) throw std::invalid_argument(fmt::format("there is no verb '{}'", verb));
+        return known->second(parse_scene(text, file), asked);
+    } catch (const nlohmann::json::exception& wrong) {
+        throw std::invalid_argument(fmt::format("{}: an option is not what is expected: {}", verb, wrong.what()));
+    }
+}
+
+}  // namespace alembert

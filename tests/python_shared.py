@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the Python package share."""
+
+import json
+import os
+import subprocess
+import sys
+
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+TESTS = os.path.dirname(os.path.abspath(__file__))
+SCENES = os.path.join(TESTS, "../scenes")
+EXAMPLES = os.path.join(TESTS, "../examples")
+
+PENDULUM = {
+    "gravity": [0, "-g"],
+    "parameters": {"m": 2.0, "l": 1.5, "g": 9.81},
+    "coordinates": {"theta": {"initial": 0.4, "rate": 0.1}},
+    "particle": [{"name": "P", "mass": "m", "position": ["l*sin(theta)", "-l*cos(theta)"]}],
+}
+
+
+def scene_file(name):
+    return os.path.join(SCENES, name)
+
+
+def program(*arguments):
+    return json.loads(subprocess.run([PROGRAM, *arguments, "--json"], capture_output=True, text=True).stdout)
