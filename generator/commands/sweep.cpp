@@ -218,7 +218,7 @@ private:
                           .first = lanes * static_cast<std::size_t>(std::max(1, threads)),
                           .fixed = static_cast<std::size_t>(verb_.chunk),
                           .most = reduces ? most_reduced : std::clamp<std::size_t>(most_bytes / width, 1, 65536),
-                          .seconds = std::max(0.5, (has_quantiles ? 0.02 : 0.001) * static_cast<double>(takers))});
+                          .seconds = std::max(0.5, (has_quantiles ? 0.03 : 0.001) * static_cast<double>(takers))});
         const SweepShelf shelf{.pack =
                                    [&s, &statistics](SweepPart part, const std::vector<SweptMotion>& motions) {
                                        return packed_part(s, statistics, part, motions);

@@ -30,10 +30,11 @@ InputVariants::Key InputVariants::key_of(const Start& start) const {
     return key;
 }
 
-/// Compared at three points: a variant that depends on an axis does so at almost all of them.
+/// Compared at three points: a variant that depends on an axis does so at almost all of them. Of samples these are
+/// the first, because a later one may take as long as all before it.
 bool InputVariants::matters(const Starts& starts, const Grid& grid, std::size_t axis) const {
-    const std::size_t size = grid.size();
-    for (const std::size_t k : {std::size_t{0}, size / 3, size - 1 - size / 7}) {
+    const std::size_t last = grid.size() - 1, apart = grid.is_listed() ? 1 : std::max<std::size_t>(1, last / 3);
+    for (const std::size_t k : {std::size_t{0}, std::min(apart, last), std::min(2 * apart, last)}) {
         std::vector<double> values = grid.point(k);
         std::vector<Key> keys;
         for (const double value : {grid.axes[axis].from, grid.axes[axis].to}) {
