@@ -141,7 +141,7 @@ private:
             near[k] = before[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])];
         const Vector3d angle = angles_near(angles_, e, near);
         const Quaternion w = change * e.conjugate();
-        const Vector3d rate = TurnedFrame(angles_.axes, angle).rates.fullPivLu().solve(2 * w.vec());
+        const Vector3d rate = TurnedFrame(angles_.axes, angle).rates.inverse() * (2 * w.vec());
         for (int k = 0; k < 3; ++k) {
             y[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])] = angle[k];
             y[static_cast<std::size_t>(n_ + angles_.angles[static_cast<std::size_t>(k)])] = rate[k];

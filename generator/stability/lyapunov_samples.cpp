@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "alembert/dense.hpp"
 #include "alembert/error.hpp"
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
@@ -64,7 +65,7 @@ public:
         Eigen::MatrixXd M(size, size);
         for (Eigen::Index i = 0; i < size; ++i)
             for (Eigen::Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = take();
-        const Eigen::VectorXd udot = M.ldlt().solve(f);
+        const Eigen::VectorXd udot = solve_symmetric(M, f);
         Values result{V, 0, 0};
         const auto add = [&](double term) {
             result.rate += term;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "alembert/dense.hpp"
 #include "alembert/impact.hpp"
 #include "alembert/rough_choice.hpp"
 
@@ -29,10 +30,7 @@ struct Unit {
 
 Index rank(const MatrixXd& rows) {
     if (rows.rows() == 0) return 0;
-    Eigen::ColPivHouseholderQR<MatrixXd> qr;
-    qr.setThreshold(rank_threshold);
-    qr.compute(Unit(rows).rows.transpose());
-    return qr.rank();
+    return Orthogonal(Unit(rows).rows.transpose(), rank_threshold).rank();
 }
 
 /// Moves load between dependent contacts until the contacts that carry load are independent; the total forces stay

@@ -27,6 +27,10 @@ VectorXd Orthogonal::solve(const VectorXd& b) const {
     return factors_.solve(b);
 }
 
+Eigen::Index Orthogonal::rank() const {
+    return factors_.rank();
+}
+
 Cholesky::Cholesky(const MatrixXd& M) : factors_(M) {}
 
 bool Cholesky::exists() const {

@@ -36,6 +36,7 @@ public:
     Orthogonal() = default;
     Orthogonal(const Eigen::MatrixXd& A, double threshold);
     Eigen::VectorXd solve(const Eigen::VectorXd& b) const;  ///< the shortest of those nearest to A x = b
+    Eigen::Index rank() const;
 
 private:
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors_;

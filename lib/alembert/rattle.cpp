@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/rattle.hpp"
 
+#include "alembert/dense.hpp"
+
 namespace alembert {
 
 namespace {
@@ -91,7 +93,10 @@ bool RattleStep::operator()(double t, double h, double* state) {
             end_ += h / 2 * (w_ - before_);  // then f is taken at the end to which the new rates lead
             hold(there_, t + h, end_, w_);
             there = there_.factors.solve(here_.A.transpose());
-            const Vector pull = (h / 2 * (there_.A * (across + there))).partialPivLu().solve(there_.position);
+            Elimination square;
+            square.factor(h / 2 * (there_.A * (across + there)));
+            Vector pull;
+            square.solve(there_.position, pull);
             impulse_ -= pull;
             v_ -= across * pull;
             w_ -= there * pull;
@@ -109,10 +114,14 @@ bool RattleStep::operator()(double t, double h, double* state) {
     if (m_ > 0) {
         hold(there_, t + h, end_, u_);
         there = there_.factors.solve(there_.A.transpose());
-        const Eigen::PartialPivLU<Eigen::MatrixXd> square(there_.A * there);
-        u_ -= there * square.solve(there_.velocity);
-        hold(there_, t + h, end_, u_);
-        u_ -= there * square.solve(there_.velocity);  // removes what rounding left
+        Elimination square;
+        square.factor(there_.A * there);
+        Vector pull;
+        for (int round = 0; round < 2; ++round) {  // the second removes what rounding left
+            if (round > 0) hold(there_, t + h, end_, u_);
+            square.solve(there_.velocity, pull);
+            u_ -= there * pull;
+        }
     }
     std::copy_n(end_.data(), n_, state);
     std::copy_n(u_.data(), n_, state + n_);
