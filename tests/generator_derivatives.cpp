@@ -182,7 +182,7 @@ TEST_CASE("derivatives: the Jacobian of a chain of 4 to 8 rods costs at most fou
 }
 
 /// A tree of `n` bodies whose parents are among the three before them, with turning and sliding joints about axes
-/// at right angles or oblique, parameters, springs, damping, and a joint whose angle has a part that is given in
+/// at right angles or oblique (then with rotors too), parameters, springs, damping, and a joint whose angle has a part that is given in
 /// time.
 std::string branching_tree(int n, bool oblique) {
     std::mt19937_64 random(static_cast<std::uint64_t>(n));
@@ -205,6 +205,7 @@ std::string branching_tree(int n, bool oblique) {
                 (general ? "\"c\"" : "0") +
                 "]\nchild_point = [0, 0.05, \"-c\"]\naxis = " + (general ? "[0.6, 0, 0.8]" : letters[pick(3)]) +
                 "\ncoordinates = { q" + i + " = { initial = 0.3, rate = 0.2 } }\n";
+        if (oblique && k % 3 == 0) text += "armature = { q" + i + " = \"m/10\" }\n";
         forces += "q" + i + " = \"-k*q" + i + " - 0.1*q" + i + "'^3\"\n";
     }
     return text + "[forces]\n" + forces;

@@ -59,7 +59,8 @@ private:
         const std::vector<Symbolic> rates = bodies_->accelerations();
         for (std::size_t j = 0; j < rates.size(); ++j) {
             moving.links[j].drift = moving.links[j].drift + rates[j];
-            tree_.links[j].drift = tree_.links[j].drift + held(rates[j]);
+            rates_.push_back(held(rates[j]));
+            tree_.links[j].drift = tree_.links[j].drift + rates_[j];
         }
         const Bias<Symbolic> motion(moving);
         for (const LinkMotion<Symbolic>& m : motion.motions) motions_.push_back({m.w, held(m.e), held(m.a)});
@@ -137,6 +138,7 @@ private:
             const Link &link = tree_.links[j], &still = still_.links[j];
             Symbolic u = loads_[j] - along_joint(still_, still, p[j]);
             if (link.slides) u = u - along_joint(tree_, link, wrenches_[j]);
+            if (link.has_rotor) u = u - link.rotor * rates_[static_cast<std::size_t>(j)];
             pushes[j] = bodies_->inverses[j] * u;
             at_turn_of(j, {{pushes[j], u, 0}});
             if (link.parent < 0) continue;
@@ -144,7 +146,7 @@ private:
             const auto& [e, a] = beta_[j];
             Wrench<Symbolic> t{p[j].n + I.A * e + I.B * a + u * bodies_->U[j].n,
                                p[j].f + transposed(I.B) * e + I.C * a + u * bodies_->U[j].f};
-            if (!link.slides) t.n[2] = loads_[j];
+            if (!link.slides && !link.has_rotor) t.n[2] = loads_[j];
             const Wrench<Symbolic> turned = passed(tree_, link, wrenches_[j]), on = passed(still_, still, t);
             Wrench<Symbolic>& parent = p[link.parent];
             parent = {parent.n + turned.n + on.n, parent.f + turned.f + on.f};
@@ -167,9 +169,12 @@ private:
                 if (!link.absolute) before = e[2];
             }
             const Wrench<Symbolic>& U = bodies_->U[j];
-            if (link.slides) {
+            if (link.slides || link.has_rotor) {
                 result.push_back(pushes[j] - (dot(U.n, e) + dot(U.f, a)));
-                a = a + result[j] * still_.direction(link);
+                if (link.slides)
+                    a = a + result[j] * still_.direction(link);
+                else
+                    e[2] = e[2] + result[j];
             } else {  // U_z/D = 1, so that this is the whole of ε_z
                 e[2] = pushes[j] - (U.n[0] * e[0] + U.n[1] * e[1] + dot(U.f, a));
                 result.push_back(e[2] - before);
@@ -189,6 +194,7 @@ private:
     std::vector<LinkMotion<Symbolic>> motions_;  // ω live, accelerations held
     std::vector<Wrench<Symbolic>> wrenches_;     // held
     std::vector<std::pair<Arrow, Arrow>> beta_;
+    std::vector<Symbolic> rates_;  // w', held
     std::map<int, int> placeholders_;
     int next_unknown_ = 0;
 };
