@@ -182,8 +182,8 @@ TEST_CASE("derivatives: the Jacobian of a chain of 4 to 8 rods costs at most fou
 }
 
 /// A tree of `n` bodies whose parents are among the three before them, with turning and sliding joints about axes
-/// at right angles or oblique (then with rotors too), parameters, springs, damping, and a joint whose angle has a part that is given in
-/// time.
+/// at right angles or oblique (then with rotors too), parameters, springs, damping, and a joint whose angle has a
+/// part that is given in time.
 std::string branching_tree(int n, bool oblique) {
     std::mt19937_64 random(static_cast<std::uint64_t>(n));
     const auto pick = [&](int most) { return static_cast<int>(random() % static_cast<std::uint64_t>(most)); };
@@ -230,17 +230,6 @@ TEST_CASE("derivatives: those of the articulated bodies of a tree are dual numbe
             CHECK(misfit(program, *d, s) < 1e-10);
         }
     }
-}
-
-TEST_CASE("derivatives: a tree with rotors is differentiated by another route, as dual numbers are") {
-    const Mechanism m = prepared(read_scene(test::source_path("tests/odd/armature.toml"))).mechanism;
-    const Equations equations = formalism("recursive").derive(m);
-    const Program program = choose(m, equations).program;
-    const std::vector<Perturbed> forms = perturbed_tree(program, m, equations, false);
-    CHECK(forms.empty());
-    const auto d = differentiated(program, {.parameters = true, .power = true, .perturbed = forms});
-    REQUIRE(d);
-    CHECK(misfit(program, *d, start_of(m).state()) < 1e-10);
 }
 
 TEST_CASE("derivatives: the Jacobian of a tree of 20 joints takes at most seven right-hand sides") {

@@ -92,8 +92,11 @@ private:
     Symbolic held(const Symbolic& s) {
         const int id = s.node(p_);
         if (p_[id].is_number()) return s;
-        if (p_[id].is_scaled())
-            return {p_, p_.sum(0, {{p_[id].coefficients[0], held({p_, p_[id].args[0]}).node(p_)}})};
+        if (p_[id].is_scaled()) {
+            const Rational factor = p_[id].coefficients[0];  // a copy: new nodes move the old ones
+            const int inner = held({p_, p_[id].args[0]}).node(p_);
+            return {p_, p_.sum(0, {{factor, inner}})};
+        }
         const auto [known, is_new] = placeholders_.try_emplace(id, -1);
         if (is_new) {
             known->second = p_.variable({Variable::Kind::unknown, next_unknown_++});
@@ -207,7 +210,7 @@ std::vector<Perturbed> perturbed_tree(const Program& program, const Mechanism& m
     if (!mechanism.constraints.empty() || !equations.speeds_are_rates()) return list;
     const Mechanism m = in_terms_of(equations, mechanism);
     const Possible<JointTree> found = loaded_tree(m);
-    if (!found.exists() || !found.value().rotors.empty()) return list;  // the equations above have no rotors
+    if (!found.exists()) return list;
     const auto begin = [&](Program& p) {
         std::vector<std::pair<GiNaC::symbol, int>> given;
         for (const Mechanism::Unilateral& contact : m.unilateral)
