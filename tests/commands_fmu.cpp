@@ -69,6 +69,8 @@ TEST_CASE("fmu: a unit of either version obeys the rules of its description and 
         CHECK(unit.files.contains("sources/buildDescription.xml") == (version == 3));
         CHECK(unit.description.at("F", "causality") == "input");
         CHECK(unit.description.at("der(theta)", "unit") == "rad/s");
+        CHECK(unit.description.at("height", "unit") == "m");
+        CHECK(unit.description.at("power", "unit") == "kg*m^2/s^3");
         CHECK(unit.description.model.at("fmiVersion") == (version == 2 ? "2.0" : "3.0"));
         for (const auto& [name, bytes] : unit.files)
             CHECK_MESSAGE(bytes.find(std::filesystem::temp_directory_path().string() + "/") == std::string::npos,

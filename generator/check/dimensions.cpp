@@ -3,7 +3,10 @@
 // Dimensional Analysis (1922), chapter 2).
 #include "check/dimensions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -56,6 +59,15 @@ public:
         }
         common(terms);
         return wrong_;
+    }
+
+    /// With lengths in m also where they are numbers in the scene.
+    Known of(const Expression& expression) {
+        if (!expression.tree) return {};
+        has_metres_ = true;
+        text_ = &expression.text;
+        Known found = of(*expression.tree);
+        return wrong_ ? Known() : found;
     }
 
 private:
@@ -141,7 +153,19 @@ private:
         std::vector<Known> args;
         for (const TreePtr& arg : tree.args) args.push_back(of(*arg));
         if (numbers.contains(tree.text)) return Dimension{};
-        if (tree.text == "abs" && args.size() == 1) return args[0];
+        if ((tree.text == "abs" || tree.text == "norm") && args.size() == 1) return args[0];
+        if ((tree.text == "dot" || tree.text == "cross") && args.size() == 2 && args[0] && args[1])
+            return multiplied(*args[0], *args[1]);
+        static const std::map<std::string, Dimension> geometry{{"pos", {{"m", 1}}},
+                                                               {"vel", {{"m", 1}, {"s", -1}}},
+                                                               {"acc", {{"m", 1}, {"s", -2}}},
+                                                               {"omega", {{"s", -1}}},
+                                                               {"alpha", {{"s", -2}}},
+                                                               {"ex", {}},
+                                                               {"ey", {}},
+                                                               {"ez", {}}};
+        if (const auto known = geometry.find(tree.text); has_metres_ && known != geometry.end())
+            return known->second;
         if (tree.text == "sqrt" && args.size() == 1 && args[0]) return multiplied({}, *args[0], 0.5);
         return {};
     }
@@ -153,10 +177,34 @@ private:
     std::map<std::string, Dimension> names_;
     const std::string* text_ = nullptr;
     std::optional<std::string> wrong_;
-    bool is_useful_ = false;
+    bool is_useful_ = false, has_metres_ = false;
 };
 
+/// "kg*m^2/s^2"; "s^-1" if no exponent is positive.
+std::string text_of(const Dimension& dimension) {
+    std::string above, below;
+    for (const auto& [unit, exponent] : dimension) {
+        const bool is_above = exponent > 0;
+        std::string& part = is_above ? above : below;
+        const double size = std::abs(exponent);
+        part += (is_above ? part.empty() ? "" : "*" : "/") + unit + (size == 1 ? "" : fmt::format("^{}", size));
+    }
+    if (!above.empty()) return above + below;
+    for (const auto& [unit, exponent] : dimension)
+        above += (above.empty() ? "" : "*") + unit + fmt::format("^{}", exponent);
+    return above;
+}
+
 }  // namespace
+
+std::optional<std::string> si_unit_of(const Expression& expression, const Mechanism& m) {
+    const Known found = Dimensions(m).of(expression);
+    if (!found || found->empty()) return {};
+    const std::set<std::string> base{"kg", "m", "s", "A", "K", "mol", "cd"};
+    for (const auto& [unit, exponent] : *found)
+        if (!base.contains(unit) || exponent != std::round(exponent)) return {};
+    return text_of(*found);
+}
 
 std::optional<std::string> term_of_wrong_unit(const Claim& claim, const Mechanism& m) {
     return Dimensions(m).wrong_term(claim);

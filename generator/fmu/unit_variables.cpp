@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "check/dimensions.hpp"
 #include "emit/names.hpp"
 #include "fmu/dependence.hpp"
 #include "scene/unit_text.hpp"
@@ -151,6 +152,13 @@ private:
         return 0;
     }
 
+    std::string unit_of_output(const std::string& name) const {
+        if (is_si())
+            for (const Output& output : m_.scene.outputs)
+                if (output.name.text == name) return si_unit_of(output.value, m_.mechanism).value_or("");
+        return {};
+    }
+
     void add_parameters() {
         std::map<std::string, std::string> about;
         for (const Parameter& p : m_.scene.parameters) about[p.name.text] = p.about;
@@ -172,8 +180,11 @@ private:
             const std::string name = side > 0              ? fmt::format("event.side_{}", side)
                                      : kind == Kind::event ? "event." + ascii_identifier(root.name)
                                                            : ascii_identifier(root.name);
-            node_of_[add({.kind = kind, .place = here, .name = name, .is_output = kind == Kind::output})] =
-                root.node;
+            node_of_[add({.kind = kind,
+                          .place = here,
+                          .name = name,
+                          .unit = group == Group::output ? unit_of_output(root.name) : std::string(),
+                          .is_output = kind == Kind::output})] = root.node;
         }
     }
 
