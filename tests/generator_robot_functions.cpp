@@ -71,14 +71,15 @@ std::vector<std::vector<double>> slopes(const std::vector<int>& nodes, const Pro
                                         const State<double>& s) {
     const Quad h = 1e-5;
     Tape<Quad> tape(program, nodes, {s.parameters.begin(), s.parameters.end()});
-    const std::vector<Quad> q(s.q.begin(), s.q.end()), u(s.qdot.begin(), s.qdot.end());
+    const std::vector<Quad> q(s.q.begin(), s.q.end()), u(s.qdot.begin(), s.qdot.end()),
+        udot(s.qddot.begin(), s.qddot.end());
     std::vector<std::vector<double>> result(nodes.size(), std::vector<double>(q.size()));
     std::vector<Quad> value(nodes.size());
     for (std::size_t i = 0; i < q.size(); ++i) {
         std::vector<Quad> sums(nodes.size(), 0), at = q;
         for (const int step : {-2, -1, 1, 2}) {
             at[i] = q[i] + step * h;
-            tape(s.t, at.data(), u.data(), value.data());
+            tape(s.t, at.data(), u.data(), value.data(), udot.data());
             const Quad weight = (step * step == 1 ? 8 : -1) * (step > 0 ? 1 : -1) / (12 * h);
             for (std::size_t k = 0; k < nodes.size(); ++k) sums[k] += weight * value[k];
         }

@@ -61,7 +61,9 @@ public:
 
     std::size_t size() const { return wanted_.size(); }
 
-    void operator()(Real t, const Real* q, const Real* u, Real* out) {
+    /// Accelerations are 0 if they are not given.
+    void operator()(Real t, const Real* q, const Real* u, Real* out, const Real* udot = nullptr) {
+        udot_ = udot;
         for (const Instruction& step : steps_) carry_out(step, t, q, u);
         for (std::size_t i = 0; i < wanted_.size(); ++i) out[i] = at(wanted_[i]);
     }
@@ -100,10 +102,11 @@ private:
                 to = acos(Real(-1));
                 break;
             case Op::variable:
-                to = step.kind == Variable::Kind::time         ? t
-                     : step.kind == Variable::Kind::coordinate ? q[step.index]
-                     : step.kind == Variable::Kind::rate       ? u[step.index]
-                                                               : Real(0);
+                to = step.kind == Variable::Kind::time                               ? t
+                     : step.kind == Variable::Kind::coordinate                       ? q[step.index]
+                     : step.kind == Variable::Kind::rate                             ? u[step.index]
+                     : step.kind == Variable::Kind::acceleration && udot_ != nullptr ? udot_[step.index]
+                                                                                     : Real(0);
                 break;
             case Op::sum: {
                 Real sum = step.number;
@@ -189,6 +192,7 @@ private:
     std::vector<Real> value_;
     std::vector<Instruction> steps_;
     std::vector<Term> terms_;
+    const Real* udot_ = nullptr;
 };
 
 }  // namespace alembert
