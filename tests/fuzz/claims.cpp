@@ -11,7 +11,7 @@ using namespace alembert;
 
 namespace {
 
-const char* const pendulum = R"(
+const char* const pendulum = R"toml(
 gravity = [0, "g"]
 [parameters]
 m = 1
@@ -24,12 +24,12 @@ x = 0.1
 name = "P"
 mass = "m"
 position = ["x + l*sin(theta)", "l*cos(theta)"]
-)";
+)toml";
 
 struct Known {
     Scene scene = parse_scene(pendulum, "pendulum.toml");
     Mechanism mechanism = build(scene);
-    Equations equations = lagrange(mechanism);
+    Equations equations = formalism("lagrange").derive(mechanism);
 };
 
 }  // namespace
