@@ -94,8 +94,8 @@ std::optional<ChosenStep> with_own_variable(const Program& program, const std::v
         for (std::size_t c = 0; c < conditions.size(); ++c)
             for (const auto& [variable, how] : held[c]) {
                 if (variable.first != kind || taken.contains(variable)) continue;
-                const auto holds_it = [&](const Occurrences& other) {
-                    return &other != &held[c] && other.contains({kind, variable.second});
+                const auto holds_it = [&, index = variable.second](const Occurrences& other) {
+                    return &other != &held[c] && other.contains({kind, index});
                 };
                 const bool elsewhere = std::any_of(held.begin(), held.end(), holds_it);
                 const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {

@@ -73,8 +73,7 @@ void leave_out_kept(SteadySystem& system, Index first, Index last) {
 }  // namespace
 
 SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start& start)
-    : m_(m),
-      residuals_(m, e),
+    : residuals_(m, e),
       start_(instant_of<long double>(residuals_, state_of(start, m, e))),
       essential_(static_cast<std::size_t>(m.size()), true),
       follows_q_(m.q_is_guess),

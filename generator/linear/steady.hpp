@@ -93,7 +93,6 @@ private:
     /// The size of an ordinary change of an unknown.
     long double scale_of(const SteadySystem& here, Eigen::Index unknown) const;
 
-    const Mechanism& m_;
     Residuals residuals_;
     std::optional<Residuals> at_rest_;  ///< with the rates 0 that Newton's method leaves at 0
     Instant<long double> start_;

@@ -95,7 +95,7 @@ bool by_second_theorem(const Expansion& V, const Expansion& rate, int sign, cons
                         Q_rate = Certain(sign) * hessian(rate, near.monomials);
     const auto factor = definite_combination(Q_rate, {Certain(-1) * Q});
     if (!factor || !((*factor)[0] > 0)) return false;
-    const Certain lambda(Rational(cln::rational(cln::cl_DF((*factor)[0]))));
+    const Certain lambda{Rational(cln::rational(cln::cl_DF((*factor)[0])))};
     return sign_near(rate + Expansion(-lambda) * V, near.monomials).is(sign);
 }
 
