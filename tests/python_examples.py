@@ -53,7 +53,7 @@ class Examples(unittest.TestCase):
 
 class Notebooks(unittest.TestCase):
     def test_stored_outputs_are_what_the_cells_give(self):
-        self.assertEqual(len(notebooks.notebooks()), 4)
+        self.assertEqual(len(notebooks.notebooks()), 6)
         for path in notebooks.notebooks():
             self.assertEqual(notebooks.stale(path), [], os.path.basename(path))
 
