@@ -27,9 +27,14 @@ cmake --preset fuzz >/dev/null && cmake --build --preset fuzz --target "${@/#/fu
 
 corpus=build/fuzz/corpus
 mkdir -p $corpus/{scene,expression,claims,urdf,commands} build/fuzz/found
-cp scenes/*/*.toml tests/broken/*.toml tests/odd/*.toml $corpus/scene
-cp scenes/*/*.toml $corpus/commands
-cp tests/robots/*.urdf $corpus/urdf
+put() { # TARGET FILE...: under names that tell the folders, since scenes of two may have one name
+    local target=$1 file
+    shift
+    for file in "$@"; do cp "$file" "$corpus/$target/${file//\//_}"; done
+}
+put scene scenes/*/*.toml tests/broken/*.toml tests/odd/*.toml
+put commands scenes/*/*.toml
+put urdf tests/robots/*.urdf
 # Each text between quotes is an input for expressions; ten claims together are one for claims.
 grep -hoE '"[^"]+"' scenes/*/*.toml | tr -d '"' | sort -u | split -l 1 -a 4 - $corpus/expression/seed-
 grep -hoE '^equation = "[^"]+"' scenes/*/*.toml | sed 's/^equation = "//; s/"$//' | split -l 10 - $corpus/claims/seed-

@@ -243,7 +243,8 @@ Agreed agree(Scene scene, double work) {
     const auto start = std::chrono::steady_clock::now();
     Agreed result{prepared(std::move(scene))};
     Mechanism& m = result.mechanism;
-    m = without_constraints(std::move(m), redundant_constraints(m));  // as in `derive`
+    const auto redundant = redundant_constraints(m);   // before m is moved
+    m = without_constraints(std::move(m), redundant);  // as in `derive`
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(m)) fail(result.scene, {*mistake});
     result.derivations = derive_all(m);
     result.agreement = agree(result.derivations.equations, m, work);

@@ -55,7 +55,7 @@ private:
         int value = 0;
         const std::size_t start = at_;
         while (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0)
-            value = 10 * value + (text_[at_++] - '0');
+            value = std::min(1000, 10 * value + (text_[at_++] - '0'));
         bad_ = bad_ || at_ == start || value > 99;
         return minus ? -value : value;
     }

@@ -14,6 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try {
         const Robot robot = parse_robot(fuzz::text(data, size), "robot.urdf");
         scene = robot_scene(robot, {.drives = true, .friction = true, .stops = true}).text;
+    } catch (const SceneError&) {
+        return 0;
     } catch (const ModelError&) {
         return 0;
     }
