@@ -98,6 +98,7 @@ TEST_CASE("friction: a rod in two rough slots comes to rest, and no work is lost
     const auto stops = of_kind(motion, "stick");
     REQUIRE(stops.size() == 2);
     CHECK(stops[0]["time"] == stops[1]["time"]);
+    // A rod that sticks has the speed that rounding leaves in the projection of rates near 1.
     CHECK(std::abs(motion["final"]["rates"]["theta"].get<double>()) < 1e-14);
 }
 

@@ -34,16 +34,19 @@ int guarded(const Chosen& chosen) {
         return code;
     };
     const std::string& subject = chosen.subject;
+    const auto of_subject = [&](const std::exception& e) {
+        return fmt::format("{}: {}", subject, translated_from_library(e.what()));
+    };
     try {
         return chosen.action();
     } catch (const SceneError& e) {
         return complain(e.what(), input_is_wrong);
     } catch (const ModelError& e) {
-        return complain(fmt::format("{}: {}", subject, translated_from_library(e.what())), input_is_wrong);
+        return complain(of_subject(e), input_is_wrong);
     } catch (const std::invalid_argument& e) {
-        return complain(fmt::format("{}: {}", subject, translated_from_library(e.what())), input_is_wrong);
+        return complain(of_subject(e), input_is_wrong);
     } catch (const IntegrationError& e) {
-        return complain(fmt::format("{}: {}", subject, translated_from_library(e.what())), numbers_failed);
+        return complain(of_subject(e), numbers_failed);
     } catch (const CompileError& e) {
         return complain(translated_from_library(e.what()), environment_failed);
     } catch (const std::bad_alloc&) {

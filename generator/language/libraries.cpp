@@ -33,6 +33,7 @@ constexpr std::array patterns{
     to_say(
         "the rate of {} is not finite at the start, t = {}; look at its equation, and at the initial values and "
         "parameters"),
+    to_say("the signs of {} and {} others change together at t = {}, more than {} at once"),
     to_say("the sign of {} changes without end at t = {}: no side of it is consistent"),
     to_say(
         "at t = {} the sign of {} has no consistent side: the equations have no motion that goes on from there"),

@@ -278,10 +278,14 @@ SymbolicVector SceneMotion::linear_momentum(const Rates& rates) {
 }
 
 Symmetric<Symbolic> SceneMotion::inertia_along_N(const MassElement& mass) {
+    return congruent(rotation(spot_of(mass).frame), inertia_along_body(mass));
+}
+
+Symmetric<Symbolic> SceneMotion::inertia_along_body(const MassElement& mass) {
     const std::array<ex, 6> inertia = central_inertia(mass, *m_.z);
     Symmetric<Symbolic> I;
     for (std::size_t k = 0; k < 6; ++k) I[k] = symbolic_(inertia[k]);
-    return congruent(rotation(spot_of(mass).frame), I);
+    return I;
 }
 
 LinearAngular SceneMotion::momentum(const Rates& rates) {
@@ -293,12 +297,10 @@ LinearAngular SceneMotion::momentum(const Rates& rates) {
         result.linear = result.linear + mv;
         result.angular = result.angular + cross(position(spot.point) - centre, mv);
         if (!mass.rotation) continue;
-        const std::array<ex, 6> inertia = central_inertia(mass, *m_.z);
-        Symmetric<Symbolic> I;
-        for (std::size_t k = 0; k < 6; ++k) I[k] = symbolic_(inertia[k]);
         const Vector3& w = places().attitude(spot.frame).w_NF_F;
-        result.angular =
-            result.angular + rotation(spot.frame) * (I * SymbolicVector{rates(w[0]), rates(w[1]), rates(w[2])});
+        result.angular = result.angular +
+                         rotation(spot.frame) *
+                             (inertia_along_body(mass) * SymbolicVector{rates(w[0]), rates(w[1]), rates(w[2])});
     }
     return result;
 }

@@ -114,8 +114,9 @@ private:
     bool same(const SymbolicVector& a, const SymbolicVector& b);
     SymbolicVector linear_momentum(const Rates& rates);
     LinearAngular momentum(const Rates& rates);
-    /// The tensor of inertia about the mass centre, along N.
+    /// The tensor of inertia about the mass centre, along N or along the body's frame.
     Symmetric<Symbolic> inertia_along_N(const MassElement& mass);
+    Symmetric<Symbolic> inertia_along_body(const MassElement& mass);
     void gather_masses();
     /// The rates of Σ m ρ over the step to this point and all beyond it: with turns, and of shifts alone.
     SymbolicVector moment_rate(int point, const Rates& rates);

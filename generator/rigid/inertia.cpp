@@ -213,7 +213,8 @@ SceneInertia inertia(Scene scene, const InertiaOptions& options) {
     }
     const PrincipalAxes<double> own = principal_axes<double>(result.tensor);
     for (Eigen::Index k = 0; k < 3; ++k)
-        result.principal.push_back({own.moments[k], {own.R(0, k), own.R(1, k), own.R(2, k)}});
+        result.principal.push_back(  // 0.0 is added because −0 is a confusing component
+            {own.moments[k], {own.R(0, k) + 0.0, own.R(1, k) + 0.0, own.R(2, k) + 0.0}});
     return result;
 }
 
