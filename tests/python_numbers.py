@@ -29,6 +29,16 @@ class Motions(unittest.TestCase):
         with self.assertRaises(ValueError):
             run.table[0, 0] = 1
 
+    def test_the_same_sensitivity_as_the_program(self):
+        file = scene_file("textbook/slider_crank.toml")
+        run = alembert.Scene(file).simulate(duration=0.5, sensitivity=["alpha", "l"])
+        told = program("simulate", file, "--duration", "0.5", "--sensitivity", "alpha,l")
+        self.assertEqual(run.sensitivity, told["sensitivity"])
+        self.assertEqual(run.sensitivity["by"], ["alpha", "l"])
+        few = alembert.Scene(file).simulate(duration=0.5, sensitivity=["alpha", "l"], sensitivity_of=["x"]).sensitivity
+        self.assertTrue(few["adjoint"])
+        np.testing.assert_allclose(few["values"][0], run.sensitivity["values"][2], rtol=1e-8)
+
     def test_a_motion_has_a_state_at_any_time(self):
         # Between rows that are 1/4 s apart it is as good as the rows of a finer run.
         scene = alembert.Scene(scene_file("textbook/double_pendulum.toml"))

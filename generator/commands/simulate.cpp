@@ -22,6 +22,7 @@ struct SimulateVerb : RunVerb {
     std::string plot;         ///< an SVG file; empty for none
     std::string section;      ///< of Poincaré; empty for none
     std::string sensitivity;  ///< names with commas; empty for none
+    std::string wanted;       ///< of what the sensitivity is; empty for the state
     std::string show;         ///< the names of the columns that it shows, with commas; if empty, all
 };
 
@@ -32,6 +33,7 @@ int run(const SimulateVerb& verb) {
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);
     wishes.sensitivity = names_of(verb.sensitivity);
+    wishes.sensitivity_of = names_of(verb.wanted);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     Scene scene = scene_of(verb.scene);
@@ -81,6 +83,9 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.add_option("--sensitivity", options.sensitivity,
                             say("derivatives of the end by initial values, parameters"))
                 .type_name(values::names);
+            verb.add_option("--sensitivity-of", options.wanted, say("of these components and outputs alone"))
+                .type_name(values::names)
+                .needs("--sensitivity");
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));
             add_reactions_option(verb, options.wishes.reactions);

@@ -229,16 +229,25 @@ void add_motion(std::string& page, const Run& run) {
     say_on(page, "closed: {}\n", closed.empty() ? say("no contact") : closed);
 }
 
-/// Adds ∂(end)/∂(start, parameters), a column for each name.
+/// Adds ∂(end)/∂(start, parameters).
 void add_sensitivity(std::string& page, const Sensitivity& s) {
-    say_on(page, "\nderivatives of the state at t = {:.15g} ({})\n", s.time, shown_count(s.steps, to_say("step")));
-    const std::size_t width = column_for(s.of, 16);
+    const std::string steps = shown_count(s.steps, to_say("step"));
+    if (s.adjoint)
+        say_on(page, "\nderivatives at t = {:.15g} (adjoint equations, {} backwards)\n", s.time, steps);
+    else
+        say_on(page, "\nderivatives at t = {:.15g} ({})\n", s.time, steps);
+    std::vector<std::string> by;
+    for (const std::string& name : s.by) by.push_back(say("by {}", name));
+    const bool down = s.by.size() > s.of.size();  // the longer list goes down the page
+    const std::vector<std::string>&rows = down ? by : s.of, &columns = down ? s.of : by;
+    const std::size_t width = column_for(rows, 16);
     put(page, "{:<{}}", "", width);
-    for (const std::string& name : s.by) put(page, "{:>24}", say("by {}", name));
+    for (const std::string& name : columns) put(page, "{:>24}", name);
     page += '\n';
-    for (std::size_t i = 0; i < s.of.size(); ++i) {
-        put(page, "{:<{}}", s.of[i], width);
-        for (const double value : s.values[i]) put(page, "{:>24.16g}", value);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        put(page, "{:<{}}", rows[i], width);
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            put(page, "{:>24.16g}", down ? s.values[k][i] : s.values[i][k]);
         page += '\n';
     }
 }
@@ -293,9 +302,13 @@ Json as_json(const Run& run) {
     result["constraint_drift"] = run.constraint_drift;
     if (run.estimate) result["error_estimate"] = json_of(*run.estimate, run.doubts);
     if (run.sensitivity)
-        result["sensitivity"] = {{"time", run.sensitivity->time},   {"of", run.sensitivity->of},
-                                 {"by", run.sensitivity->by},       {"values", run.sensitivity->values},
-                                 {"steps", run.sensitivity->steps}, {"evaluations", run.sensitivity->evaluations}};
+        result["sensitivity"] = {{"time", run.sensitivity->time},
+                                 {"of", run.sensitivity->of},
+                                 {"by", run.sensitivity->by},
+                                 {"values", run.sensitivity->values},
+                                 {"adjoint", run.sensitivity->adjoint},
+                                 {"steps", run.sensitivity->steps},
+                                 {"evaluations", run.sensitivity->evaluations}};
     if (!run.adjusted.empty()) result["adjusted"] = run.adjusted;
     result["events"] = Json::array();
     for (const EventRecord& event : run.motion.events) result["events"].push_back(json_of(event, run.mechanism));

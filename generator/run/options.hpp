@@ -27,6 +27,8 @@ struct RunOptions {
     /// Coordinates, rates, speeds and parameters by whose values at the start the end is differentiated
     /// (sensitivity.hpp).
     std::vector<std::string> sensitivity = {};
+    /// What is differentiated: components of the state and outputs; if empty, all components.
+    std::vector<std::string> sensitivity_of = {};
 
     /// Called now and then with the current task and the part of it that is done, from 0 to 1.
     std::function<void(std::string_view what, double part)> progress = {};

@@ -4,25 +4,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
 #include "language/libraries.hpp"
 #include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "program/partials.hpp"
 #include "program/variation.hpp"
+#include "state/start_derivatives.hpp"
 
 namespace alembert {
 
 namespace {
 
 void check_smooth_motion(const Mechanism& m, const Program& program) {
-    if (!m.constraints.empty() || !m.redundant.empty())
+    if (!m.redundant.empty())
         throw ModelError(
-            say("--sensitivity: the scene has constraints, so that its initial values do not vary one by one; "
-                "write it "
-                "in independent coordinates"));
+            say("--sensitivity: constraint '{}' follows from the others at these values, and would not at others; "
+                "leave "
+                "it out",
+                m.redundant[0].name));
     if (!m.unilateral.empty() || !m.frictions.empty() || m.has_kicks())
         throw ModelError(say(
             "--sensitivity: the scene has contacts, dry friction or events with impulses, at which derivatives "
@@ -34,25 +35,7 @@ void check_smooth_motion(const Mechanism& m, const Program& program) {
                 "with them; write a smooth function in its place"));
 }
 
-/// The derivatives of the state at the start by parameter k.
-std::vector<double> start_by_parameter(const Mechanism& m, const Start& start, int k) {
-    std::vector<GiNaC::ex> values = m.q_start;
-    if (start.speeds.empty())
-        values.insert(values.end(), m.qdot_start.begin(), m.qdot_start.end());
-    else
-        for (const Mechanism::Speed& speed : m.speeds) values.push_back(*speed.start);
-    Program program;
-    const std::vector<int> nodes = lower_expressions(program, m, values),
-                           by{program.variable({Variable::Kind::parameter, k})};
-    const auto parts = partials(program, nodes, by, EliminationOrder::reverse);
-    const std::vector<double> value =
-        interpret<double>(program, {.parameters = start.parameters, .q = {}, .qdot = {}, .qddot = {}});
-    std::vector<double> column(values.size(), 0);
-    for (const Partial& part : *parts)
-        column[static_cast<std::size_t>(part.output)] = value[static_cast<std::size_t>(part.node)];
-    return column;
-}
-
+/// Coordinates, then rates or speeds.
 std::vector<std::string> names_of_state(const Program& program) {
     std::vector<std::string> names;
     for (const Quantity& q : program.coordinates) names.push_back(q.name);
@@ -61,45 +44,136 @@ std::vector<std::string> names_of_state(const Program& program) {
     return names;
 }
 
+std::optional<StartName> start_name(const Mechanism& m, const Program& program, const std::string& name) {
+    const auto at = [&](const auto& list, const auto& name_of) -> std::optional<std::size_t> {
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (name_of(list[i]) == name) return i;
+        return std::nullopt;
+    };
+    using Kind = StartName::Kind;
+    if (const auto i = at(program.parameters, [](const Quantity& p) { return p.name; }))
+        return StartName{name, Kind::parameter, *i};
+    if (const auto i = at(m.q, [](const auto& q) { return q.get_name(); }))
+        return StartName{name, Kind::coordinate, *i};
+    if (const auto i = at(m.q, [](const auto& q) { return q.get_name() + "'"; }))
+        return StartName{name, Kind::rate, *i};
+    if (const auto i = at(m.speeds, [](const Mechanism::Speed& s) { return s.u.get_name(); }))
+        return StartName{name, Kind::speed, *i};
+    return std::nullopt;
+}
+
 }  // namespace
 
 Sensitivities::Sensitivities(const Derived& d, const Program& program, const Start& start,
-                             const std::vector<std::string>& names)
-    : start_(start), of_(names_of_state(program)), names_(names) {
+                             const std::vector<std::string>& names, const std::vector<std::string>& of)
+    : start_(start), names_(names) {
     const Mechanism& m = d.mechanism;
     const Starts known(m, names);  // refuses names that cannot be set
     check_smooth_motion(m, program);
-    if (!program.speeds.empty() && start.speeds.empty())
-        throw ModelError(say(
-            "--sensitivity: the state of these equations are speeds, and the scene gives rates at the start; give "
-            "initial speeds, or choose the formalism 'lagrange'"));
-    auto derivatives = derivatives_of(d, program, {.parameters = true});
+    find_wanted(program, of);
+    const bool outputs = std::any_of(components_.begin(), components_.end(), [](int k) { return k < 0; });
+    auto derivatives = derivatives_of(d, program, {.parameters = true, .values = outputs});
     if (!derivatives)
         throw ModelError(say("the equations of this scene are too large to be differentiated, or singular"));
     program_ = std::move(derivatives->program);
     const State<double> state = state_of(start, m, d.equations);
     state_ = state.q;
     state_.insert(state_.end(), state.qdot.begin(), state.qdot.end());
+    std::vector<StartName> found;
     for (const std::string& name : names) {
-        const auto component = std::find(of_.begin(), of_.end(), name);
-        const auto parameter = std::find_if(program.parameters.begin(), program.parameters.end(),
-                                            [&](const Quantity& p) { return p.name == name; });
-        if (component == of_.end() && parameter == program.parameters.end())
+        const std::optional<StartName> one = start_name(m, program, name);
+        if (!one)
             throw ModelError(
                 say("--sensitivity: '{}' is neither a parameter nor a part of the state; expected some of: {}",
-                    name, fmt::join(of_, ", ")));
-        if (component != of_.end()) {
-            parameters_.push_back(-1);
-            columns_.emplace_back(state_.size(), 0.0);
-            columns_.back()[static_cast<std::size_t>(component - of_.begin())] = 1;
-        } else {
-            parameters_.push_back(static_cast<int>(parameter - program.parameters.begin()));
-            columns_.push_back(start_by_parameter(m, start, parameters_.back()));
+                    name, fmt::join(names_of_state(program), ", ")));
+        found.push_back(*one);
+        parameters_.push_back(one->kind == StartName::Kind::parameter ? static_cast<int>(one->index) : -1);
+    }
+    columns_ = start_derivatives(m, d.equations, start, found);
+}
+
+void Sensitivities::find_wanted(const Program& program, const std::vector<std::string>& of) {
+    const std::vector<std::string> state = names_of_state(program);
+    std::vector<std::string> outputs;
+    for (const Root& root : program.roots)
+        if (root.group == Group::output) outputs.push_back(root.name);
+    of_ = of.empty() ? state : of;
+    for (const std::string& name : of_) {
+        const auto component = std::find(state.begin(), state.end(), name);
+        const auto output = std::find(outputs.begin(), outputs.end(), name);
+        if (component == state.end() && output == outputs.end()) {
+            std::vector<std::string> known = state;
+            known.insert(known.end(), outputs.begin(), outputs.end());
+            throw ModelError(
+                say("--sensitivity-of: '{}' is neither a part of the state nor an output; expected some of: {}",
+                    name, fmt::join(known, ", ")));
         }
+        components_.push_back(component != state.end() ? static_cast<int>(component - state.begin())
+                                                       : ~static_cast<int>(output - outputs.begin()));
     }
 }
 
+// The rows of value_gradient are those of energies and power, then of outputs; their entries are those by the
+// state, by u', and by parameters.
+Sensitivities::AtEnd Sensitivities::at_end(double t, std::span<const double> state) const {
+    const std::size_t N = state_.size(), n = program_.coordinates.size(), s = N - n,
+                      P = program_.parameters.size();
+    AtEnd result;
+    const std::vector<double> value =
+        interpret<double>(program_, {.parameters = start_.parameters,
+                                     .t = t,
+                                     .q = {state.begin(), state.begin() + static_cast<std::ptrdiff_t>(n)},
+                                     .qdot = {state.begin() + static_cast<std::ptrdiff_t>(n), state.end()},
+                                     .qddot = {}});
+    const auto at = [&](const std::vector<int>& nodes, std::size_t k) {
+        return value[static_cast<std::size_t>(nodes[k])];
+    };
+    const std::vector<int> gradient = program_.nodes_of(Group::value_gradient),
+                           J = program_.nodes_of(Group::jacobian),
+                           by_parameters = program_.nodes_of(Group::parameter_jacobian);
+    std::size_t before = 0;
+    for (const Group group : {Group::kinetic, Group::potential, Group::energy, Group::power})
+        before += program_.nodes_of(group).size();
+    for (const int component : components_) {
+        std::vector<double> by_state(N, 0), by_name(names_.size(), 0);
+        if (component >= 0) by_state[static_cast<std::size_t>(component)] = 1;
+        const std::size_t row = component >= 0 ? 0 : (before + static_cast<std::size_t>(~component)) * (N + s + P);
+        for (std::size_t k = 0; k < N && component < 0; ++k) {
+            by_state[k] = at(gradient, row + k);
+            for (std::size_t i = 0; i < s; ++i) by_state[k] += at(gradient, row + N + i) * at(J, (n + i) * N + k);
+        }
+        for (std::size_t c = 0; c < names_.size() && component < 0; ++c) {
+            if (parameters_[c] < 0) continue;
+            const auto p = static_cast<std::size_t>(parameters_[c]);
+            by_name[c] = at(gradient, row + N + s + p);
+            for (std::size_t i = 0; i < s; ++i)
+                by_name[c] += at(gradient, row + N + i) * at(by_parameters, (n + i) * P + p);
+        }
+        result.by_state.push_back(std::move(by_state));
+        result.by_name.push_back(std::move(by_name));
+    }
+    return result;
+}
+
 Sensitivity Sensitivities::at(double end, double tolerance, long budget) const {
+    if (2 * of_.size() <= names_.size() && end > start_.t)
+        if (auto found = backwards(end, tolerance, budget)) return *found;
+    return forwards(end, tolerance, budget);
+}
+
+Trajectory Sensitivities::integrated(const Rhs& rhs, const std::vector<double>& start, Options options) const {
+    options.method = Method::dop853;
+    options.longest_step = start_.max_step;
+    options.when_stiff = Method::radau;
+    Trajectory motion = integrate(rhs, start, options);
+    if (motion.failure)
+        throw IntegrationError(
+            say("the derivatives of --sensitivity: {}", translated_from_library(motion.failure->message)),
+            motion.failure->time, motion.failure->state);
+    return motion;
+}
+
+Sensitivity Sensitivities::forwards(double end, double tolerance, long budget) const {
     const std::size_t N = state_.size(), columns = columns_.size();
     const Variation<double> variation(program_, start_.parameters, parameters_);
     const Rhs both = make_rhs(static_cast<int>(N * (1 + columns)),
@@ -107,29 +181,64 @@ Sensitivity Sensitivities::at(double end, double tolerance, long budget) const {
     std::vector<double> y = state_;
     for (const std::vector<double>& column : columns_) y.insert(y.end(), column.begin(), column.end());
     const double duration = end - start_.t;
-    const Trajectory motion = integrate(both, y,
-                                        {.method = Method::dop853,
-                                         .start = start_.t,
-                                         .duration = duration,
-                                         .tolerance = tolerance,
-                                         .longest_step = start_.max_step,
-                                         .sample = duration,
-                                         .budget = budget,
-                                         .when_stiff = Method::radau});
-    if (motion.failure)
-        throw IntegrationError(
-            say("the derivatives of --sensitivity: {}", translated_from_library(motion.failure->message)),
-            motion.failure->time, motion.failure->state);
+    const Trajectory motion = integrated(
+        both, y,
+        {.start = start_.t, .duration = duration, .tolerance = tolerance, .sample = duration, .budget = budget});
+    const auto last = motion.final_state();
+    const AtEnd wanted = at_end(end, last.first(N));
     Sensitivity result{.time = end,
                        .of = of_,
                        .by = names_,
-                       .values = {},
+                       .values = wanted.by_name,
                        .steps = motion.statistics.steps,
                        .evaluations = motion.statistics.evaluations};
-    const auto last = motion.final_state();
-    for (std::size_t i = 0; i < N; ++i) {
-        result.values.emplace_back();
-        for (std::size_t c = 0; c < columns; ++c) result.values[i].push_back(last[N + c * N + i]);
+    for (std::size_t i = 0; i < of_.size(); ++i)
+        for (std::size_t c = 0; c < columns; ++c)
+            for (std::size_t k = 0; k < N; ++k) result.values[i][c] += wanted.by_state[i][k] * last[N + c * N + k];
+    return result;
+}
+
+/// Nothing for a stiff motion, which cannot be run backwards.
+std::optional<Sensitivity> Sensitivities::backwards(double end, double tolerance, long budget) const {
+    constexpr long steps_between_rows = 8;
+    const std::size_t N = state_.size(), columns = columns_.size(), rows = of_.size();
+    const Variation<double> variation(program_, start_.parameters, parameters_);
+    const Rhs alone =
+        make_rhs(static_cast<int>(N), [&](double t, const double* y, double* rate) { variation(t, y, rate, 0); });
+    const double duration = end - start_.t;
+    Options options{
+        .start = start_.t, .duration = duration, .tolerance = tolerance, .sample = duration, .budget = budget};
+    const Statistics counted = integrated(alone, state_, options).statistics;
+    if (counted.switched) return std::nullopt;
+    options.sample = duration / static_cast<double>(1 + counted.steps / steps_between_rows);
+    const Trajectory motion = integrated(alone, state_, options);
+    const AtEnd wanted = at_end(end, motion.final_state());
+
+    Sensitivity result{.time = end, .of = of_, .by = names_, .values = wanted.by_name, .adjoint = true};
+    std::vector<double> y(N);
+    for (const std::vector<double>& row : wanted.by_state) {
+        y.insert(y.end(), row.begin(), row.end());
+        y.insert(y.end(), columns, 0.0);
+    }
+    for (std::size_t k = motion.rows() - 1; k > 0; --k) {
+        const double from = motion.times[k];
+        std::copy(motion.state(k).begin(), motion.state(k).end(), y.begin());
+        const Rhs back = make_rhs(static_cast<int>(y.size()), [&](double s, const double* now, double* rate) {
+            variation.backwards(from - s, now, rate, rows);
+        });
+        const double length = from - motion.times[k - 1];
+        const Trajectory piece =
+            integrated(back, y, {.duration = length, .tolerance = tolerance, .sample = length, .budget = budget});
+        y.assign(piece.final_state().begin(), piece.final_state().end());
+        result.steps += piece.statistics.steps;
+        result.evaluations += piece.statistics.evaluations;
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+        const double* const w = y.data() + N + i * (N + columns);
+        for (std::size_t c = 0; c < columns; ++c) {
+            result.values[i][c] += w[N + c];
+            for (std::size_t k = 0; k < N; ++k) result.values[i][c] += w[k] * columns_[c][k];
+        }
     }
     return result;
 }

@@ -7,13 +7,21 @@
 ///     run.sensitivity->values[0][1];      // ∂(theta1 at the end)/∂l1
 ///
 /// The variational equations Φ' = ∂f/∂x Φ + ∂f/∂p are integrated together with the motion by dop853, under the
-/// control of the errors of both (Hairer, Nørsett & Wanner, Solving ODEs I, §I.14). The time of the end is held.
-/// By a parameter the whole derivative is meant, that of a run with another value: initial values that the scene
-/// writes with it change too.
+/// control of the errors of both (Hairer, Nørsett & Wanner, Solving ODEs I, §I.14). Where few quantities are
+/// wanted by many names, the adjoint equations are integrated back from the end instead: their number does not
+/// grow with that of the names. The state is then taken anew from the motion every few steps, so that what damping
+/// makes unstable backwards cannot grow; a stiff motion is not run backwards.
+///
+/// The time of the end is held. By a parameter the whole derivative is meant, that of a run with another value:
+/// initial values that the scene writes with it change too. With constraints, guesses follow at the start
+/// (state/start_derivatives.hpp), and the columns of Φ stay tangent to the constraints.
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "alembert/integrate.hpp"
 #include "derive/derived.hpp"
 #include "lower/start.hpp"
 
@@ -21,27 +29,41 @@ namespace alembert {
 
 struct Sensitivity {
     double time = 0;                          ///< of the end, in s
-    std::vector<std::string> of, by;          ///< names of the components at the end, and of what is varied
+    std::vector<std::string> of, by;          ///< names of the quantities at the end, and of what is varied
     std::vector<std::vector<double>> values;  ///< [of][by], in the scene's units
+    bool adjoint = false;                     ///< whether the adjoint equations gave them
     long steps = 0, evaluations = 0;
 };
 
 class Sensitivities {
 public:
-    /// `program` is that of `derived`; the arguments must outlive the object. Throws ModelError for names that the
-    /// scene does not have or that follow from others, and for a scene whose motion is not smooth, that has
-    /// constraints, or whose derivatives are too long.
+    /// `of`: names of components of the state or of outputs; if empty, all components. `program` is that of
+    /// `derived`; the arguments must outlive the object. Throws ModelError for names that the scene does not have,
+    /// that follow from others or cannot vary by themselves, and for a scene whose motion is not smooth, whose
+    /// constraints are redundant, or whose derivatives are too long.
     Sensitivities(const Derived& derived, const Program& program, const Start& start,
-                  const std::vector<std::string>& names);
+                  const std::vector<std::string>& names, const std::vector<std::string>& of);
 
     /// At the time `end`. Throws IntegrationError if the equations cannot be integrated to it.
     Sensitivity at(double end, double tolerance, long budget) const;
 
 private:
+    /// The derivatives of what is wanted, at the end itself: [of][state], [of][name].
+    struct AtEnd {
+        std::vector<std::vector<double>> by_state, by_name;
+    };
+
+    void find_wanted(const Program& program, const std::vector<std::string>& of);
+    AtEnd at_end(double t, std::span<const double> state) const;
+    Sensitivity forwards(double end, double tolerance, long budget) const;
+    std::optional<Sensitivity> backwards(double end, double tolerance, long budget) const;
+    Trajectory integrated(const Rhs& rhs, const std::vector<double>& start, Options options) const;
+
     Program program_;
     Start start_;
     std::vector<double> state_;  ///< at the start
     std::vector<std::string> of_, names_;
+    std::vector<int> components_;               ///< of the state, or ~k for output k
     std::vector<int> parameters_;               ///< the position of the parameter of each name, or −1
     std::vector<std::vector<double>> columns_;  ///< the derivative of the state at the start by each name
 };

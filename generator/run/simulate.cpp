@@ -66,7 +66,8 @@ public:
         start_ = start_of(run_.mechanism);
         run_.adjusted = assemble(start_, run_.mechanism, lower_constraints(run_.mechanism), {});
         first_ = state_of(start_, run_.mechanism, run_.equations);
-        if (!wishes_.sensitivity.empty()) sensitivities_.emplace(run_, program, start_, wishes_.sensitivity);
+        if (!wishes_.sensitivity.empty())
+            sensitivities_.emplace(run_, program, start_, wishes_.sensitivity, wishes_.sensitivity_of);
         choice_ = method_for(wishes_, run_, program, start_);
         options_ = options_of(wishes_, choice_, start_);
         prepare_contacts();
