@@ -78,6 +78,23 @@ std::string with_value(const std::string& text, const Varied& v, double value) {
     return replaced(text, replaced(v.line, "NUMBER", v.number), replaced(v.line, "NUMBER", Json(value).dump()));
 }
 
+/// The derivative of a list of numbers that follows from a value, by differences of fourth order. The motions have
+/// at least 17 digits.
+template <typename Values>
+std::vector<double> slope(const Varied& v, const Values& values) {
+    const double h = 1e-4 * std::max(0.1, std::abs(v.value()));
+    std::vector<Quad> sums;
+    for (const int step : {-2, -1, 1, 2}) {
+        const std::vector<Quad> all = values(v.value() + step * h);
+        sums.resize(all.size());
+        const Quad weight = static_cast<Quad>((step * step == 1 ? 8 : -1) * (step > 0 ? 1 : -1)) / (12 * Quad(h));
+        for (std::size_t i = 0; i < all.size(); ++i) sums[i] += weight * all[i];
+    }
+    std::vector<double> result;
+    for (const Quad sum : sums) result.push_back(static_cast<double>(sum));
+    return result;
+}
+
 /// The derivatives at the end are those of differences of the motions in 34 digits, relative to the largest one.
 void check_derivatives(const std::string& text, const std::vector<Varied>& all) {
     std::vector<std::string> names;
@@ -86,20 +103,14 @@ void check_derivatives(const std::string& text, const std::vector<Varied>& all) 
         simulate(parse_scene(text, "scene.toml"), {.tolerance = 1e-12, .estimate = false, .sensitivity = names});
     REQUIRE(run.sensitivity);
     for (std::size_t c = 0; c < all.size(); ++c) {
-        const double step = 1e-8 * std::max(0.1, std::abs(all[c].value())), above = all[c].value() + step,
-                     below = all[c].value() - step;
-        const std::vector<Quad> up = end_of(with_value(text, all[c], above)),
-                                down = end_of(with_value(text, all[c], below));
-        REQUIRE(up.size() == run.sensitivity->of.size());
-        double largest = 0;
-        std::vector<double> expected;
-        for (std::size_t i = 0; i < up.size(); ++i) {
-            expected.push_back(static_cast<double>((up[i] - down[i]) / static_cast<Quad>(above - below)));
-            largest = std::max(largest, std::abs(expected[i]));
-        }
-        for (std::size_t i = 0; i < up.size(); ++i) {
+        const std::vector<double> expected =
+            slope(all[c], [&](double value) { return end_of(with_value(text, all[c], value)); });
+        REQUIRE(expected.size() == run.sensitivity->of.size());
+        double largest = 1;
+        for (const double x : expected) largest = std::max(largest, std::abs(x));
+        for (std::size_t i = 0; i < expected.size(); ++i) {
             INFO(run.sensitivity->of[i] << " by " << all[c].name);
-            CHECK(std::abs(run.sensitivity->values[i][c] - expected[i]) <= 1e-9 * std::max(1.0, largest));
+            CHECK(std::abs(run.sensitivity->values[i][c] - expected[i]) <= 1e-9 * largest);
         }
     }
 }
@@ -178,19 +189,14 @@ TEST_CASE(
     CHECK(s.adjoint);
     for (std::size_t c = 0; c < all.size(); ++c) {
         INFO("by " << all[c].name);
-        const double step = 1e-8 * std::max(0.1, std::abs(all[c].value())), above = all[c].value() + step,
-                     below = all[c].value() - step;
-        const auto at = [&](double value) {
+        const std::vector<double> expected = slope(all[c], [&](double value) {
             const std::vector<Quad> end = end_of(with_value(text, all[c], value));
             const Quad r = all[c].name == "r" ? value : Quad(15) / 100,
                        l = all[c].name == "l" ? value : Quad(4) / 10;
-            return std::array<Quad, 2>{r * end[3] * end[3] + l * end[2], end[5]};
-        };
-        const auto up = at(above), down = at(below);
-        for (std::size_t i = 0; i < 2; ++i) {
-            const double expected = static_cast<double>((up[i] - down[i]) / static_cast<Quad>(above - below));
-            CHECK(std::abs(s.values[i][c] - expected) <= 1e-9 * std::max(1.0, std::abs(expected)));
-        }
+            return std::vector<Quad>{r * end[3] * end[3] + l * end[2], end[5]};
+        });
+        for (std::size_t i = 0; i < 2; ++i)
+            CHECK(std::abs(s.values[i][c] - expected[i]) <= 1e-9 * std::max(1.0, std::abs(expected[i])));
         // Another way to each: forwards, one name alone.
         const Sensitivity forward = found({all[c].name}, {"formula", "x'", "push"});
         CHECK(!forward.adjoint);
