@@ -274,6 +274,8 @@ TEST_CASE("friction: a derivation describes both modes, and a claim with its for
     CHECK(one["slip"] == "s'");
     CHECK(one["sliding"] == "m*g*mu*cos(alpha)");
     CHECK(one["sticking"] == "m*g*mu_s*cos(alpha)");
+    REQUIRE(one["while_sticking"].size() == 1);
+    CHECK(one["while_sticking"][0]["text"] == "m*s'' - m*g*sin(alpha) = F + friction_slope");
     for (const char* name : {"block_on_slope", "stick_slip", "belt_blocks", "coulomb_oscillator", "clutch",
                              "brake", "billiard_ball"}) {
         CAPTURE(name);
