@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -273,6 +274,8 @@ TEST_CASE("friction: a derivation describes both modes, and a claim with its for
     CHECK(one["slip"] == "s'");
     CHECK(one["sliding"] == "m*g*mu*cos(alpha)");
     CHECK(one["sticking"] == "m*g*mu_s*cos(alpha)");
+    REQUIRE(one["while_sticking"].size() == 1);
+    CHECK(one["while_sticking"][0]["text"] == "m*s'' - m*g*sin(alpha) = F + friction_slope");
     for (const char* name : {"block_on_slope", "stick_slip", "belt_blocks", "coulomb_oscillator", "clutch",
                              "brake", "billiard_ball"}) {
         CAPTURE(name);
@@ -325,15 +328,40 @@ TEST_CASE("friction: a ball with backspin grips or slides in each bounce as in R
     check_balance(motion);
 }
 
+// At the tolerance 1e-10 methods of orders up to 5 are right to about 1e-7.
+TEST_CASE("friction: cvode and ida stick and slip at the times of the closed forms") {
+    if (!std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-sundials.so"))
+        return;
+    const double w = 5, a = 0.12, v = 0.3, period = (2 * pi - 2 * std::atan(a * w / v)) / w + 2 * a / v;
+    for (const std::string method : {"cvode", "ida"}) {
+        CAPTURE(method);
+        const Json motion = simulated(scene_of("stick_slip"), {"--method", method, "--tolerance", "1e-10"});
+        CHECK(motion["method"] == method);
+        const auto slips = of_kind(motion, "slip");
+        REQUIRE(slips.size() >= 8);
+        for (std::size_t n = 1; n < slips.size(); ++n)
+            CHECK(std::abs(value(slips[n], "time") - value(slips[n - 1], "time") - period) < 1e-7);
+        CHECK(motion["work_balance"].get<double>() < 1e-6);
+    }
+    const Json exact = simulated(scene_of("trammel")),
+               motion = simulated(scene_of("trammel"), {"--method", "cvode", "--tolerance", "1e-10"});
+    REQUIRE(motion["contacts"].size() == exact["contacts"].size());
+    for (std::size_t k = 0; k < exact["contacts"].size(); ++k) {
+        CHECK(motion["contacts"][k]["event"] == exact["contacts"][k]["event"]);
+        CHECK(std::abs(value(motion["contacts"][k], "time") - value(exact["contacts"][k], "time")) < 1e-6);
+    }
+}
+
 TEST_CASE("friction: verbs and methods that do not support it say so") {
     const auto told = [](const std::vector<std::string>& command) {
         const auto result = run(command);
         CHECK(result.exit == 3);
         return result.err;
     };
-    CHECK(told({"sweep", scene_of("clutch"), "--vary", "mu=0.3:0.4:2"}).find("does not follow dry friction") !=
-          std::string::npos);
-    CHECK(told({"simulate", scene_of("clutch"), "--method", "cvode"}).find("dry friction") != std::string::npos);
+    for (const char* const method : {"cvode", "ida"})
+        CHECK(told({"simulate", scene_of("billiard_ball"), "--method", method}).find("contacts") !=
+              std::string::npos);
+    CHECK(told({"simulate", scene_of("trammel"), "--method", "ida"}).find("take cvode") != std::string::npos);
     for (const char* verb : {"linearize", "inverse", "impact"})
         CHECK(told({verb, scene_of("billiard_ball")}).find("'cloth'") != std::string::npos);
 }

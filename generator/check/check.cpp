@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "check/any_motion.hpp"
 #include "check/claims.hpp"
@@ -24,6 +25,7 @@
 #include "language/say.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
+#include "scene/sticking.hpp"
 #include "symbolic/fourier.hpp"
 
 namespace alembert {
@@ -254,6 +256,10 @@ private:
         for (const std::size_t k : here)
             if (forms_[k].open.empty())
                 settle_alone(k, *states);
+            else if (!states->motions.rubbed().empty())
+                result_.claims[k].reason =
+                    say("it leaves names open, and the side that a constraint with friction presses is known in "
+                        "numbers only");
             else if (states->motions.loose().empty())
                 open.push_back(k);
             else
@@ -279,7 +285,10 @@ private:
                 "is too high");
             return;
         }
-        if (*zero) {
+        const bool has_sides = depends_on_sides(p, root);
+        const bool is_rubbed = !states.motions.rubbed().empty();
+        if (*zero && (is_rubbed ? hold_in_numbers(states.motions, p, {root})[0]
+                                : !has_sides || !fails_in_numbers(states.motions, p, root))) {
             if (!states.motions.loose().empty() && !hold_in_numbers(states.motions, p, {root})[0]) {
                 c.reason =
                     say("it holds wherever the constraints are constant, and no state was found at which they are "
@@ -293,6 +302,10 @@ private:
                     "with the same effect would not obey it");
             c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, law_)) ||
                             (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
+            return;
+        }
+        if (is_rubbed && holds_with_signs_turned(k, states, p, root)) {
+            c.verdict = Verdict::proved;
             return;
         }
         if (const auto branch = branch_of(k, states)) {
@@ -309,6 +322,27 @@ private:
         }
         show(c, *shown);
         explain(k, states);
+    }
+
+    /// Whether signs decide: Legendre's symbol takes their place in exact arithmetic, and that of 3 is −1, so that
+    /// 3 times something positive counts as negative. Then numbers have a say too.
+    static bool depends_on_sides(const Program& p, int root) {
+        const std::vector<int> needed = p.needed(std::vector{root});
+        return std::any_of(needed.begin(), needed.end(),
+                           [&](int id) { return p[id].op == Op::sign || p[id].op == Op::abs; });
+    }
+
+    /// A claim that holds with other signs of the multipliers of friction, and in numbers, has the right ones.
+    bool holds_with_signs_turned(std::size_t k, const ExactStates& states, const Program& p, int root) {
+        const unsigned choices = 1U << states.motions.rubbed().size();
+        for (unsigned turned = 1; turned < choices; ++turned) {
+            ExactStates others(m_, law_, states.motions.where(), states.motions.halves(), halvings_in({k}),
+                               Motions::Positions::solved, turned);
+            if (vanishes_at(others, p, root, result_.claims[k].failure) == std::optional(true) &&
+                hold_in_numbers(states.motions, p, {root})[0])
+                return true;
+        }
+        return false;
     }
 
     std::string inequality(const ex& positive) const {
@@ -460,11 +494,47 @@ private:
 
 }  // namespace
 
-Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets,
-              const std::string& by) {
+namespace {
+
+Checked check_of_one_mode(const Scene& scene, const Mechanism& mechanism,
+                          const std::shared_ptr<RootSheets>& sheets, const std::string& by) {
     const Equations equations = routh(mechanism);
     const Mechanism m = in_terms_of(equations, mechanism);
     return Checker(scene, m, equations, sheets, by).run();
+}
+
+/// The scene with these claims only.
+Scene with_some_claims(Scene scene, const std::vector<std::size_t>& claims) {
+    std::vector<Claim> some;
+    for (const std::size_t k : claims) some.push_back(std::move(scene.claims[k]));
+    scene.claims = std::move(some);
+    return scene;
+}
+
+}  // namespace
+
+Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets,
+              const std::string& by) {
+    std::map<std::vector<std::string>, std::vector<std::size_t>> modes;  // by what sticks
+    for (std::size_t k = 0; k < scene.claims.size(); ++k)
+        modes[is_sticking(scene.claims[k]) ? sticking_in(scene.claims[k], scene) : std::vector<std::string>()]
+            .push_back(k);
+    if (modes.size() == 1 && modes.begin()->first.empty()) return check_of_one_mode(scene, mechanism, sheets, by);
+    Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size())};
+    for (const auto& [sticking, claims] : modes) {
+        Scene part = with_some_claims(scene, claims);
+        Checked checked;
+        if (sticking.empty()) {
+            checked = check_of_one_mode(part, mechanism, sheets, by);
+            result.complete = checked.complete;
+        } else {
+            for (Claim& claim : part.claims) claim.at = "motion";
+            const Prepared stuck = prepared(with_sticking(std::move(part), sticking), {}, sheets != nullptr);
+            checked = check_of_one_mode(stuck.scene, stuck.mechanism, stuck.sheets, by);
+        }
+        for (std::size_t i = 0; i < claims.size(); ++i) result.claims[claims[i]] = std::move(checked.claims[i]);
+    }
+    return result;
 }
 
 CheckedScene check(Scene scene, const std::string& by) {

@@ -145,6 +145,18 @@ std::vector<bool> hold_in_numbers(const Motions& motions, const Program& p, cons
     return holds;
 }
 
+bool fails_in_numbers(const Motions& motions, const Program& p, int root) {
+    int found = 0;
+    for (unsigned seed = 0; seed < 60 && found < 6; ++seed) {
+        const auto state = real_state(motions, p, {root}, seed);
+        const auto value = state ? evaluate(p, *state, {root}) : std::nullopt;
+        if (!value) continue;
+        if (!is_small((*value)[0])) return true;
+        ++found;
+    }
+    return false;
+}
+
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,
                                              const OpenClaim& of) {
     const std::vector<Open>& names = told.claims.open();

@@ -56,4 +56,7 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
 /// have a unique solution?
 std::vector<bool> hold_in_numbers(const Motions& motions, const Program& program, const std::vector<int>& roots);
 
+/// Is the root different from zero at one of a few states?
+bool fails_in_numbers(const Motions& motions, const Program& program, int root);
+
 }  // namespace alembert

@@ -175,8 +175,8 @@ std::vector<double> restitutions(const Mechanism& mechanism, const std::vector<d
     return result;
 }
 
-void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactView& view,
-                const State<double>& state, double tolerance) {
+std::vector<Diagnostic> negative_gaps(const Mechanism& mechanism, const ContactView& view,
+                                      const State<double>& state, double tolerance) {
     const Situation here = view.at(state);
     const Eigen::VectorXd slack =
         negligible_gaps(here, Eigen::Map<const Eigen::VectorXd>(state.q.data(), mechanism.size()), tolerance);
@@ -190,6 +190,12 @@ void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactVie
                                 "initial values that leave it open or closed",
                                 contact.name, gap)});
     }
+    return negative;
+}
+
+void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactView& view,
+                const State<double>& state, double tolerance) {
+    const std::vector<Diagnostic> negative = negative_gaps(mechanism, view, state, tolerance);
     if (!negative.empty()) fail(scene, negative);
 }
 

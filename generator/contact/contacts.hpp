@@ -52,7 +52,11 @@ private:
 /// The restitutions at these values of the independent parameters.
 std::vector<double> restitutions(const Mechanism& mechanism, const std::vector<double>& parameters);
 
-/// Throws SceneError for a gap that is negative by more than `tolerance` · max(1, |q|), with its place and value.
+/// The gaps that are negative by more than `tolerance` · max(1, |q|), with their places and values.
+std::vector<Diagnostic> negative_gaps(const Mechanism& mechanism, const ContactView& view,
+                                      const State<double>& state, double tolerance);
+
+/// Throws SceneError if there are any.
 void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactView& view,
                 const State<double>& state, double tolerance);
 

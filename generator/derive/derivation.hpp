@@ -51,6 +51,10 @@ struct Derivation {
         std::string name;
         Phrase slip, sliding, sticking;
         std::optional<Phrase> across = {};  ///< the second component of the sliding velocity, if it has two
+        /// The equations while it sticks and all others slide, with its force as a multiplier
+        /// (scene/sticking.hpp), if they are readable; set by `derive`.
+        std::vector<ReadableEquation> held = {};
+        std::vector<std::string> forces = {};  ///< the names of these multipliers
     };
     std::vector<Rubs> frictions;
     bool has_unit_quaternions = false;  ///< whether e·e = 1 of quaternions has been used in all terms

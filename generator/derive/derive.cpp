@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "derive/derive.hpp"
 
+#include "alembert/error.hpp"
 #include "contact/contacts.hpp"
 #include "exact/expression_of.hpp"
 #include "reaction/joint_reactions.hpp"
+#include "scene/sticking.hpp"
 
 namespace alembert {
 
@@ -43,6 +45,20 @@ std::vector<Statement> borne(const Derived& d) {
     return result;
 }
 
+/// The equations while this friction sticks; none if they are not readable.
+std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const std::string& friction) {
+    Scene stuck = with_sticking(scene, {friction});
+    stuck.on_warning = [](const std::string&) {};  // they were told for the scene itself
+    try {
+        Derived d = derived(std::move(stuck), {.by = "routh", .on_sheets = true});
+        if (!d.mechanism.unilateral.empty()) d = derived_again(d, with_all_closed(d.mechanism), "routh");
+        Derivation shown = derivation_of(d.mechanism, d.equations);
+        return shown.definitions.empty() ? std::move(shown.equations) : std::vector<ReadableEquation>();
+    } catch (const ModelError&) {
+        return {};  // what sticks contradicts a constraint, for instance
+    }
+}
+
 }  // namespace
 
 DerivedScene derive(Scene scene, const ShowOptions& options) {
@@ -55,6 +71,12 @@ DerivedScene derive(Scene scene, const ShowOptions& options) {
     if (d.sheets)
         for (const GiNaC::ex& positive : d.sheets->positive())
             if (const auto f = fourier(positive, *d.mechanism.symbols)) d.shown.positive.push_back(readable(*f));
+    for (Derivation::Rubs& friction : d.shown.frictions)
+        for (const FrictionRule& rule : d.scene.frictions) {
+            if (rule.name.text != friction.name) continue;
+            friction.held = equations_while_sticking(d.scene, friction.name);
+            friction.forces = sticking_forces(rule);
+        }
     if (!options.reactions) return d;
     show_reactions(d.shown, d.mechanism);
     d.joint_loads = borne(d);

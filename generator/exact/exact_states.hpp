@@ -9,12 +9,12 @@ namespace alembert {
 class ExactStates {
 public:
     ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves, int halvings,
-                Motions::Positions positions = Motions::Positions::solved)
-        : motions(m, e, at, halves, halvings, positions) {}
+                Motions::Positions positions = Motions::Positions::solved, unsigned turned = 0)
+        : motions(m, e, at, halves, halvings, positions), turned_(turned) {}
 
     const ExactState* get(std::size_t k) {
         while (made_.size() <= k && unusable_ < most_unusable && motions.obstacle().empty()) {
-            if (auto state = motions.at(++seed_))
+            if (auto state = motions.at(++seed_, {}, turned_))
                 made_.push_back(std::move(*state));
             else
                 ++unusable_;
@@ -28,6 +28,7 @@ private:
     static constexpr int most_unusable = 4000;
     std::vector<ExactState> made_;
     std::uint64_t seed_ = 0;
+    unsigned turned_;  ///< as in Motions::at
     int unusable_ = 0;
 };
 

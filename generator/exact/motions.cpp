@@ -42,19 +42,42 @@ std::vector<ex> balance_at_rest(const Mechanism& m, const Equations& e) {
     return balance;
 }
 
+/// Friction follows the reaction, which constraints that depend on each other do not determine.
+void need_determined_reactions(const Mechanism& m) {
+    if (m.redundant.empty()) return;
+    for (const Mechanism::Friction& f : m.frictions)
+        if (f.multiplier)
+            throw ModelError(say(
+                "claims are not decided where friction, as '{}', is on a constraint while constraints depend on "
+                "each other: '{}' follows from the others, so that the equations do not say which part of the "
+                "reaction each of them bears; leave '{}' out of the scene",
+                f.name, m.redundant[0].name, m.redundant[0].name));
+}
+
+/// The rows on which friction acts whose normal force is their reaction.
+std::vector<int> rubbed_rows(const Mechanism& m, const Equations& e) {
+    std::vector<int> rows;
+    for (std::size_t k = 0; k < e.lambda.size(); ++k) {
+        const auto rubs = [&](const Mechanism::Friction& f) {
+            return f.multiplier && f.multiplier->is_equal(e.lambda[k]);
+        };
+        if (std::any_of(m.frictions.begin(), m.frictions.end(), rubs)) rows.push_back(static_cast<int>(k));
+    }
+    return rows;
+}
+
 }  // namespace
 
 Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halves, int halvings,
                  Positions positions)
     : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
     const Mechanism m = in_terms_of(e, mechanism);
-    for (const Mechanism::Friction& f : m.frictions)
-        for (const GiNaC::symbol& lambda : e.lambda)
-            if (f.multiplier && f.multiplier->is_equal(lambda))
-                throw ModelError(say(
-                    "claims are not checked where friction, as '{}', is on a constraint, whose reaction may have "
-                    "either sign; make it a [[unilateral]] contact, or give the normal force as an expression",
-                    f.name));
+    rubbed_ = rubbed_rows(m, e);
+    if (!rubbed_.empty()) {
+        need_determined_reactions(m);
+        positive_ = static_cast<int>(
+            std::count_if(m.parameters.begin(), m.parameters.end(), [](const auto& p) { return p.independent; }));
+    }
     std::vector<ex> list;
     for (int i = 0; i < n_; ++i)
         for (int j = 0; j < n_; ++j) list.push_back(e.M(i, j));
@@ -73,6 +96,10 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     int next_unknown = m_;
     for (const Mechanism::Constraint* c : m.undetermined())
         given.emplace_back(c->multiplier, program_.variable({Variable::Kind::unknown, next_unknown++}));
+    if (at != At::rest)
+        for (const int k : rubbed_)
+            given.emplace_back(e.lambda[static_cast<std::size_t>(k)],
+                               program_.variable({Variable::Kind::unknown, k}));
     for (const auto& [call, value] : held_functions(m))
         given.emplace_back(call, lower_expressions(program_, m, {value})[0]);
     const std::vector<int> nodes = lower_expressions(program_, m, list, given);
@@ -178,13 +205,18 @@ void Motions::find_branches() {
 }
 
 std::optional<ExactState> Motions::at(std::uint64_t seed,
-                                      const std::map<std::pair<Variable::Kind, int>, Prime>& given) const {
+                                      const std::map<std::pair<Variable::Kind, int>, Prime>& given,
+                                      unsigned turned) const {
     if (!obstacle_.empty()) return std::nullopt;
     ExactState state{.point = {.seed = seed, .given = given, .halves = halves_, .finer = finer_}};
     if (at_ == At::rest)
         for (int i = 0; i < n_; ++i)
             for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration})
                 state.point.given[{kind, i}] = 0;
+    for (int i = 0; i < positive_; ++i) {
+        const Prime root = state.point.random(901, static_cast<std::uint64_t>(i));
+        state.point.given.try_emplace({Variable::Kind::parameter, i}, root * root);
+    }
     auto point = usable_->at(std::move(state.point));
     if (!point) return std::nullopt;
     state.point = std::move(*point);
@@ -193,7 +225,7 @@ std::optional<ExactState> Motions::at(std::uint64_t seed,
         if (!outcome.found) return std::nullopt;
         if (!irreducible_[k]) state.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
     }
-    if (at_ == At::motion && !move(state)) return std::nullopt;
+    if (at_ == At::motion && !move(state, turned)) return std::nullopt;
     if (!system_.redundant.empty() && !share_out(state)) return std::nullopt;
     return state;
 }
@@ -229,7 +261,7 @@ bool Motions::share_out(ExactState& state) const {
     return true;
 }
 
-bool Motions::move(ExactState& state) const {
+bool Motions::move(ExactState& state, unsigned turned) const {
     const auto n = static_cast<std::size_t>(n_), m = static_cast<std::size_t>(m_);
     const auto note = [&](const ModularValues& at) {
         state.conditions = std::max(state.conditions, at.conditions);
@@ -260,13 +292,23 @@ bool Motions::move(ExactState& state) const {
         state.point.given[{Variable::Kind::rate, static_cast<int>(column)}] = value;
     }
 
-    wanted = system_.M;
+    return accelerate(state, turned);
+}
+
+bool Motions::accelerate(ExactState& state, unsigned turned) const {
+    const auto n = static_cast<std::size_t>(n_), m = static_cast<std::size_t>(m_);
+    const auto press = [&](Prime size) {
+        for (const int k : rubbed_) state.point.given[{Variable::Kind::unknown, k}] = size;
+    };
+    press(0);
+    std::vector<int> wanted = system_.M;
     for (const auto* part : {&system_.f, &system_.A, &system_.gamma})
         wanted.insert(wanted.end(), part->begin(), part->end());
     const auto at = evaluate_mod(program_, state.point, wanted);
     if (!at) return false;
-    note(*at);
-    rows.assign(n + m, std::vector<Prime>(n + m + 1));
+    state.conditions = std::max(state.conditions, at->conditions);
+    state.exact = state.exact && at->exact;
+    std::vector<std::vector<Prime>> rows(n + m, std::vector<Prime>(n + m + 1));
     double entry = 0, right = 0;
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < n; ++j) {
@@ -285,13 +327,51 @@ bool Motions::move(ExactState& state) const {
         rows[n + k][n + m] = at->value[system_.gamma[k]];
         right = std::max(right, at->degree[system_.gamma[k]]);
     }
-    if (reduce_rows(rows, n + m) < static_cast<int>(n + m)) return false;
-    for (std::size_t i = 0; i < n; ++i)
-        state.point.given[{Variable::Kind::acceleration, static_cast<int>(i)}] = rows[i][n + m];
-    for (std::size_t k = 0; k < m; ++k)
-        state.point.given[{Variable::Kind::unknown, static_cast<int>(k)}] = rows[n + k][n + m];
-    state.degree *= static_cast<double>(n + m) * entry + right + 1;
-    return true;
+    // What friction adds to f for |λ| = 1.
+    std::vector<std::vector<Prime>> friction;
+    for (const int k : rubbed_) {
+        press(0);
+        state.point.given[{Variable::Kind::unknown, k}] = 1;
+        const auto pressed = evaluate_mod(program_, state.point, system_.f);
+        if (!pressed) return false;
+        state.conditions = std::max(state.conditions, pressed->conditions);
+        friction.emplace_back();
+        for (std::size_t i = 0; i < n; ++i) {
+            friction.back().push_back(pressed->value[system_.f[i]] - at->value[system_.f[i]]);
+            entry = std::max(entry, pressed->degree[system_.f[i]]);
+        }
+    }
+    const std::uint64_t choices = std::uint64_t{1} << rubbed_.size(), first = state.point.random(900, 0).bits();
+    for (std::uint64_t choice = 0; choice < choices; ++choice) {
+        const auto is_negative = [&](std::size_t r) { return (((first ^ choice) >> r) & 1U) != 0; };
+        std::vector<std::vector<Prime>> system = rows;
+        for (std::size_t r = 0; r < rubbed_.size(); ++r)
+            for (std::size_t i = 0; i < n; ++i) {
+                Prime& entry_of_lambda = system[i][n + static_cast<std::size_t>(rubbed_[r])];
+                entry_of_lambda =
+                    is_negative(r) ? entry_of_lambda + friction[r][i] : entry_of_lambda - friction[r][i];
+            }
+        if (reduce_rows(system, n + m) < static_cast<int>(n + m)) return false;
+        const auto has_sign = [&](std::size_t r) {
+            const Prime lambda = system[n + static_cast<std::size_t>(rubbed_[r])][n + m];
+            const bool is_positive = lambda.is_square() != (((turned >> r) & 1U) != 0);
+            return !lambda.is_zero() && lambda.is_plain() && is_positive != is_negative(r);
+        };
+        bool fits = true;
+        for (std::size_t r = 0; r < rubbed_.size(); ++r) fits = fits && has_sign(r);
+        if (!fits) continue;
+        for (std::size_t i = 0; i < n; ++i)
+            state.point.given[{Variable::Kind::acceleration, static_cast<int>(i)}] = system[i][n + m];
+        for (std::size_t k = 0; k < m; ++k)
+            state.point.given[{Variable::Kind::unknown, static_cast<int>(k)}] = system[n + k][n + m];
+        state.degree *= static_cast<double>(n + m) * entry + right + 1;
+        for (std::size_t r = 0; r < rubbed_.size(); ++r)
+            if (((turned >> r) & 1U) != 0)
+                state.point.turned.push_back(system[n + static_cast<std::size_t>(rubbed_[r])][n + m]);
+        state.conditions += static_cast<double>(rubbed_.size()) + 1;  // and squares have twice the degree
+        return true;
+    }
+    return false;
 }
 
 }  // namespace alembert

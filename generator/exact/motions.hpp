@@ -24,6 +24,11 @@
 /// contain it, the multiplier is random; for a redundant constraint it is its share of least norm in the forces
 /// (exact/least_shares.hpp), as for the constraints that are kept.
 ///
+/// Dry friction on a constraint has the normal force |λ|, so that the equations are linear in q'' and λ once the
+/// sign of each such λ is known. All signs are tried, from a random one on, and the first solution that has the
+/// signs with which it was found is taken; a sign is Legendre's symbol here, as in every evaluation
+/// (program/modular.hpp). Parameters are squares there: they count as positive.
+///
 /// Constraints may have several branches (x² = l²: x = l and x = −l), and a statement that holds on one branch
 /// need not hold on the others. One of the roots of a polynomial of degree d is drawn at random, so that each
 /// branch is reached with at least 1/d of the seeds. If a quadratic equation has no root for some seed, it is
@@ -57,9 +62,11 @@ public:
     Motions& operator=(const Motions&) = delete;
 
     /// Nothing for an unusable seed: there is no root in the field, or a denominator is zero. `given` are values,
-    /// instead of random ones, of variables that are not solved for.
+    /// instead of random ones, of variables that are not solved for. Bit r of `turned`: the multiplier of row
+    /// rubbed()[r] has the sign opposite to Legendre's symbol.
     std::optional<ExactState> at(std::uint64_t seed,
-                                 const std::map<std::pair<Variable::Kind, int>, Prime>& given = {}) const;
+                                 const std::map<std::pair<Variable::Kind, int>, Prime>& given = {},
+                                 unsigned turned = 0) const;
 
     /// The conditions, as nodes of program(), that the states need not obey.
     const std::vector<int>& loose() const { return loose_; }
@@ -84,7 +91,11 @@ public:
     const Program& program() const { return program_; }
     const System& entries() const { return system_; }
     int size() const { return n_; }
+    int halves() const { return halves_; }
     int constraints() const { return m_; }
+    /// The rows on which friction acts, in ascending order: `f` contains the absolute values of their multipliers,
+    /// linearly, and no other multiplier of the equations.
+    const std::vector<int>& rubbed() const { return rubbed_; }
     /// The index of the `unknown` that is the multiplier of row k; the kept rows come first, then the redundant
     /// ones.
     int multiplier(int k) const { return k < m_ ? k : k + gaps_; }
@@ -95,17 +106,19 @@ private:
     void order_rest(const std::vector<int>& positions, const std::vector<GiNaC::ex>& balance, const Mechanism& m,
                     const std::vector<std::pair<GiNaC::symbol, int>>& given);
     void find_branches();
-    bool move(ExactState& state) const;
+    bool move(ExactState& state, unsigned turned) const;
+    bool accelerate(ExactState& state, unsigned turned) const;
     bool share_out(ExactState& state) const;
 
     Program program_;
     System system_;
     std::vector<SolvingStep> steps_;
-    std::vector<int> loose_, implied_;
+    std::vector<int> loose_, implied_, rubbed_;
     std::vector<bool> irreducible_;  ///< for each step
     std::string obstacle_;
     At at_;
     int n_ = 0, m_ = 0, gaps_ = 0, halves_ = 0, finer_ = 0;
+    int positive_ = 0;                    ///< how many parameters are squares
     std::optional<SquarePoints> usable_;  ///< refers to program_
 };
 

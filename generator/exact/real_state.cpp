@@ -54,6 +54,7 @@ public:
     /// Numbers within (−1, 1) with a common denominator. The components of a unit quaternion are of this kind, and
     /// otherwise one is rarely found.
     numeric small() { return numeric(pick(1, below_ - 1)) / numeric(pick(0, 1) != 0 ? below_ : -below_); }
+    unsigned choice(unsigned count) { return static_cast<unsigned>(pick(0, static_cast<int>(count) - 1)); }
     numeric tangent() {
         const int below = pick(2, 2 + spread_ / 2);
         const numeric r = numeric(pick(1, below)) / numeric(below == 1 ? 1 : below);
@@ -209,6 +210,58 @@ bool solve_positions(const Motions& motions, RealState& state, bool floats, unsi
     return implied && std::all_of(implied->begin(), implied->end(), is_almost_zero);
 }
 
+/// Solves for accelerations and multipliers. With friction on constraints the signs of the multipliers are tried,
+/// as in Motions.
+bool solve_accelerations(const Motions& motions, RealState& state, Numbers& numbers) {
+    const auto n = static_cast<std::size_t>(motions.size()), m = static_cast<std::size_t>(motions.constraints());
+    const Motions::System& s = motions.entries();
+    const std::vector<int>& rubbed = motions.rubbed();
+    for (const int k : rubbed) state.value[{Variable::Kind::unknown, k}] = 0;
+    std::vector<int> roots = s.M;
+    for (const auto* part : {&s.f, &s.A, &s.gamma}) roots.insert(roots.end(), part->begin(), part->end());
+    const auto value = evaluate(motions.program(), state, roots);
+    if (!value) return false;
+    std::vector<std::vector<numeric>> rows(n + m, std::vector<numeric>(n + m + 1));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) rows[i][j] = (*value)[i * n + j];
+        rows[i][n + m] = (*value)[n * n + i];
+        for (std::size_t k = 0; k < m; ++k) {
+            rows[n + k][i] = (*value)[n * n + n + k * n + i];
+            rows[i][n + k] = -rows[n + k][i];
+        }
+    }
+    for (std::size_t k = 0; k < m; ++k) rows[n + k][n + m] = (*value)[n * n + n + m * n + k];
+    std::vector<std::vector<numeric>> friction;
+    for (const int k : rubbed) {
+        state.value[{Variable::Kind::unknown, k}] = 1;
+        const auto pressed = evaluate(motions.program(), state, s.f);
+        state.value[{Variable::Kind::unknown, k}] = 0;
+        if (!pressed) return false;
+        friction.emplace_back();
+        for (std::size_t i = 0; i < n; ++i) friction.back().push_back((*pressed)[i] - rows[i][n + m]);
+    }
+    const unsigned choices = 1U << rubbed.size(), first = rubbed.empty() ? 0 : numbers.choice(choices);
+    for (unsigned choice = 0; choice < choices; ++choice) {
+        std::vector<std::vector<numeric>> system = rows;
+        const auto sign = [&](std::size_t r) { return (((first ^ choice) >> r) & 1U) != 0 ? -1 : 1; };
+        for (std::size_t r = 0; r < rubbed.size(); ++r)
+            for (std::size_t i = 0; i < n; ++i)
+                system[i][n + static_cast<std::size_t>(rubbed[r])] -= sign(r) * friction[r][i];
+        const auto solution = solve_rows(std::move(system), n + m);
+        if (!solution) return false;
+        bool fits = true;
+        for (std::size_t r = 0; r < rubbed.size(); ++r)
+            fits = fits && (*solution)[n + static_cast<std::size_t>(rubbed[r])].csgn() * sign(r) > 0;
+        if (!fits) continue;
+        for (std::size_t i = 0; i < n; ++i)
+            state.value[{Variable::Kind::acceleration, static_cast<int>(i)}] = (*solution)[i];
+        for (std::size_t k = 0; k < m; ++k)
+            state.value[{Variable::Kind::unknown, static_cast<int>(k)}] = (*solution)[n + k];
+        return true;
+    }
+    return false;
+}
+
 bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
     const auto n = static_cast<std::size_t>(motions.size()), m = static_cast<std::size_t>(motions.constraints());
     const Motions::System& s = motions.entries();
@@ -249,27 +302,7 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
         for (std::size_t k = 0; k < m; ++k)
             state.value[{Variable::Kind::rate, static_cast<int>(pivots[k])}] = (*rates)[k];
     }
-    std::vector<int> roots = s.M;
-    for (const auto* part : {&s.f, &s.A, &s.gamma}) roots.insert(roots.end(), part->begin(), part->end());
-    const auto value = evaluate(motions.program(), state, roots);
-    if (!value) return false;
-    std::vector<std::vector<numeric>> rows(n + m, std::vector<numeric>(n + m + 1));
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) rows[i][j] = (*value)[i * n + j];
-        rows[i][n + m] = (*value)[n * n + i];
-        for (std::size_t k = 0; k < m; ++k) {
-            rows[n + k][i] = (*value)[n * n + n + k * n + i];
-            rows[i][n + k] = -rows[n + k][i];
-        }
-    }
-    for (std::size_t k = 0; k < m; ++k) rows[n + k][n + m] = (*value)[n * n + n + m * n + k];
-    const auto solution = solve_rows(std::move(rows), n + m);
-    if (!solution) return false;
-    for (std::size_t i = 0; i < n; ++i)
-        state.value[{Variable::Kind::acceleration, static_cast<int>(i)}] = (*solution)[i];
-    for (std::size_t k = 0; k < m; ++k)
-        state.value[{Variable::Kind::unknown, static_cast<int>(k)}] = (*solution)[n + k];
-    return true;
+    return solve_accelerations(motions, state, numbers);
 }
 
 /// Takes the multipliers of least norm that give the same forces, if constraints depend on each other.

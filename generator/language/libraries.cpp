@@ -58,9 +58,12 @@ constexpr std::array patterns{
     to_say("no accelerations keep all contacts apart"),
     to_say("friction makes the contact force grow without bound during the impact"),
     to_say("an impact can be computed where each contact has one friction only"),
-    to_say("simultaneous impacts with friction can be computed where each contact has one friction in one "
-           "direction, without a restitution of its own"),
+    to_say("simultaneous impacts with friction can be computed where each contact has one friction, without a "
+           "restitution of its own"),
     to_say("no choice of sticking and sliding is consistent in their impact together"),
+    to_say(
+        "several choices of sticking and sliding are consistent in their impact together, and the motion after it "
+        "depends on the order in which they strike"),
     to_say("their impact together would gain energy with these restitutions and coefficients"),
     to_say(
         "no C++ compiler: looked for {} in $PATH; install one (on Debian: apt install g++) or name one with $CXX"),

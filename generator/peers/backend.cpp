@@ -81,59 +81,129 @@ struct Stepping {
     std::function<std::string(int flag)> meaning;
 };
 
+/// Rows and events of a run.
 class Collected {
 public:
-    Collected(System& system, const std::vector<double>& initial, const Stepping& by)
-        : system_(system), by_(by), row_(initial) {
+    Collected(System& system, const std::vector<double>& initial, const Stepping& by, const Events& events)
+        : system_(system),
+          by_(by),
+          events_(events),
+          watch_(events, system.rhs),
+          grid_(system.options.grid.value_or(system.options.start)),
+          interval_(sample_interval(system.options)),
+          next_(std::lround(std::floor((system.options.start - grid_) / interval_ + 1e-9)) + 1),
+          row_(initial),
+          rate_(initial.size()) {
         motion_.dimension = system.rhs.dimension;
         motion_.names = system.rhs.names;
         add(system.options.start, initial.data());
+        look_at_rate(system.options.start, initial.data());
+        if (has_events()) watch_.begin(system.options.start, initial.data(), rate_.data());
         tell(system.options.start, initial.data());
     }
 
     Trajectory go() && {
-        const Options& o = system_.options;
-        const double end = o.start + o.duration, interval = sample_interval(o), grid = o.grid.value_or(o.start);
-        long next = std::lround(std::floor((o.start - grid) / interval + 1e-9)) + 1;
-        double t = o.start;
-        while (t < end) {
+        const double end = system_.options.start + system_.options.duration;
+        double t = system_.options.start;
+        while (t < end && motion_.ending == Ending::completed) {
             double reached = t;
             const int flag = by_.step(reached);
             if (flag < 0) {
                 fail(t, flag);
                 break;
             }
+            finish_step(t, reached);
             t = reached;
-            for (; grid + static_cast<double>(next) * interval < std::min(t, end - 1e-9 * interval); ++next) {
-                const double time = grid + static_cast<double>(next) * interval;
-                by_.at(time, row_.data());
-                if (o.project) o.project(time, row_.data());
-                add(time, row_.data());
-            }
-            std::copy_n(by_.state(), row_.size(), row_.begin());
-            if (t >= end) add(end, row_.data());
-            tell(t, row_.data());
+            if (t >= end && motion_.ending == Ending::completed) add(end, row_.data());
         }
         motion_.statistics = {.steps = by_.steps(),
                               .rejected = by_.rejected(),
-                              .evaluations = system_.evaluations,
+                              .evaluations = system_.evaluations + watch_.evaluations(),
                               .seconds = 0,
                               .method = by_.name};
         return std::move(motion_);
     }
 
 private:
+    bool has_events() const { return !events_.list.empty(); }
+
     void add(double t, const double* state) {
         motion_.times.push_back(t);
         motion_.states.insert(motion_.states.end(), state, state + motion_.dimension);
     }
 
-    void tell(double t, const double* state) {
-        if (!system_.options.on_step) return;
-        std::vector<double> rate(system_.size());
-        system_.rhs(t, state, rate.data());
+    /// Adds the rows of the grid before a time, but not the last row of the run.
+    void add_rows_before(double time) {
+        const double end = system_.options.start + system_.options.duration;
+        for (;; ++next_) {
+            const double at = grid_ + static_cast<double>(next_) * interval_;
+            if (!(at < std::min(time, end - 1e-9 * interval_))) return;
+            by_.at(at, row_.data());
+            if (system_.options.project) system_.options.project(at, row_.data());
+            add(at, row_.data());
+        }
+    }
+
+    /// Records what lies between two ends of steps.
+    void finish_step(double begin, double end) {
+        const std::vector<double> state(by_.state(), by_.state() + system_.size());
+        look_at_rate(end, state.data());
+        if (has_events()) {
+            const std::vector<Crossing> crossings = watch_.look(
+                {.start = begin,
+                 .end = end,
+                 .end_state = state.data(),
+                 .end_rate = rate_.data(),
+                 .interpolate = [&](double theta, double* out) { by_.at(begin + theta * (end - begin), out); }});
+            for (std::size_t k = 0; k < crossings.size(); ++k) {
+                if (!crossings[k].counts) continue;
+                add_rows_before(crossings[k].time);
+                by_.at(crossings[k].time, row_.data());
+                note(crossings[k]);
+                if (events_.list[static_cast<std::size_t>(crossings[k].index)].stop)
+                    return stop_at(crossings, k, simultaneous(begin, end));
+            }
+        }
+        add_rows_before(end);
+        row_ = state;
+        tell(end, row_.data());
+    }
+
+    /// The state there is in row_.
+    void note(const Crossing& crossing) {
+        motion_.events.push_back({.index = crossing.index,
+                                  .name = events_.list[static_cast<std::size_t>(crossing.index)].name,
+                                  .time = crossing.time,
+                                  .state = row_});
+    }
+
+    /// Ends the run at the crossing k, whose state is in row_, with all that are simultaneous.
+    void stop_at(const std::vector<Crossing>& crossings, std::size_t k, double grain) {
+        const double time = crossings[k].time;
+        for (std::size_t j = 0; j < crossings.size(); ++j) {
+            if (std::abs(crossings[j].time - time) > grain) continue;
+            if (j > k && crossings[j].counts) note(crossings[j]);
+            motion_.last_zeros.push_back(
+                {.event = crossings[j].index, .direction = crossings[j].direction, .counts = crossings[j].counts});
+        }
+        look_at_rate(time, row_.data());
+        tell(time, row_.data());
+        if (motion_.rows() > 1 && motion_.times.back() > time - 1e-9 * interval_) {
+            motion_.times.pop_back();
+            motion_.states.resize(motion_.states.size() - row_.size());
+        }
+        if (motion_.times.back() < time) add(time, row_.data());
+        motion_.ending = Ending::stopped_by_event;
+    }
+
+    void look_at_rate(double t, const double* state) {
+        if (!system_.options.on_step && !has_events()) return;
+        system_.rhs(t, state, rate_.data());
         ++system_.evaluations;
-        system_.options.on_step(t, {state, rate.size()}, rate);
+    }
+
+    void tell(double t, const double* state) const {
+        if (system_.options.on_step) system_.options.on_step(t, {state, rate_.size()}, rate_);
     }
 
     void fail(double t, int flag) {
@@ -154,8 +224,12 @@ private:
 
     System& system_;
     const Stepping& by_;
+    const Events& events_;
+    EventWatch watch_;
+    double grid_, interval_;
+    long next_;  ///< the number of the next row on the grid
     Trajectory motion_;
-    std::vector<double> row_;
+    std::vector<double> row_, rate_;
 };
 
 /// Sets the weights 1 / (tolerance · max(1, |y|)); quadratures are not controlled.
@@ -172,7 +246,8 @@ std::string flag_name(char* text) {
     return name;
 }
 
-Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
+Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
+                    const Events& events) {
     System system{.rhs = rhs, .options = options};
     Workspace w(initial.size());
     std::copy(initial.begin(), initial.end(), N_VGetArrayPointer(w.y));
@@ -230,7 +305,7 @@ Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Op
         .steps = count(CVodeGetNumSteps),
         .rejected = count(CVodeGetNumErrTestFails),
         .meaning = [](int flag) { return flag_name(CVodeGetReturnFlagName(flag)); }};
-    Trajectory motion = Collected(system, initial, by).go();
+    Trajectory motion = Collected(system, initial, by, events).go();
     CVodeFree(&memory);
     return motion;
 }
@@ -298,7 +373,7 @@ struct Implicit {
 };
 
 Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rhs& rhs,
-                  const std::vector<double>& initial, const Options& options) {
+                  const std::vector<double>& initial, const Options& options, const Events& events) {
     const alembert_solver_table& table = module.table();
     const auto n = static_cast<std::size_t>(table.coordinates), m = static_cast<std::size_t>(table.constraints);
     Implicit f{.system = {.rhs = rhs, .options = options},
@@ -382,7 +457,7 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
                       .steps = count(IDAGetNumSteps),
                       .rejected = count(IDAGetNumErrTestFails),
                       .meaning = [](int flag) { return flag_name(IDAGetReturnFlagName(flag)); }};
-    Trajectory motion = Collected(f.system, initial, by).go();
+    Trajectory motion = Collected(f.system, initial, by, events).go();
     N_VDestroy(differential);
     IDAFree(&memory);
     return motion;
@@ -392,8 +467,9 @@ const Backend backend{.version = backend_version,
                       .cvode = [](const Module&, const std::vector<double>&) -> Integrator { return by_cvode; },
                       .ida = [](const Module& module, const std::vector<double>& parameters) -> Integrator {
                           return [module, par = prepared(module, parameters)](
-                                     const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
-                              return by_ida(module, par, rhs, initial, options);
+                                     const Rhs& rhs, const std::vector<double>& initial, const Options& options,
+                                     const Events& events) {
+                              return by_ida(module, par, rhs, initial, options, events);
                           };
                       }};
 

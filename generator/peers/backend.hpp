@@ -12,6 +12,8 @@
 ///
 ///     q' = u + Aᵀμ,   M u' = f + Aᵀλ,   0 = f(q, t),   0 = A u + b
 ///
+/// Events are looked for in the polynomial of each step, and located on it, as in the runtime's own methods.
+///
 /// Local errors are compared with tolerance · max(1, |y|) in SUNDIALS' norm, the root of the mean square.
 
 #include <vector>
@@ -28,7 +30,7 @@ struct Backend {
     Integrator (*ida)(const Module& module, const std::vector<double>& parameters);
 };
 
-inline constexpr int backend_version = 1;  ///< raised whenever this struct, Rhs, Options or Trajectory changes
+inline constexpr int backend_version = 2;  ///< raised whenever this struct, Rhs, Options or Trajectory changes
 inline constexpr const char* backend_function = "alembert_backend";
 
 }  // namespace alembert

@@ -3,6 +3,7 @@
 
 #include <cln/integer.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "program/modular_angle.hpp"
@@ -31,6 +32,13 @@ public:
 
 private:
     Prime value(int id) const { return result_.value[id]; }
+
+    /// Of a number that is not zero.
+    bool is_positive(Prime a) const {
+        const bool is_turned =
+            std::any_of(point_.turned.begin(), point_.turned.end(), [&](Prime t) { return t == a || t == -a; });
+        return a.is_square() != is_turned;
+    }
 
     std::optional<Prime> of(int id) {
         const Node& node = program_[id];
@@ -73,10 +81,10 @@ private:
                 return square_root(node.args[0]);
             case Op::abs:
                 result_.exact = result_.exact && arg(0).is_plain();
-                return arg(0).is_plain() ? (arg(0).is_square() ? arg(0) : -arg(0)) : std::min(arg(0), -arg(0));
+                return arg(0).is_plain() ? (is_positive(arg(0)) ? arg(0) : -arg(0)) : std::min(arg(0), -arg(0));
             case Op::sign:
                 result_.exact = result_.exact && arg(0).is_plain();
-                return arg(0).is_zero() ? Prime(0) : Prime(arg(0).is_square() ? 1 : -1);
+                return arg(0).is_zero() ? Prime(0) : Prime(is_positive(arg(0)) ? 1 : -1);
             case Op::exp:
                 return exponential(node.args[0], degree);
             case Op::sinh:

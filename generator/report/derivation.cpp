@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/derivation.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "language/say.hpp"
 #include "notation/latex.hpp"
@@ -90,12 +90,16 @@ Json as_json(const DerivedScene& d) {
         result["gaps"] = Json::object();
         for (const auto& [name, phrase] : shown.gaps) result["gaps"][name] = text(phrase);
     }
-    for (const Derivation::Rubs& f : shown.frictions)
-        result["friction"].push_back(
-            {{"name", f.name},
-             {"slip", f.across ? Json{text(f.slip), text(*f.across)} : Json(text(f.slip))},
-             {"sliding", text(f.sliding)},
-             {"sticking", text(f.sticking)}});
+    for (const Derivation::Rubs& f : shown.frictions) {
+        Json one = {{"name", f.name},
+                    {"slip", f.across ? Json{text(f.slip), text(*f.across)} : Json(text(f.slip))},
+                    {"sliding", text(f.sliding)},
+                    {"sticking", text(f.sticking)}};
+        for (const ReadableEquation& e : f.held)
+            one["while_sticking"].push_back(
+                {{"text", text(e.lhs) + " = " + text(e.rhs)}, {"latex", latex(e.lhs) + " = " + latex(e.rhs)}});
+        result["friction"].push_back(std::move(one));
+    }
     if (!shown.reactions.empty()) {
         result["reactions"] = Json::object();
         for (const Statement& r : shown.reactions) result["reactions"][r.of][text(*r.by)] = text(r.value);
@@ -207,7 +211,7 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
             blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}),
                                                   n.phrase(phrase));
     }
-    for (const Derivation::Rubs& f : shown.frictions)
+    for (const Derivation::Rubs& f : shown.frictions) {
         blocks.push_back(
             {say("Friction '{}' acts with the force {} against the sliding velocity {}. Where that is 0 it "
                  "sticks: the velocity stays 0, and a force of at most {} takes the place of the sliding "
@@ -217,6 +221,11 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
                           : n.inline_phrase(f.slip),
                  n.inline_phrase(f.sticking)),
              {}});
+        if (f.held.empty()) continue;
+        blocks.push_back({say("While '{}' sticks, with its force {}:", f.name, fmt::join(f.forces, ", ")), {}});
+        for (const ReadableEquation& e : f.held)
+            blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    }
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)
             blocks.push_back({scaling(shown.rows[i], *shown.equations[i].divided_by, n), {}});

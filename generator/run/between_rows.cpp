@@ -19,6 +19,7 @@ struct BetweenRows::Parts {
     MethodChoice choice;
     Options options;
     std::size_t width = 0;  ///< of a state without the work
+    std::unique_ptr<CompiledModes> compiled = {};
     std::unique_ptr<LoadedModes> modes = {};
 };
 
@@ -65,10 +66,10 @@ BetweenRows::BetweenRows(const Run& run, const RunOptions& wishes) : run_(run), 
     p.options = options_of(p.wishes, p.choice, p.start);
     choose_steps(p.options);
     const bool has_work = static_cast<std::size_t>(run.motion.phases.front().motion.dimension) > p.width;
-    p.modes = std::make_unique<LoadedModes>(p.wishes, run, p.start, p.first,
-                                            has_work ? Work::integrated : Work::left_out, p.choice,
-                                            LoadedModes::OnModeStep());
-    p.modes->take_free(std::move(program));
+    p.compiled =
+        std::make_unique<CompiledModes>(p.wishes, run, has_work ? Work::integrated : Work::left_out, p.choice);
+    p.compiled->take_free(std::move(program));
+    p.modes = std::make_unique<LoadedModes>(*p.compiled, p.start, p.first, LoadedModes::OnModeStep());
     for (const Phase& phase : run.motion.phases) (*p.modes)(phase.closed).measure_sides(phase.motion);
 }
 

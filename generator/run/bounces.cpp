@@ -69,7 +69,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     const Contacts contacts = contacts_of(d, start, view, kicks);
     // Only for the compilation, because only methods that need nothing else are measured.
     const MethodChoice choice;
-    LoadedModes modes(request, d, start, first, Work::left_out, choice,
+    CompiledModes compiled(request, d, Work::left_out, choice);
+    LoadedModes modes(compiled, start, first,
                       [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
     std::vector<double> initial = start.q;
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());

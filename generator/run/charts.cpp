@@ -193,7 +193,8 @@ ChartRun::ChartRun(const Derived& derived, const AnglesOfFrame& angles, const st
 ChartRun::~ChartRun() = default;
 
 Integrator ChartRun::integrator() {
-    return [parts = parts_.get()](const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
+    return [parts = parts_.get()](const Rhs& rhs, const std::vector<double>& initial, const Options& options,
+                                  const Events&) {  // scenes with events stay in their angles
         return parts->follow(rhs, initial, options);
     };
 }

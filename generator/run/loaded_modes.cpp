@@ -4,14 +4,7 @@
 #include <fmt/format.h>
 
 #include "alembert/canonical.hpp"
-#include "alembert/compile.hpp"
-#include "alembert/process_time.hpp"
-#include "contact/contacts.hpp"
-#include "emit/taylor.hpp"
 #include "language/say.hpp"
-#include "model/friction.hpp"
-#include "program/differentiate.hpp"
-#include "run/canonical.hpp"
 #include "run/first_accelerations.hpp"
 #include "run/held_state.hpp"
 #include "run/sides.hpp"
@@ -20,16 +13,6 @@
 namespace alembert {
 
 namespace {
-
-// Of a Jacobian that compiles in a second or two; for larger ones, differences are used.
-constexpr int most_operations = 8000;
-
-std::optional<Differentiated> affordable_derivatives(const Program& program, Work work) {
-    if (program.count(program.right_hand_side()).total() > most_operations / 2) return std::nullopt;
-    auto result = differentiated(program, {.power = work == Work::integrated, .budget = 100000});
-    if (result && result->operations.total() > most_operations) return std::nullopt;
-    return result;
-}
 
 /// The reason why a motion cannot go on with this friction, with the numbers that show it.
 std::string refusal_of(const Mechanism::Friction& f, const Program& p, double t, const double* y) {
@@ -90,32 +73,9 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
     return contacts;
 }
 
-Program with_jacobian(Program program, Method method, bool with_power) {
-    if (program.singular || !uses_jacobian(method)) return program;
-    std::optional<Differentiated> found =
-        affordable_derivatives(program, with_power ? Work::integrated : Work::left_out);
-    return found ? std::move(found->program) : program;
-}
-
-LoadedModes::LoadedModes(const RunOptions& options, const Derived& derived, const Start& start,
-                         const State<double>& first, Work work, const MethodChoice& method, OnModeStep on_step)
-    : wishes_(options),
-      derived_(derived),
-      start_(start),
-      first_(first),
-      work_(work),
-      method_(method),
-      on_step_(std::move(on_step)) {}
-
-void LoadedModes::take_free(Program program) {
-    free_ = std::move(program);
-}
-
-int LoadedModes::operations() const {
-    int most = 0;
-    for (const auto& [closed, mode] : loaded_) most = std::max(most, mode->source.operations.total());
-    return most;
-}
+LoadedModes::LoadedModes(CompiledModes& compiled, const Start& start, const State<double>& first,
+                         OnModeStep on_step)
+    : compiled_(compiled), start_(start), first_(first), on_step_(std::move(on_step)) {}
 
 void LoadedModes::forget() {
     for (auto& entry : loaded_) entry.second->projection.forget();
@@ -123,33 +83,22 @@ void LoadedModes::forget() {
 
 LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
     std::unique_ptr<LoadedMode>& mode = loaded_[closed];
-    if (!mode) mode = made(closed);
+    if (!mode) mode = bound(closed);
     return *mode;
 }
 
 Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
     if (!mode.when_stiff) {
         mode.when_stiff = mode.contact.rhs;
-        double clock = process_seconds();
-        if (const auto derivatives = affordable_derivatives(mode.program, work_)) {
-            const Source source = emit(derivatives->program);
-            seconds_.emit += process_seconds() - clock;
-            clock = process_seconds();
-            const Compiled compiled = compile(source.text, mode.program.name + "_jacobian", options_of_compiler());
-            mode.when_stiff = make_rhs(load(compiled.object), start_.parameters, work_);
+        if (const Module* const module = compiled_.jacobian_of(mode.compiled)) {
+            mode.when_stiff = make_rhs(*module, start_.parameters, compiled_.work());
             mode.when_stiff->extra = mode.contact.rhs.extra;
             mode.when_stiff->effort = mode.contact.rhs.effort;
             if (!mode.derived.mechanism.constraints.empty())
                 mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff));
-            mode.jacobian_operations = derivatives->operations.total();
-            seconds_.compile += process_seconds() - clock;
         }
     }
     return *mode.when_stiff;
-}
-
-CompileOptions LoadedModes::options_of_compiler() const {
-    return {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}};
 }
 
 void LoadedMode::hold(const std::vector<double>& sigma) {
@@ -175,29 +124,31 @@ void LoadedMode::measure_sides(const Trajectory& motion) {
     }
 }
 
-void LoadedModes::hold_signs(LoadedMode& mode, const Switched& jumps, std::size_t events,
-                             const SeriesModule& series) {
+void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     LoadedMode* const self = &mode;
+    const Switched& jumps = *mode.compiled.jumps;
+    const Work work = compiled_.work();
+    const bool with_series = needs_series(compiled_.method().method);
     Switching system = switching_of(
-        mode.module, start_.parameters, jumps, names_of_sides(mode.program, jumps), work_,
-        [this, self, series](const std::vector<double>& values) {
-            Rhs rhs = make_rhs(self->module, values, work_);
+        mode.module, start_.parameters, jumps, mode.compiled.sides, work,
+        [self, work, with_series](const std::vector<double>& values) {
+            Rhs rhs = make_rhs(self->module, values, work);
             rhs.extra = self->contact.rhs.extra;
             rhs.effort = self->contact.rhs.effort;
-            if (needs_series(method_.method)) rhs.series = make_series(series, values);
+            if (with_series) rhs.series = make_series(self->compiled.series, values);
             return self->derived.mechanism.constraints.empty() ? rhs : self->projection.guarded(std::move(rhs));
         });
     mode.side_sizes.assign(system.names.size(), 0);
     system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };
-    system.on_change = [this, self, frictions = jumps.frictions](const SideChange& change) {
+    system.on_change = [this, self](const SideChange& change) {
         const auto k = static_cast<std::size_t>(change.index);
-        if (on_side_change) on_side_change(change, self->contact.switching->names[k], frictions[k]);
+        if (on_side_change)
+            on_side_change(change, self->contact.switching->names[k], self->compiled.jumps->frictions[k]);
     };
-    system.refusal = [self, frictions = jumps.frictions](int k, double t, const double* y) {
-        return refusal_of(
-            self->derived.mechanism
-                .frictions[static_cast<std::size_t>(frictions[static_cast<std::size_t>(k)][0].friction)],
-            self->program, t, y);
+    system.refusal = [self](int k, double t, const double* y) {
+        const int friction = self->compiled.jumps->frictions[static_cast<std::size_t>(k)][0].friction;
+        return refusal_of(self->derived.mechanism.frictions[static_cast<std::size_t>(friction)], self->program, t,
+                          y);
     };
     mode.contact.events = first_events(std::move(mode.contact.events), events);
     mode.contact.switching = std::make_shared<const Switching>(std::move(system));
@@ -215,83 +166,49 @@ void LoadedModes::hold_signs(LoadedMode& mode, const Switched& jumps, std::size_
     rhs.dimension = dimension;
 }
 
-std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
-    double clock = process_seconds();
-    const auto lap = [&clock] {
-        const double before = clock;
-        clock = process_seconds();
-        return clock - before;
-    };
-    const bool has_contacts = !derived_.mechanism.unilateral.empty();
-    const std::vector<int> planes = frictions_in_planes(derived_.mechanism, closed);
-    const bool is_own = !has_contacts && planes.empty();
-    Derived derived =
-        is_own ? derived_
-               : derived_again(derived_,
-                               with_directions_held(
-                                   with_contacts_watched(with_closed(derived_.mechanism, closed), closed), planes),
-                               closed.empty() ? derived_.by : "routh");
-    seconds_.derive += lap();
-    Program program = free_ && is_own ? *std::move(free_) : lowered(derived).program;
-    if (program.singular || loaded_.size() == 1) need_accelerations(derived, program, first_);
-    std::optional<Switched> jumps;
-    if (method_.sundials.empty() && !needs_canonical(method_.method)) jumps = switched(program);
-    const Program& smooth = jumps ? jumps->program : program;
-    const std::optional<Differentiated> derivatives =
-        uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;
-    std::optional<Source> series;
-    if (needs_series(method_.method)) series = emit_taylor(smooth, work_ == Work::integrated);
-    std::optional<Source> form;
-    if (needs_canonical(method_.method)) form = emit(canonical_form(derived));
-    Source source = emit(derivatives ? derivatives->program : smooth);
-    seconds_.emit += lap();
-    const Compiled compiled = compile(source.text, program.name, options_of_compiler());
-    const Module module = load(compiled.object);
-    SeriesModule series_module;
-    if (series)
-        series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
-    std::shared_ptr<const Canonical> canonical;
-    if (form)
-        canonical = make_canonical(
-            module, load(compile(form->text, program.name + "_canonical", options_of_compiler()).object),
-            start_.parameters);
-    seconds_.compile += lap();
-
+std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
+    const CompiledMode& made = compiled_(closed, first_);
+    if (loaded_.size() == 1) {
+        const std::lock_guard lock(compiled_.symbols);
+        need_accelerations(made.derived, made.program, first_);
+    }
+    const MethodChoice& method = compiled_.method();
+    const Module& module = made.module;
+    const std::optional<Switched>& jumps = made.jumps;
     const std::size_t sides = jumps ? jumps->functions.size() : 0;
     const std::size_t watched = jumps && jumps->has_frictions() ? 4 * sides : 2 * sides;
-    std::vector<double> values = with_held_parameters(start_.parameters, program);
+    std::vector<double> values = with_held_parameters(start_.parameters, made.program);
     if (jumps) values.resize(start_.parameters.size() + static_cast<std::size_t>(jumps->held()), 1.0);
     std::vector<bool> stops;
     std::vector<int> directions;
-    for (const Mechanism::EventAction& event : derived.mechanism.event_actions) {
+    for (const Mechanism::EventAction& event : made.derived.mechanism.event_actions) {
         stops.push_back(event.stop);
         directions.push_back(event.direction);
     }
     const std::size_t events = stops.size();
     stops.resize(events + watched);
     directions.resize(events + watched);
-    const bool constrained = !derived.mechanism.constraints.empty();
+    const bool constrained = !made.derived.mechanism.constraints.empty();
     auto mode = std::make_unique<LoadedMode>(
-        LoadedMode{.derived = std::move(derived),
-                   .program = std::move(program),
-                   .source = std::move(source),
+        LoadedMode{.compiled = made,
+                   .derived = made.derived,
+                   .program = made.program,
+                   .source = made.source,
                    .module = module,
                    .par = prepared(module, values),
                    .projection = Projection(module, values),
-                   .contact = {.rhs = make_rhs(module, values, work_),
-                               .events = make_events(module, values, stops, directions)},
-                   .from_cache = compiled.from_cache});
-    if (method_.when_stiff) mode->contact.rhs.effort = effort_of(mode->program);
-    if (derivatives) mode->jacobian_operations = derivatives->operations.total();
-    if (series_module) mode->contact.rhs.series = make_series(series_module, values);
-    mode->contact.rhs.canonical = canonical;
-    if (method_.when_stiff)
+                   .contact = {.rhs = make_rhs(module, values, compiled_.work()),
+                               .events = make_events(module, values, stops, directions)}});
+    if (method.when_stiff) mode->contact.rhs.effort = made.effort;
+    if (made.series) mode->contact.rhs.series = make_series(made.series, values);
+    if (made.canonical) mode->contact.rhs.canonical = make_canonical(module, *made.canonical, start_.parameters);
+    if (method.when_stiff)
         mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
     // The work must balance the energy, so it is integrated with the same tolerance as the state, if there is one.
-    if (!has_contacts && !has_fixed_step(method_.method)) mode->contact.rhs.extra = 0;
-    if (!method_.sundials.empty()) mode->contact.by = sundials_integrator(method_.sundials, module, values);
+    if (made.derived.mechanism.unilateral.empty() && !has_fixed_step(method.method)) mode->contact.rhs.extra = 0;
+    if (!method.sundials.empty()) mode->contact.by = sundials_integrator(method.sundials, module, values);
     LoadedMode* const self = mode.get();
-    if (jumps) hold_signs(*self, *jumps, events, series_module);
+    if (jumps) hold_signs(*self, events);
     if (constrained) {
         mode->contact.project = self->projection.after_steps();
         if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));

@@ -1,41 +1,35 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The contact modes of a scene. Each is derived, emitted, compiled and loaded when the motion first needs it. A
-/// scene without unilateral constraints has only the mode {}.
+/// The contact modes of a scene with the numbers of one motion. A scene without unilateral constraints has only
+/// the mode {}.
 ///
-///     LoadedModes modes(request, derived, start, first, Work::left_out, method, on_step);
+///     CompiledModes compiled(wishes, derived, Work::left_out, method);
+///     LoadedModes modes(compiled, start, first, on_step);
 ///     const LoadedMode& lying = modes({0});
 ///     lying.contact.rhs(t, state, rate);
 
 #include <map>
 #include <memory>
 
-#include "alembert/compile.hpp"
-#include "alembert/module.hpp"
 #include "alembert/phases.hpp"
 #include "alembert/project.hpp"
-#include "alembert/series.hpp"
 #include "contact/contacts.hpp"
 #include "contact/kicks.hpp"
-#include "derive/derived.hpp"
-#include "emit/emit.hpp"
-#include "program/switches.hpp"
-#include "run/method.hpp"
+#include "run/compiled_modes.hpp"
 
 namespace alembert {
 
 struct LoadedMode {
-    Derived derived;  ///< with a mechanism in which the closed contacts are constraints
-    Program program;
-    Source source;
+    const CompiledMode& compiled;
+    const Derived& derived;  ///< these are its own
+    const Program& program;
+    const Source& source;
     Module module;
     std::vector<double> par;  ///< the parameters after `prepare`
     Projection projection;
     ContactMode contact;
-    bool from_cache = false;
-    std::optional<int> jacobian_operations = {};  ///< set if it is emitted
-    std::optional<Rhs> when_stiff = {};           ///< set after the motion was found stiff
+    std::optional<Rhs> when_stiff = {};  ///< set after the motion was found stiff
     /// The largest size during the motion of each function whose sign is held constant.
     std::vector<double> side_sizes = {};
     /// Sets the signs in `par` to those at a state of the motion, or to given ones. To be called before anything
@@ -45,11 +39,6 @@ struct LoadedMode {
     /// Updates `side_sizes` from a motion.
     void measure_sides(const Trajectory& motion);
 };
-
-/// The program with the Jacobian of its right-hand side, if `method` solves equations with it and it is not too
-/// long to be written out; otherwise the unchanged program. With `with_power`, the gradient of the power is added
-/// too.
-Program with_jacobian(Program program, Method method, bool with_power);
 
 /// Whether rates may jump: the mechanism has contacts, or events with impulses.
 bool has_jumps(const Mechanism& mechanism);
@@ -62,13 +51,10 @@ Contacts contacts_of(const Derived& derived, const Start& start, const ContactVi
 class LoadedModes {
 public:
     /// The arguments must outlive this object; `start` is assembled, and `first` is the state there. `on_step`
-    /// gets the mode of each step. For implicit methods the solvers are emitted with their Jacobian, unless that
-    /// would take long to compile; for methods that change to an implicit one when the motion is stiff, the
-    /// Jacobian is emitted at that time. For taylor the series is emitted.
+    /// gets the mode of each step.
     using OnModeStep =
         std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
-    LoadedModes(const RunOptions& wishes, const Derived& derived, const Start& start, const State<double>& first,
-                Work work, const MethodChoice& method, OnModeStep on_step);
+    LoadedModes(CompiledModes& compiled, const Start& start, const State<double>& first, OnModeStep on_step);
 
     /// The mode with the contacts `closed`, in ascending order. Throws IntegrationError if there are no finite
     /// accelerations at the start, and what the stages throw.
@@ -79,36 +65,21 @@ public:
     std::function<void(const SideChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
         on_side_change = {};
 
-    /// Uses a given program for the mode {}.
-    void take_free(Program program);
-
-    /// The operations of one right-hand side, the largest number of all modes used so far.
-    int operations() const;
-
     /// To be called before another run (Projection::forget).
     void forget();
 
-    struct Seconds {
-        double derive = 0, emit = 0, compile = 0;  ///< processor time
-    };
-    const Seconds& seconds() const { return seconds_; }
+    CompiledModes& compiled() { return compiled_; }
 
 private:
-    std::unique_ptr<LoadedMode> made(const std::vector<int>& closed);
-    void hold_signs(LoadedMode& mode, const Switched& jumps, std::size_t events, const SeriesModule& series);
+    std::unique_ptr<LoadedMode> bound(const std::vector<int>& closed);
+    void hold_signs(LoadedMode& mode, std::size_t events);
     Rhs with_jacobian(LoadedMode& mode);
-    CompileOptions options_of_compiler() const;
 
-    const RunOptions& wishes_;
-    const Derived& derived_;
+    CompiledModes& compiled_;
     const Start& start_;
     const State<double>& first_;
-    Work work_;
-    const MethodChoice& method_;
     OnModeStep on_step_;
-    std::optional<Program> free_;
     std::map<std::vector<int>, std::unique_ptr<LoadedMode>> loaded_;
-    Seconds seconds_;
 };
 
 }  // namespace alembert

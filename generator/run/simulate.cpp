@@ -74,12 +74,13 @@ public:
         run_.timings = {.derive = run_.seconds, .emit = process_seconds() - begin};
         angles_ = angles_of_frame(run_, choice_);
         Watch watch = fresh_watch();
+        CompiledModes compiled(wishes_, run_, work(), choice_);
+        compiled.take_free(std::move(program));
         LoadedModes modes(
-            wishes_, run_, start_, first_, work(), choice_,
+            compiled, start_, first_,
             [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                 if (!watch.is_over) look(watch, mode, t, state, rate);
             });
-        modes.take_free(std::move(program));
         modes.on_side_change = [&](const SideChange& change, const std::string& name,
                                    const std::vector<Switched::Rubbing>& frictions) {
             if (watch.is_over) return;
@@ -166,7 +167,8 @@ private:
         initial_.insert(initial_.end(), first_.qdot.begin(), first_.qdot.end());
         if (!energy_.conserved) initial_.push_back(0);
         const auto making = [&] {
-            return modes.seconds().derive + modes.seconds().emit + modes.seconds().compile;
+            return modes.compiled().seconds().derive + modes.compiled().seconds().emit +
+                   modes.compiled().seconds().compile;
         };
         const double made_before = making(), begin = process_seconds();
         run_.motion = followed(modes, options_, initial_);
@@ -201,10 +203,11 @@ private:
         return true;
     }
 
-    void add_seconds(const LoadedModes& modes) {
-        run_.timings.derive += modes.seconds().derive;
-        run_.timings.emit += modes.seconds().emit;
-        run_.timings.compile += modes.seconds().compile;
+    void add_seconds(LoadedModes& modes) {
+        const CompiledModes::Seconds& seconds = modes.compiled().seconds();
+        run_.timings.derive += seconds.derive;
+        run_.timings.emit += seconds.emit;
+        run_.timings.compile += seconds.compile;
     }
 
     void settle_account(const Watch& watch) {
@@ -257,9 +260,9 @@ private:
         const Mechanism& m = run_.mechanism;
         run_.why_method = choice_.why;
         run_.solver = {.formulation = free.source.formulation,
-                       .operations = modes.operations(),
-                       .jacobian_operations = free.jacobian_operations,
-                       .from_cache = free.from_cache};
+                       .operations = modes.compiled().operations(),
+                       .jacobian_operations = free.compiled.jacobian_operations,
+                       .from_cache = free.compiled.from_cache};
         for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
         const auto end = run_.motion.final_state();
         run_.final_coordinates.assign(end.begin(), end.begin() + m.size());

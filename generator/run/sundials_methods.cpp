@@ -42,14 +42,27 @@ bool is_sundials(std::string_view method) {
 }
 
 void need_sundials(const Derived& d, std::string_view method) {
-    const auto refuse = [&](const std::string& why) {
-        throw ModelError(say("method '{}' does not follow {}; take radau (stiff) or dop853", method, why));
+    const Mechanism& m = d.mechanism;
+    const auto refuse = [&](const std::string& why, const std::string& others) {
+        throw ModelError(say("method '{}' does not follow {}; take {}", method, why, others));
     };
-    if (!d.mechanism.unilateral.empty()) refuse(say("contacts ([[unilateral]])"));
-    if (!d.mechanism.frictions.empty()) refuse(say("dry friction ([[friction]])"));
-    if (!d.mechanism.events.empty()) refuse(say("events ([[event]])"));
-    if (method == ida && !d.equations.speeds_are_rates() && !d.mechanism.constraints.empty())
-        refuse(say("constraints in generalized speeds (the formalism 'routh' has them in rates)"));
+    if (!m.unilateral.empty())
+        refuse(
+            say("contacts ([[unilateral]]), at which it would have to begin anew with steps more exact than its "
+                "lowest order allows"),
+            say("radau (stiff) or dop853"));
+    if (method != ida || m.constraints.empty()) return;
+    if (!m.frictions.empty())
+        refuse(
+            say("dry friction ([[friction]]) of a scene with constraints, whose multipliers it calculates itself"),
+            say("cvode, radau (stiff both) or dop853"));
+    if (!d.equations.speeds_are_rates())
+        refuse(say("constraints in generalized speeds (the formalism 'routh' has them in rates)"),
+               say("cvode, radau (stiff both) or dop853"));
+}
+
+bool follows_signs(std::string_view method, const Mechanism& m) {
+    return method != ida || m.constraints.empty();
 }
 
 Integrator sundials_integrator(std::string_view method, const Module& module,

@@ -16,9 +16,12 @@ namespace alembert {
 
 bool is_sundials(std::string_view method);
 
-/// Throws ModelError for a scene that they do not support: contacts, events that stop and, for ida, speeds with
-/// constraints.
+/// Throws ModelError for a scene that they do not support: with contacts, and for ida with constraints where there
+/// is friction, too, or where they are in generalized speeds.
 void need_sundials(const Derived& derived, std::string_view method);
+
+/// Whether the method goes from one zero of a sign to the next.
+bool follows_signs(std::string_view method, const Mechanism& mechanism);
 
 /// Throws CompileError if this build has no SUNDIALS.
 Integrator sundials_integrator(std::string_view method, const Module& module,

@@ -25,17 +25,6 @@ namespace {
 
 constexpr std::size_t most_checked = 1'000'000;  // bodies, before the first motion
 
-void need_smooth_motion(const Mechanism& m) {
-    if (!m.unilateral.empty())
-        throw ModelError(
-            say("sweep does not follow unilateral constraints; simulate does, for one state at a time"));
-    if (!m.frictions.empty())
-        throw ModelError(say("sweep does not follow dry friction; simulate does, for one state at a time"));
-    if (m.has_kicks())
-        throw ModelError(
-            say("sweep does not follow events with impulses; simulate does, for one state at a time"));
-}
-
 /// Whether masses may change from motion to motion.
 bool varies_parameters(const Mechanism& m, const std::vector<std::string>& names) {
     return std::any_of(m.parameters.begin(), m.parameters.end(), [&](const Mechanism::Parameter& p) {
@@ -48,7 +37,9 @@ std::vector<double> rates_at(const Program& program, const Module& module, const
                              std::span<const double> state) {
     const alembert_solver_table& table = module.table();
     if (program.speeds.empty()) return {state.begin() + table.coordinates, state.end()};
-    const std::vector<double> par = prepared(module, member.parameters);
+    std::vector<double> values = member.parameters;
+    values.resize(static_cast<std::size_t>(table.parameters), 1.0);  // signs, on which rates do not depend
+    const std::vector<double> par = prepared(module, values);
     std::vector<double> rate(state.size());
     table.rhs(t, state.data(), par.data(), rate.data());
     rate.resize(static_cast<std::size_t>(table.coordinates));
@@ -62,7 +53,6 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     s_.grid = std::move(grid);
     s_.along = std::move(along);
     const Mechanism& m = s_.mechanism;
-    need_smooth_motion(m);
     if (!m.impulses.empty())
         s_.warn(
             say("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
@@ -71,21 +61,33 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     const std::vector<std::string> names = s_.grid.names();
     starts_.emplace(m, names);
     has_varied_bodies_ = !m.masses.empty() && varies_parameters(m, names);
-    s_.conserved = energy_of(m).conserved;
+    s_.conserved = energy_of(m).conserved && !has_jumps(m);
     program_ = lowered(s_).program;
     for (const Quantity& q : program_.coordinates) s_.coordinates.push_back(q.name);
     if (!m.speeds.empty())
         for (const Quantity& u : program_.speeds) s_.speeds.push_back(u.name);
     check_columns(end_columns(s_), wishes.columns);
-    options_ = options_for();
+    const bool phased = !program_.singular && is_phased(m, program_);
+    options_ = phased ? options_of_phased() : options_for();
     s_.method = name(options_.method);
     constraints_ = lower_constraints(m);
     is_assembled_ = !m.constraints.empty() || !m.speeds.empty();
-    const Source source = emit(program_, {.batch = true});
-    source_ = source.text;
-    s_.formulation = source.formulation;
-    s_.operations = source.operations.total();
+    if (phased) {
+        phased_.emplace(s_, wishes_, choice_, options_, !s_.along.empty());
+    } else {
+        const Source source = emit(program_, {.batch = true});
+        source_ = source.text;
+        s_.formulation = source.formulation;
+        s_.operations = source.operations.total();
+    }
     make_key();
+}
+
+Options Sweeper::options_of_phased() {
+    given_method(wishes_, s_);
+    const Start start = start_of(s_.mechanism);
+    choice_ = method_for(wishes_, s_, program_, start);
+    return options_of(wishes_, choice_, start);
 }
 
 Options Sweeper::options_for() const {
@@ -140,11 +142,19 @@ void Sweeper::check() {
     }
 }
 
-void Sweeper::compile() {
+void Sweeper::compile_phased() {
+    ensemble_.emplace(
+        Ensemble{.module = phased_->compile(state_of(start_of(s_.mechanism), s_.mechanism, s_.equations))});
+    ensemble_->by = [this](const Member& member, std::vector<double>& state) { return (*phased_)(member, state); };
+    s_.formulation = phased_->free().source.formulation;
+    s_.operations = phased_->operations();
+    s_.timings.compile = phased_->seconds_of_compiler();
+}
+
+void Sweeper::compile_smooth() {
     const Compiled compiled = alembert::compile(
         source_, program_.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}});
     s_.timings.compile = compiled.from_cache ? 0.0 : compiled.seconds;
-    const double begin = process_seconds();
     ensemble_.emplace(Ensemble{.module = load(compiled.object)});
     ensemble_->along = !s_.along.empty();
     ensemble_->work = s_.conserved ? Work::left_out : Work::integrated;
@@ -152,9 +162,17 @@ void Sweeper::compile() {
         ensemble_->stops.push_back(event.stop);
         ensemble_->directions.push_back(event.direction);
     }
+}
+
+void Sweeper::compile() {
+    if (phased_)
+        compile_phased();
+    else
+        compile_smooth();
+    const double begin = process_seconds();
     if (has_varied_bodies_ && s_.grid.size() > most_checked) bodies_.emplace(s_.scene, s_.mechanism);
     if (!has_fixed_step(options_.method)) {
-        variants_.emplace(program_, *starts_, s_.grid, wishes_.duration);
+        variants_.emplace(phased_ ? phased_->free().program : program_, *starts_, s_.grid, wishes_.duration);
         if (variants_->has_too_many())
             s_.warnings.push_back(
                 say("only {} variants of the inputs were searched for narrow pulses; a longest step "
@@ -178,6 +196,10 @@ void Sweeper::run(const SweepDesk& desk, int threads) {
     s_.packed = used.packed;
     s_.threads = used.threads;
     s_.timings.integrate = process_seconds() - begin;
+    if (!phased_) return;
+    const double seconds = phased_->seconds_of_compiler();  // some modes were compiled while motions ran
+    s_.timings.integrate -= seconds - std::exchange(s_.timings.compile, seconds);
+    s_.operations = phased_->operations();
 }
 
 std::optional<Member> Sweeper::next(const SweepDesk& desk) {
@@ -200,6 +222,8 @@ std::optional<Member> Sweeper::next(const SweepDesk& desk) {
 std::optional<Member> Sweeper::member(std::size_t k, const SweepDesk& desk) {
     const std::vector<double> values = s_.grid.point(k);
     taken_->motions[k - taken_->part.first].varied = values;
+    std::unique_lock<std::recursive_mutex> symbols;
+    if (phased_) symbols = std::unique_lock(phased_->symbols());
     try {
         Start start = starts_->at(values);
         if (const std::optional<std::string> why = impossible_body(start)) throw ModelError(*why);
@@ -208,6 +232,8 @@ std::optional<Member> Sweeper::member(std::size_t k, const SweepDesk& desk) {
             for (std::size_t i = 0; i < values.size(); ++i) held.emplace_back(s_.grid.axes[i].name, values[i]);
             assemble(start, s_.mechanism, constraints_, held);
         }
+        if (phased_)
+            if (const std::optional<std::string> why = phased_->obstacle(start)) throw ModelError(*why);
         const State<double> first = state_of(start, s_.mechanism, s_.equations);
         Member member{.index = k,
                       .state = first.q,

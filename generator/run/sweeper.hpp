@@ -20,6 +20,7 @@
 
 #include "alembert/ensemble.hpp"
 #include "run/input_variants.hpp"
+#include "run/phased_members.hpp"
 #include "run/sweep.hpp"
 #include "state/inertia_check.hpp"
 
@@ -36,8 +37,8 @@ struct SweepDesk {
 
 class Sweeper {
 public:
-    /// Derives and emits. Throws what `derived` throws; ModelError for scenes with contacts or impulses at events,
-    /// and for methods that need more than the right-hand side. `along` is a list of min, max, mean.
+    /// Derives and emits. Throws what `derived` throws; ModelError for methods that need more than the right-hand
+    /// side. `along` is a list of min, max, mean.
     Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<std::string> along = {});
     Sweeper(const Sweeper&) = delete;
     Sweeper& operator=(const Sweeper&) = delete;
@@ -66,6 +67,9 @@ private:
     };
 
     Options options_for() const;
+    Options options_of_phased();
+    void compile_smooth();
+    void compile_phased();
     void make_key();
     std::optional<Member> next(const SweepDesk& desk);
     /// Nothing if the motion cannot begin; its row then says why.
@@ -79,12 +83,14 @@ private:
     RunOptions wishes_;
     Program program_, constraints_;
     std::string source_;
+    MethodChoice choice_;  ///< of motions that are not smooth
     Options options_;
     bool is_assembled_ = false, has_varied_bodies_ = false;
     std::optional<Starts> starts_;
     std::optional<InertiaCheck> bodies_;
     std::optional<InputVariants> variants_;
-    std::optional<Ensemble> ensemble_;  ///< once it is compiled; without members
+    std::optional<PhasedMembers> phased_;  ///< if motions are not smooth
+    std::optional<Ensemble> ensemble_;     ///< once it is compiled; without members
     std::string key_;
 
     std::mutex taking_, giving_;

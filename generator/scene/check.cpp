@@ -2,12 +2,14 @@
 #include "scene/check.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "language/say.hpp"
 #include "scene/names.hpp"
 #include "scene/quantity.hpp"
 #include "scene/quaternions.hpp"
 #include "scene/references.hpp"
+#include "scene/sticking.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -365,6 +367,31 @@ private:
         return false;
     }
 
+    /// The claim may hold the forces of what sticks, whose names are added to `more`.
+    void check_sticking(const Claim& claim, std::unordered_set<std::string>& more) {
+        std::vector<std::string> known;
+        for (const FrictionRule& friction : scene_.frictions) known.push_back(friction.name.text);
+        if (known.empty())
+            complain(claim.place, say("a claim speaks of the motion while friction sticks, and the scene has no "
+                                      "[[friction]]"));
+        for (const std::string& name : named_sticking(claim))
+            if (std::find(known.begin(), known.end(), name) == known.end())
+                complain(claim.place, say("a claim speaks of the motion while {} sticks, and no friction has this "
+                                          "name{}",
+                                          in_quotes(name), quantities_.suggestion(name, known)));
+        const std::vector<std::string> sticking = sticking_in(claim, scene_);
+        for (const FrictionRule& friction : scene_.frictions) {
+            if (std::find(sticking.begin(), sticking.end(), friction.name.text) == sticking.end()) continue;
+            for (const std::string& force : sticking_forces(friction)) {
+                if (const Declared* const declared = NameSpaces::find(names_.values, force))
+                    complain(claim.place,
+                             say("while friction '{}' sticks, {} is its force, and the scene has {} of this name",
+                                 friction.name.text, in_quotes(force), described(declared->kind)));
+                more.insert(force);
+            }
+        }
+    }
+
     void check(const Claim& claim) {
         std::unordered_set<std::string> more;
         for (const std::vector<Name>* list : {&claim.unknowns, &claim.constants})
@@ -375,6 +402,7 @@ private:
                                              described(declared->kind)));
                 more.insert(name.text);
             }
+        if (is_sticking(claim)) check_sticking(claim, more);
         for (const auto& [name, value] : claim.near) {
             const bool is_rate = name.text.ends_with('\'');
             const std::string of = is_rate ? name.text.substr(0, name.text.size() - 1) : name.text;
@@ -406,7 +434,7 @@ private:
             return;
         }
         const Legal anything{.subject = say("a claim"),
-                             .order = claim.at == "motion" ? 3 : 2,
+                             .order = claim.at == "motion" || is_sticking(claim) ? 3 : 2,
                              .input_order = 2,
                              .time = true,
                              .advice = {},

@@ -98,6 +98,11 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
             near.clear();
             continue;
         }
+        if (!is_equation && first == "sticking") {
+            at = line.substr(static_cast<std::size_t>(words[0].offset));
+            near.clear();
+            continue;
+        }
         if (is_equation && first == "near" && words.size() > 1) {
             at = "near";
             near = values_after(line, words[1].offset, source, begin, mistakes);

@@ -8,6 +8,7 @@
 ///     constants c
 ///     m*xC'^2 + J*phi'^2 = c
 ///     rest | impact | motion          what the claims that follow speak of
+///     sticking slope                  of the motion while this friction sticks; without names, all of them
 
 #include "scene/scene.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "alembert/methods.hpp"
 #include "language/say.hpp"
+#include "scene/sticking.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
@@ -154,10 +155,13 @@ void read_claim(Table table, Scene& scene) {
     claim.constants = table.names("constants");
     if (const auto at = table.name("at")) {
         claim.at = at->text;
-        if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact" && claim.at != "solution")
+        if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact" && claim.at != "solution" &&
+            !is_sticking(claim))
             table.reading().complain(
-                at->place, say("a claim is held at \"motion\", \"rest\", \"impact\" or \"solution\", not at {}",
-                               in_quotes(claim.at)));
+                at->place,
+                say("a claim is held at \"motion\", \"rest\", \"impact\", \"solution\" or \"sticking\", "
+                    "not at {}",
+                    in_quotes(claim.at)));
     }
     if (table.has("near")) {
         claim.near = values_by_name(table, "near", say("values of coordinates and rates: {{ theta = 0 }}"),

@@ -97,7 +97,8 @@ public:
         : e_(ensemble), feed_(feed), options_(options) {
         const alembert_solver_table& table = e_.module.table();
         const bool stops = std::any_of(e_.stops.begin(), e_.stops.end(), [](bool stop) { return stop; });
-        if (e_.module.pack() != nullptr && e_.module.pack()->lanes == lanes && table.constraints == 0 && !stops)
+        if (!e_.by && e_.module.pack() != nullptr && e_.module.pack()->lanes == lanes && table.constraints == 0 &&
+            !stops)
             packed_ = packed_method(options.method);
         const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
         threads_ = std::clamp<std::size_t>(e_.threads > 0 ? static_cast<std::size_t>(e_.threads) : cores, 1,
@@ -155,7 +156,7 @@ private:
         need(std::isfinite(member.start), fmt::format("start = {}: a finite number is needed", member.start));
         need(std::isfinite(member.duration) && member.duration >= 0,
              fmt::format("duration = {}: a finite number, zero or more, is needed", member.duration));
-        if (member.duration <= longest_.load(std::memory_order_relaxed)) return;
+        if (e_.by || member.duration <= longest_.load(std::memory_order_relaxed)) return;
         Options options = options_;
         options.duration = member.duration;
         check_options(make_rhs(e_.module, {}), member.state, options);
@@ -164,6 +165,12 @@ private:
 
     /// Integrates one member with the ordinary integrator.
     void alone(const Member& member) {
+        if (e_.by) {
+            std::vector<double> state = member.state;
+            const Outcome outcome = e_.by(member, state);
+            feed_.done(member, outcome, state);
+            return;
+        }
         const alembert_solver_table& table = e_.module.table();
         const bool works = e_.work == Work::integrated;
         const Rhs rhs = make_rhs(e_.module, member.parameters, e_.work);

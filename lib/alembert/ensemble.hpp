@@ -37,6 +37,9 @@
 
 namespace alembert {
 
+struct Member;
+struct Outcome;
+
 struct Ensemble {
     Module module;
     std::vector<double> states = {};  ///< count × (n + s), member by member
@@ -53,6 +56,9 @@ struct Ensemble {
     std::vector<int> directions = {};
     bool along = false;  ///< whether outcomes have extremes and means along the motion
     int threads = 0;     ///< 0 means as many as there are cores
+    /// Takes the place of `integrate` where motions are not smooth, for one member at a time on each thread.
+    /// `state` is that at the start, and is to become that at the end. May be empty.
+    std::function<Outcome(const Member& member, std::vector<double>& state)> by = {};
     std::function<void(double fraction)> progress =
         {};  ///< called now and then on the calling thread with the share that is done
 

@@ -176,10 +176,8 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
                      const Events& events) {
     check_options(rhs, initial, options);
     const double start = thread_seconds();
-    if (options.by && !events.list.empty())
-        throw std::invalid_argument("an integrator of another library does not look for events");
     Trajectory result =
-        options.by ? options.by(rhs, initial, options)
+        options.by ? options.by(rhs, initial, options, events)
                    : by_method[static_cast<std::size_t>(options.method)].run(rhs, initial, options, events);
     if (result.statistics.switched && result.ending == Ending::completed) go_on(result, rhs, options, events);
     result.statistics.seconds = thread_seconds() - start;

@@ -58,10 +58,10 @@ namespace alembert {
 using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
 
 struct Options;
-/// An integrator of another library for one system. It gets options that have been checked, without `by`, and
-/// returns rows, statistics (with its name) and failures like `integrate`.
-using Integrator =
-    std::function<Trajectory(const Rhs& rhs, const std::vector<double>& initial, const Options& options)>;
+/// An integrator of another library for one system. It gets options that have been checked, and returns rows,
+/// events, statistics (with its name) and failures like `integrate`.
+using Integrator = std::function<Trajectory(const Rhs& rhs, const std::vector<double>& initial,
+                                            const Options& options, const Events& events)>;
 
 /// What a piece of a run knows of the other method of the run. `integrate` sets it.
 struct Turns {
@@ -94,7 +94,7 @@ struct Options {
     OnStep on_step = {};  ///< may be empty
     /// Moves the end of each step onto the constraints after its error was found small enough; may be empty.
     std::function<void(double t, double* state)> project = {};
-    Integrator by = {};  ///< replaces `method` in a run without events; may be empty
+    Integrator by = {};  ///< takes the place of `method`; may be empty
 };
 
 /// The check of options with which `integrate` begins.

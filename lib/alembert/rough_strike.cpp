@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "alembert/rough_choice.hpp"
+#include "alembert/rough_cones.hpp"
 #include "alembert/rough_impact.hpp"
 
 namespace alembert {
@@ -16,6 +17,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double negligible_gain = 1e-9;  // of energy, relative to the work of the impulses
+constexpr double no_effect = 1e-12;       // of an impulse on another contact, relative to that on its own
 
 /// Nothing if the contact has several frictions.
 std::optional<RoughContact> contact_at(const Situation& here, int k) {
@@ -61,42 +63,92 @@ std::optional<RoughStrike> alone(const Situation& here, const VectorXd& before, 
                                    .impulse = hit.impulse}}};
 }
 
-RoughStrike together(const Situation& here, const VectorXd& before, const std::vector<int>& near,
-                     const std::vector<double>& restitution, const VectorXd& kick) {
+/// The impulses and rates of an impact of several contacts together.
+struct Together {
+    std::string failure;
+    VectorXd after, normal, bilateral;
+    std::vector<VectorXd> tangential;
+};
+
+/// Where every contact slides along one direction, all choices of modes are tried.
+Together in_lines(const Situation& here, const VectorXd& momentum, const std::vector<ConeRows>& contacts) {
     std::vector<RoughRows> rows;
-    const VectorXd speed = gap_rates(here, before);
-    for (const int k : near) {
-        const std::optional<RoughContact> contact = contact_at(here, k);
-        if (!contact || contact->across.size() > 0 || contact->grip > 0)
-            return {.failure =
-                        "simultaneous impacts with friction can be computed where each contact has one "
-                        "friction in one direction, without a restitution of its own",
-                    .after = {}};
-        const double e = restitution[static_cast<std::size_t>(k)];
-        rows.push_back({.normal = contact->normal,
-                        .offset = contact->normal_drift + e * std::min(0.0, speed[k]),
-                        .slip = contact->slip.isZero(0) ? Eigen::RowVectorXd() : contact->slip,
-                        .slip_offset = contact->slip_drift,
-                        .coefficient = contact->coefficient,
-                        .resting = contact->resting});
-    }
-    const VectorXd momentum = here.M * before + kick;
+    for (const ConeRows& c : contacts)
+        rows.push_back({.normal = c.normal,
+                        .offset = c.offset,
+                        .slip = c.slip.rows() == 0 ? Eigen::RowVectorXd() : Eigen::RowVectorXd(c.slip.row(0)),
+                        .slip_offset = c.slip.rows() == 0 ? 0 : c.slip_offset[0],
+                        .coefficient = c.coefficient,
+                        .resting = c.resting});
     const RoughChoice hit = choose_rough(here.M, momentum, here.bilateral.rows, here.bilateral.drift, rows);
     if (!hit.exists)
         return {.failure = "no choice of sticking and sliding is consistent in their impact together",
-                .after = {}};
+                .after = {},
+                .normal = {},
+                .bilateral = {},
+                .tangential = {}};
+    Together result{
+        .failure = {}, .after = hit.after, .normal = hit.normal, .bilateral = hit.bilateral, .tangential = {}};
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+        result.tangential.push_back(
+            VectorXd::Constant(contacts[i].slip.rows(), hit.tangential[static_cast<Index>(i)]));
+    return result;
+}
+
+Together in_planes(const Situation& here, const VectorXd& momentum, const std::vector<ConeRows>& contacts) {
+    ConeChoice hit = choose_in_cones(here.M, momentum, here.bilateral.rows, here.bilateral.drift, contacts);
+    return {.failure = std::move(hit.failure),
+            .after = std::move(hit.after),
+            .normal = std::move(hit.normal),
+            .bilateral = std::move(hit.bilateral),
+            .tangential = std::move(hit.tangential)};
+}
+
+RoughStrike together(const Situation& here, const VectorXd& before, const std::vector<int>& near,
+                     const std::vector<double>& restitution, const VectorXd& kick) {
+    std::vector<ConeRows> rows;
+    bool in_a_plane = false;
+    const VectorXd speed = gap_rates(here, before);
+    for (const int k : near) {
+        const std::optional<RoughContact> contact = contact_at(here, k);
+        if (!contact || contact->grip > 0)
+            return {.failure =
+                        "simultaneous impacts with friction can be computed where each contact has one "
+                        "friction, without a restitution of its own",
+                    .after = {}};
+        const double e = restitution[static_cast<std::size_t>(k)];
+        const Index components = contact->across.size() > 0 ? 2 : contact->slip.isZero(0) ? 0 : 1;
+        in_a_plane = in_a_plane || components == 2;
+        ConeRows row{.normal = contact->normal,
+                     .offset = contact->normal_drift + e * std::min(0.0, speed[k]),
+                     .slip = Eigen::MatrixXd(components, before.size()),
+                     .slip_offset = VectorXd(components),
+                     .coefficient = contact->coefficient,
+                     .resting = contact->resting};
+        if (components > 0) {
+            row.slip.row(0) = contact->slip;
+            row.slip_offset[0] = contact->slip_drift;
+        }
+        if (components > 1) {
+            row.slip.row(1) = contact->across;
+            row.slip_offset[1] = contact->across_drift;
+        }
+        rows.push_back(std::move(row));
+    }
+    const VectorXd momentum = here.M * before + kick;
+    const Together hit = in_a_plane ? in_planes(here, momentum, rows) : in_lines(here, momentum, rows);
+    if (!hit.failure.empty()) return {.failure = hit.failure, .after = {}};
     const VectorXd after = gap_rates(here, hit.after), mean = (before + hit.after) / 2;
     RoughStrike result{
         .failure = {}, .after = hit.after, .work = hit.bilateral.dot(here.bilateral.rows * mean) + kick.dot(mean)};
     double loss = 0, size = 0;
     for (std::size_t i = 0; i < near.size(); ++i) {
         const int k = near[i];
-        const double pi = hit.normal[static_cast<Index>(i)], tau = hit.tangential[static_cast<Index>(i)];
+        const double pi = hit.normal[static_cast<Index>(i)];
         if (!(pi > 0)) continue;
-        const bool is_rough = rows[i].slip.size() > 0;
-        const double normal = pi * rows[i].normal.dot(mean), along = is_rough ? tau * rows[i].slip.dot(mean) : 0;
-        const double lost =
-            -normal - pi * here.contacts.drift[k] - along - (is_rough ? tau * rows[i].slip_offset : 0);
+        const VectorXd& tau = hit.tangential[i];
+        const double normal = pi * rows[i].normal.dot(mean), along = tau.dot(rows[i].slip * mean);
+        const double lost = -normal - pi * here.contacts.drift[k] - along - tau.dot(rows[i].slip_offset);
         result.work += normal + along;
         loss += lost;
         size += std::abs(normal) + std::abs(along);
@@ -113,19 +165,75 @@ RoughStrike together(const Situation& here, const VectorXd& before, const std::v
     return result;
 }
 
+/// The contacts in groups of which none feels the impulses of another: they change neither its gaps nor its
+/// sliding velocities.
+std::vector<std::vector<int>> groups_of(const Situation& here, const std::vector<int>& near) {
+    std::vector<Eigen::MatrixXd> rows, responses;
+    for (const int k : near) {
+        Eigen::MatrixXd own = here.contacts.rows.row(k);
+        for (const Situation::Rough& rough : here.rough) {
+            if (rough.contact != k) continue;
+            own.conservativeResize(own.rows() + rough.slip.rows(), Eigen::NoChange);
+            own.bottomRows(rough.slip.rows()) = rough.slip;
+        }
+        Eigen::MatrixXd response(own.cols(), own.rows());
+        for (Index i = 0; i < own.rows(); ++i)
+            response.col(i) = response_to(here.M, here.bilateral.rows, own.row(i).transpose());
+        rows.push_back(std::move(own));
+        responses.push_back(std::move(response));
+    }
+    const auto feels = [&](std::size_t a, std::size_t b) {
+        const Eigen::MatrixXd felt = (rows[a] * responses[b]).cwiseAbs();
+        const VectorXd own = (rows[a] * responses[a]).diagonal().cwiseMax(0).cwiseSqrt(),
+                       other = (rows[b] * responses[b]).diagonal().cwiseMax(0).cwiseSqrt();
+        return (felt.array() > no_effect * (own * other.transpose()).array()).any();
+    };
+    std::vector<std::size_t> group(near.size());
+    for (std::size_t i = 0; i < near.size(); ++i) group[i] = i;
+    for (std::size_t a = 0; a < near.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+            if (group[a] != group[b] && feels(a, b))
+                std::replace(group.begin(), group.end(), std::size_t(group[a]), std::size_t(group[b]));
+    std::vector<std::vector<int>> result;
+    for (std::size_t g = 0; g < near.size(); ++g) {
+        std::vector<int> members;
+        for (std::size_t i = 0; i < near.size(); ++i)
+            if (group[i] == g) members.push_back(near[i]);
+        if (!members.empty()) result.push_back(std::move(members));
+    }
+    return result;
+}
+
+/// Nothing if no contact of the group strikes.
+std::optional<RoughStrike> strike_group(const Situation& here, const VectorXd& before,
+                                        const std::vector<int>& group, const std::vector<double>& restitution) {
+    const VectorXd rates = gap_rates(here, before), still = negligible_rates(here, before);
+    std::vector<int> striking;
+    for (const int k : group)
+        if (rates[k] < -still[k]) striking.push_back(k);
+    if (striking.empty()) return std::nullopt;
+    if (striking.size() == 1)
+        if (std::optional<RoughStrike> hit =
+                alone(here, before, group, striking[0], restitution[static_cast<std::size_t>(striking[0])]))
+            return hit;
+    return together(here, before, group, restitution, VectorXd::Zero(before.size()));
+}
+
 }  // namespace
 
 RoughStrike strike_rough_contacts(const Situation& here, const VectorXd& before, const std::vector<int>& near,
                                   const std::vector<double>& restitution, const VectorXd& kick) {
-    const VectorXd rates = gap_rates(here, before), still = negligible_rates(here, before);
-    std::vector<int> striking;
-    for (const int k : near)
-        if (rates[k] < -still[k]) striking.push_back(k);
-    if (striking.size() == 1 && kick.size() == 0)
-        if (std::optional<RoughStrike> hit =
-                alone(here, before, near, striking[0], restitution[static_cast<std::size_t>(striking[0])]))
-            return *std::move(hit);
-    return together(here, before, near, restitution, kick.size() > 0 ? kick : VectorXd::Zero(before.size()));
+    if (kick.size() > 0) return together(here, before, near, restitution, kick);
+    RoughStrike all{.failure = {}, .after = before};
+    for (const std::vector<int>& group : groups_of(here, near)) {
+        const std::optional<RoughStrike> hit = strike_group(here, before, group, restitution);
+        if (!hit) continue;
+        if (!*hit) return *hit;
+        all.after += hit->after - before;
+        all.work += hit->work;
+        all.events.insert(all.events.end(), hit->events.begin(), hit->events.end());
+    }
+    return all;
 }
 
 }  // namespace alembert

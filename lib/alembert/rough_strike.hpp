@@ -3,10 +3,12 @@
 
 /// The impact of contacts of which at least one has dry friction.
 ///
-/// A contact that strikes alone follows the impulse through its impact (rough_impact.hpp), if no other contact is
-/// pressed by that: the corner on which a block has stood lifts off when the other one strikes. Otherwise all near
-/// contacts are struck together by Moreau's law (rough_choice.hpp): a contact that has borne an impulse parts with
-/// e times its speed before, and sticks, or slides against its friction; the result must not gain energy.
+/// Contacts that do not feel each other (the feet of two bodies) are struck each by itself. A contact that strikes
+/// alone follows the impulse through its impact (rough_impact.hpp), if no other contact is pressed by that: the
+/// corner on which a block has stood lifts off when the other one strikes. Otherwise all contacts that feel each
+/// other are struck together by Moreau's law (rough_choice.hpp, in planes rough_cones.hpp): a contact that has
+/// borne an impulse parts with e times its speed before, and sticks, or slides against its friction; the result
+/// must not gain energy, and must be the only one.
 
 #include "alembert/settle.hpp"
 

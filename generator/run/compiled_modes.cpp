@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/compiled_modes.hpp"
+
+#include <algorithm>
+
+#include "alembert/process_time.hpp"
+#include "contact/contacts.hpp"
+#include "emit/taylor.hpp"
+#include "model/friction.hpp"
+#include "program/differentiate.hpp"
+#include "run/canonical.hpp"
+#include "run/first_accelerations.hpp"
+#include "run/sides.hpp"
+#include "run/sundials_methods.hpp"
+
+namespace alembert {
+
+namespace {
+
+// Of a Jacobian that compiles in a second or two; for larger ones, differences are used.
+constexpr int most_operations = 8000;
+
+std::optional<Differentiated> affordable_derivatives(const Program& program, Work work) {
+    if (program.count(program.right_hand_side()).total() > most_operations / 2) return std::nullopt;
+    auto result = differentiated(program, {.power = work == Work::integrated, .budget = 100000});
+    if (result && result->operations.total() > most_operations) return std::nullopt;
+    return result;
+}
+
+/// Whether signs are not held constant: rattle calculates with momenta, and ida with constraints calls other
+/// functions than the right-hand side.
+bool takes_signs_as_they_are(const MethodChoice& method, const Derived& derived) {
+    return needs_canonical(method.method) ||
+           (!method.sundials.empty() && !follows_signs(method.sundials, derived.mechanism));
+}
+
+}  // namespace
+
+Program with_jacobian(Program program, Method method, bool with_power) {
+    if (program.singular || !uses_jacobian(method)) return program;
+    std::optional<Differentiated> found =
+        affordable_derivatives(program, with_power ? Work::integrated : Work::left_out);
+    return found ? std::move(found->program) : program;
+}
+
+CompiledModes::CompiledModes(const RunOptions& wishes, const Derived& derived, Work work,
+                             const MethodChoice& method)
+    : wishes_(wishes), derived_(derived), work_(work), method_(method) {}
+
+void CompiledModes::take_free(Program program) {
+    free_ = std::move(program);
+}
+
+int CompiledModes::operations() const {
+    int most = 0;
+    for (const auto& [closed, mode] : made_) most = std::max(most, mode->source.operations.total());
+    return most;
+}
+
+CompileOptions CompiledModes::options_of_compiler() const {
+    return {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}};
+}
+
+const CompiledMode& CompiledModes::operator()(const std::vector<int>& closed, const State<double>& first) {
+    const std::lock_guard lock(symbols);
+    std::unique_ptr<CompiledMode>& mode = made_[closed];
+    if (!mode) mode = made(closed, first);
+    return *mode;
+}
+
+const Module* CompiledModes::jacobian_of(const CompiledMode& asked) {
+    const std::lock_guard lock(symbols);
+    const auto own =
+        std::find_if(made_.begin(), made_.end(), [&](const auto& entry) { return entry.second.get() == &asked; });
+    CompiledMode& mode = *own->second;
+    if (!mode.was_asked_for_jacobian) {
+        mode.was_asked_for_jacobian = true;
+        double clock = process_seconds();
+        if (const auto derivatives = affordable_derivatives(mode.program, work_)) {
+            const Source source = emit(derivatives->program);
+            seconds_.emit += process_seconds() - clock;
+            clock = process_seconds();
+            mode.with_jacobian =
+                load(compile(source.text, mode.program.name + "_jacobian", options_of_compiler()).object);
+            mode.jacobian_operations = derivatives->operations.total();
+            seconds_.compile += process_seconds() - clock;
+        }
+    }
+    return mode.with_jacobian ? &*mode.with_jacobian : nullptr;
+}
+
+std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed, const State<double>& first) {
+    double clock = process_seconds();
+    const auto lap = [&clock] {
+        const double before = clock;
+        clock = process_seconds();
+        return clock - before;
+    };
+    const bool has_contacts = !derived_.mechanism.unilateral.empty();
+    const std::vector<int> planes = frictions_in_planes(derived_.mechanism, closed);
+    const bool is_own = !has_contacts && planes.empty();
+    Derived derived =
+        is_own ? derived_
+               : derived_again(derived_,
+                               with_directions_held(
+                                   with_contacts_watched(with_closed(derived_.mechanism, closed), closed), planes),
+                               closed.empty() ? derived_.by : "routh");
+    seconds_.derive += lap();
+    Program program = free_ && is_own ? *std::move(free_) : lowered(derived).program;
+    if (program.singular) need_accelerations(derived, program, first);
+    std::optional<Switched> jumps;
+    if (!takes_signs_as_they_are(method_, derived)) jumps = switched(program);
+    const Program& smooth = jumps ? jumps->program : program;
+    const std::optional<Differentiated> derivatives =
+        uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;
+    std::optional<Source> series;
+    if (needs_series(method_.method)) series = emit_taylor(smooth, work_ == Work::integrated);
+    std::optional<Source> form;
+    if (needs_canonical(method_.method)) form = emit(canonical_form(derived));
+    Source source = emit(derivatives ? derivatives->program : smooth);
+    seconds_.emit += lap();
+    const Compiled compiled = compile(source.text, program.name, options_of_compiler());
+    const Module module = load(compiled.object);
+    SeriesModule series_module;
+    if (series)
+        series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
+    std::optional<Module> canonical;
+    if (form) canonical = load(compile(form->text, program.name + "_canonical", options_of_compiler()).object);
+    seconds_.compile += lap();
+    std::vector<std::string> sides = jumps ? names_of_sides(program, *jumps) : std::vector<std::string>();
+    const double effort = effort_of(program);
+    return std::make_unique<CompiledMode>(CompiledMode{
+        .derived = std::move(derived),
+        .program = std::move(program),
+        .jumps = std::move(jumps),
+        .sides = std::move(sides),
+        .source = std::move(source),
+        .module = module,
+        .series = series_module,
+        .canonical = canonical,
+        .from_cache = compiled.from_cache,
+        .jacobian_operations = derivatives ? std::optional(derivatives->operations.total()) : std::nullopt,
+        .effort = effort});
+}
+
+}  // namespace alembert

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The contact modes of a scene, each derived, emitted, compiled and loaded when a motion first needs it. They
+/// hold no numbers of a motion, so that any number of motions share them (run/loaded_modes.hpp), on several
+/// threads.
+///
+///     CompiledModes compiled(wishes, derived, Work::left_out, method);
+///     const CompiledMode& lying = compiled({0}, first);
+///
+/// Expressions and exact numbers serve one thread at a time: whoever touches them while motions run on other
+/// threads holds the lock `symbols`. What is called here takes it.
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "alembert/compile.hpp"
+#include "alembert/module.hpp"
+#include "alembert/rhs.hpp"
+#include "alembert/series.hpp"
+#include "derive/derived.hpp"
+#include "emit/emit.hpp"
+#include "program/switches.hpp"
+#include "run/method.hpp"
+
+namespace alembert {
+
+struct CompiledMode {
+    Derived derived;  ///< with a mechanism in which the closed contacts are constraints
+    Program program;
+    std::optional<Switched> jumps;   ///< where signs are held constant
+    std::vector<std::string> sides;  ///< the names of these signs
+    Source source;
+    Module module;
+    SeriesModule series = {};              ///< for taylor
+    std::optional<Module> canonical = {};  ///< for rattle
+    bool from_cache = false;
+    std::optional<int> jacobian_operations = {};  ///< set if it is emitted
+    double effort = 0;                            ///< of a right-hand side (effort_of)
+    bool was_asked_for_jacobian = false;
+    std::optional<Module> with_jacobian = {};  ///< after the motion was found stiff; nothing where it is too long
+};
+
+/// The program with the Jacobian of its right-hand side, if `method` solves equations with it and it is not too
+/// long to be written out; otherwise the unchanged program. With `with_power`, the gradient of the power is added
+/// too.
+Program with_jacobian(Program program, Method method, bool with_power);
+
+class CompiledModes {
+public:
+    /// The arguments must outlive this object. For implicit methods the solvers are emitted with their Jacobian,
+    /// unless that would take long to compile; for methods that change to an implicit one when the motion is
+    /// stiff, the Jacobian is emitted at that time. For taylor the series is emitted.
+    CompiledModes(const RunOptions& wishes, const Derived& derived, Work work, const MethodChoice& method);
+
+    /// The mode with the contacts `closed`, in ascending order. Throws IntegrationError if the mass matrix is
+    /// singular at every state (`first` is where it is looked at), and what the stages throw. The reference stays
+    /// valid.
+    const CompiledMode& operator()(const std::vector<int>& closed, const State<double>& first);
+
+    /// The mode's solver with its Jacobian; null if that is too long to be written out.
+    const Module* jacobian_of(const CompiledMode& mode);
+
+    /// Uses a given program for the mode {}.
+    void take_free(Program program);
+
+    /// The operations of one right-hand side, the largest number of all modes used so far.
+    int operations() const;
+
+    struct Seconds {
+        double derive = 0, emit = 0, compile = 0;  ///< processor time
+    };
+    const Seconds& seconds() const { return seconds_; }
+
+    const MethodChoice& method() const { return method_; }
+    Work work() const { return work_; }
+
+    std::recursive_mutex symbols;
+
+private:
+    std::unique_ptr<CompiledMode> made(const std::vector<int>& closed, const State<double>& first);
+    CompileOptions options_of_compiler() const;
+
+    const RunOptions& wishes_;
+    const Derived& derived_;
+    Work work_;
+    const MethodChoice& method_;
+    std::optional<Program> free_;
+    std::map<std::vector<int>, std::unique_ptr<CompiledMode>> made_;
+    Seconds seconds_;
+};
+
+}  // namespace alembert

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/phased_members.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "alembert/along.hpp"
+#include "alembert/drift.hpp"
+#include "alembert/error.hpp"
+
+namespace alembert {
+
+namespace {
+
+Work work_of(const Mechanism& m) {
+    const bool conserved = energy_of(m.unilateral.empty() ? m : with_all_closed(m)).conserved;
+    return conserved ? Work::left_out : Work::integrated;
+}
+
+/// What is known along a motion.
+struct Account {
+    Drift drift;
+    Along along;
+};
+
+Outcome outcome_of(const PhasedMotion& motion, const Account& account, bool along) {
+    return {.time = motion.final_time(),
+            .steps = motion.statistics.steps,
+            .rejected = motion.statistics.rejected,
+            .evaluations = motion.statistics.evaluations,
+            .energy_drift = account.drift.energy(),
+            .work_balance = account.drift.balance(),
+            .stopped = motion.ending == Ending::stopped_by_event,
+            .failure = motion.failure ? motion.failure->message : std::string(),
+            .along = along ? account.along.values() : std::vector<double>()};
+}
+
+}  // namespace
+
+bool is_phased(const Mechanism& m, const Program& program) {
+    if (has_jumps(m) || !m.frictions.empty()) return true;
+    const std::optional<Switched> jumps = switched(program);
+    return jumps && std::any_of(jumps->functions.begin(), jumps->functions.end(),
+                                [&](int function) { return program[function].op == Op::sign; });
+}
+
+PhasedMembers::PhasedMembers(const Derived& derived, const RunOptions& wishes, const MethodChoice& method,
+                             const Options& options, bool along)
+    : derived_(derived),
+      options_(options),
+      along_(along),
+      work_(work_of(derived.mechanism)),
+      compiled_(wishes, derived, work_, method) {
+    if (!has_jumps(derived.mechanism)) return;
+    view_.emplace(derived.mechanism);
+    kicks_.emplace(derived.mechanism);
+}
+
+Module PhasedMembers::compile(const State<double>& first) {
+    free_ = &compiled_({}, first);
+    return free_->module;
+}
+
+std::optional<std::string> PhasedMembers::obstacle(const Start& start) const {
+    if (derived_.mechanism.unilateral.empty()) return {};
+    const std::vector<Diagnostic> negative =
+        negative_gaps(derived_.mechanism, *view_, start.state(), std::max(options_.tolerance, 1e-9));
+    return negative.empty() ? std::optional<std::string>() : negative[0].message;
+}
+
+/// Gaps and impulses are found by interpretation, with exact numbers, on one thread at a time.
+Contacts PhasedMembers::contacts_at(const Start& start) {
+    if (!view_) return {};
+    std::recursive_mutex& symbols = compiled_.symbols;
+    const std::lock_guard lock(symbols);
+    const auto guarded = [&symbols](auto function) {
+        return [&symbols, function = std::move(function)](const auto&... arguments) {
+            const std::lock_guard while_called(symbols);
+            return function(arguments...);
+        };
+    };
+    Contacts contacts = contacts_of(derived_, start, *view_, *kicks_);
+    contacts.situation = guarded(std::move(contacts.situation));
+    contacts.kicks.impulse = guarded(std::move(contacts.kicks.impulse));
+    contacts.kicks.passed = guarded(std::move(contacts.kicks.passed));
+    if (contacts.kicks.speeds) contacts.kicks.speeds = guarded(std::move(contacts.kicks.speeds));
+    return contacts;
+}
+
+Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state) {
+    const std::size_t n = static_cast<std::size_t>(derived_.mechanism.size()), width = state.size();
+    const auto middle = state.begin() + static_cast<std::ptrdiff_t>(n);
+    const Start start{.parameters = member.parameters,
+                      .t = member.start,
+                      .q = {state.begin(), middle},
+                      .qdot = std::vector<double>(n),
+                      .speeds = {}};
+    const State<double> first{.parameters = member.parameters,
+                              .t = member.start,
+                              .q = start.q,
+                              .qdot = {middle, state.end()},
+                              .qddot = {}};
+    const bool works = work_ == Work::integrated;
+    Account account{.drift = Drift(static_cast<int>(n), static_cast<int>(width - n), works),
+                    .along = Along(static_cast<int>(n), static_cast<int>(width))};
+    LoadedModes modes(compiled_, start, first,
+                      [&](LoadedMode& mode, double t, std::span<const double> y, std::span<const double> rate) {
+                          account.drift(mode.module.table(), mode.par, t, y, rate);
+                          if (along_) account.along(t, y.data(), rate.data());
+                      });
+    const LoadedMode& free = modes({});
+    Contacts contacts = contacts_at(start);
+    contacts.on_jump = [&](double t, const double* before, const double* after, double jump) {
+        const std::vector<double> a = as_integrated(contacts.kicks, t, {before, before + 2 * n}),
+                                  b = as_integrated(contacts.kicks, t, {after, after + 2 * n});
+        account.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
+    };
+    Options options = options_;
+    options.start = member.start;
+    options.duration = member.duration;
+    if (member.quick_times != nullptr) options.quick_times = *member.quick_times;
+    options.sample = member.duration;  // no rows but the end
+    std::vector<double> initial = state;
+    if (works) initial.push_back(0);
+    const PhasedMotion motion = follow(
+        contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; },
+        initial, options);
+    const std::span<const double> end = motion.final_state();
+    state.assign(end.begin(), end.begin() + static_cast<std::ptrdiff_t>(width));
+    return outcome_of(motion, account, along_);
+}
+
+Outcome PhasedMembers::operator()(const Member& member, std::vector<double>& state) {
+    const auto refused = [&](const char* why) {
+        const double nothing = std::numeric_limits<double>::quiet_NaN();
+        state.assign(state.size(), nothing);
+        return Outcome{.time = nothing,
+                       .energy_drift = nothing,
+                       .work_balance = nothing,
+                       .failure = why,
+                       .along = std::vector<double>(along_ ? 3 * state.size() : 0, nothing)};
+    };
+    try {
+        return followed(member, state);
+    } catch (const ModelError& error) {
+        return refused(error.what());
+    } catch (const IntegrationError& error) {
+        return refused(error.what());
+    }
+}
+
+}  // namespace alembert

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/sticking.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace alembert {
+
+namespace {
+
+constexpr std::string_view word = "sticking";
+
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+}  // namespace
+
+std::vector<std::string> sticking_forces(const FrictionRule& f) {
+    const std::string force = "friction_" + f.name.text;
+    return f.across ? std::vector{force + "_1", force + "_2"} : std::vector{force};
+}
+
+Scene with_sticking(Scene scene, const std::vector<std::string>& frictions) {
+    for (const FrictionRule& f : scene.frictions) {
+        if (!contains(frictions, f.name.text)) continue;
+        const std::vector<std::string> forces = sticking_forces(f);
+        const std::vector<Expression> slips = f.across ? std::vector{f.slip, f.across} : std::vector{f.slip};
+        for (std::size_t i = 0; i < slips.size(); ++i) {
+            std::vector<Diagnostic> none;
+            ConstraintRule held{.name = {forces[i], f.name.place},
+                                .holonomic = false,
+                                .equation = parse_equality("0 = 0", {}, none),
+                                .multiplier = Name{forces[i], f.name.place}};
+            held.equation.lhs = slips[i];
+            scene.constraints.push_back(std::move(held));
+        }
+    }
+    std::erase_if(scene.frictions, [&](const FrictionRule& f) { return contains(frictions, f.name.text); });
+    for (Coordinate& q : scene.coordinates) q.rate_is_guess = true;
+    return scene;
+}
+
+bool is_sticking(const Claim& claim) {
+    return claim.at.starts_with(word) && (claim.at.size() == word.size() || claim.at[word.size()] == ' ');
+}
+
+std::vector<std::string> named_sticking(const Claim& claim) {
+    std::istringstream words(claim.at.substr(word.size()));
+    std::vector<std::string> names;
+    for (std::string name; words >> name;) names.push_back(name);
+    return names;
+}
+
+std::vector<std::string> sticking_in(const Claim& claim, const Scene& scene) {
+    const std::vector<std::string> named = named_sticking(claim);
+    std::vector<std::string> result;
+    for (const FrictionRule& f : scene.frictions)
+        if (named.empty() || contains(named, f.name.text)) result.push_back(f.name.text);
+    return result;
+}
+
+}  // namespace alembert

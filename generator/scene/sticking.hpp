@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The scene while dry friction sticks. What sticks is held like a constraint: the sliding velocity is zero, and
+/// the force of the friction is the multiplier `friction_NAME` (in a plane `friction_NAME_1` and
+/// `friction_NAME_2`, along its two directions).
+///
+///     const Scene stuck = with_sticking(scene, {"slope"});
+///
+/// How large that force may become is not part of it.
+
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+/// Without the frictions of these names, which the scene has, and with constraints in their places. Rates at the
+/// start are guesses, as they need not stick there.
+Scene with_sticking(Scene scene, const std::vector<std::string>& frictions);
+
+/// The names of the multipliers that take the place of a friction.
+std::vector<std::string> sticking_forces(const FrictionRule& friction);
+
+/// Whether a claim speaks of the motion while friction sticks: its `at` is "sticking", of all frictions, or
+/// "sticking" with the names of some after it.
+bool is_sticking(const Claim& claim);
+
+/// The frictions that stick according to such a claim, in the order of the scene.
+std::vector<std::string> sticking_in(const Claim& claim, const Scene& scene);
+
+/// The names that a claim has after "sticking".
+std::vector<std::string> named_sticking(const Claim& claim);
+
+}  // namespace alembert

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/rough_cones.hpp"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "alembert/dense.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int most_sweeps = 100000;
+constexpr double settled = 1e-15;  // the change in a sweep, relative to the impulses, after which none follows
+constexpr double slack = 1e-9;     // of inequalities, relative to the sizes of their terms
+constexpr double same = 1e-7;      // rates that differ by less, relative to the largest, are the same
+constexpr int most_newton = 30;
+
+enum class ConeMode { open, sticks, slides };
+
+/// The velocities v = v₀ + W p of all contacts, where p are their impulses: for each its normal one, then those
+/// along the rows of its sliding velocity.
+class Cones {
+public:
+    Cones(const MatrixXd& M, const VectorXd& momentum, const MatrixXd& A, const VectorXd& b,
+          const std::vector<ConeRows>& contacts)
+        : contacts_(contacts), n_(M.rows()), m_(A.rows()) {
+        Index size = 0;
+        for (const ConeRows& c : contacts) {
+            first_.push_back(size);
+            size += 1 + c.slip.rows();
+        }
+        rows_.resize(size, n_);
+        offset_.resize(size);
+        for (std::size_t i = 0; i < contacts.size(); ++i) {
+            const ConeRows& c = contacts[i];
+            const Index at = first_[i], components = c.slip.rows();
+            rows_.row(at) = c.normal;
+            offset_[at] = c.offset;
+            if (components == 0) continue;
+            rows_.middleRows(at + 1, components) = c.slip;
+            offset_.segment(at + 1, components) = c.slip_offset;
+        }
+        MatrixXd K = MatrixXd::Zero(n_ + m_, n_ + m_), right = MatrixXd::Zero(n_ + m_, 1 + size);
+        K.topLeftCorner(n_, n_) = M;
+        K.topRightCorner(n_, m_) = -A.transpose();
+        K.bottomLeftCorner(m_, n_) = A;
+        right.block(0, 0, n_, 1) = momentum;
+        right.block(n_, 0, m_, 1) = -b;
+        right.block(0, 1, n_, size) = rows_.transpose();
+        response_ = least_norm(K, right).x;
+        W_ = rows_ * response_.block(0, 1, n_, size);
+        free_ = rows_ * response_.block(0, 0, n_, 1) + offset_;
+    }
+
+    Index size() const { return offset_.size(); }
+    Index at(std::size_t i) const { return first_[i]; }
+    Index components(std::size_t i) const { return contacts_[i].slip.rows(); }
+    std::size_t count() const { return contacts_.size(); }
+    const ConeRows& contact(std::size_t i) const { return contacts_[i]; }
+    const MatrixXd& W() const { return W_; }
+
+    VectorXd velocities(const VectorXd& p) const { return free_ + W_ * p; }
+    /// x⁺, then Λ.
+    VectorXd solution(const VectorXd& p) const { return response_.col(0) + response_.rightCols(size()) * p; }
+    VectorXd after(const VectorXd& p) const { return solution(p).head(n_); }
+
+    /// The sizes of the terms of the velocities, relative to which rounding is judged.
+    VectorXd sizes(const VectorXd& p) const {
+        return rows_.cwiseAbs() * after(p).cwiseAbs() + offset_.cwiseAbs() + (W_.cwiseAbs() * p.cwiseAbs());
+    }
+
+    /// Impulses that press all contacts more than any approach would.
+    VectorXd large() const {
+        VectorXd p = VectorXd::Zero(size());
+        for (std::size_t i = 0; i < count(); ++i)
+            if (W_(at(i), at(i)) > 0) p[at(i)] = 10 * free_.cwiseAbs().maxCoeff() / W_(at(i), at(i));
+        return p;
+    }
+
+private:
+    const std::vector<ConeRows>& contacts_;
+    Index n_, m_;
+    std::vector<Index> first_;
+    MatrixXd rows_, response_, W_;
+    VectorXd offset_, free_;
+};
+
+/// Projects the normal impulse of contact i; returns by how much that changes it.
+double press(const Cones& cones, std::size_t i, VectorXd& p) {
+    const Index at = cones.at(i);
+    const double stiffness = cones.W()(at, at);
+    if (!(stiffness > 0)) return 0;
+    const double pressed = std::max(0.0, p[at] - cones.velocities(p)[at] / stiffness);
+    return std::abs(std::exchange(p[at], pressed) - pressed);
+}
+
+/// The same with its tangential impulse, for this normal one.
+double rub(const Cones& cones, std::size_t i, double coefficient, VectorXd& p) {
+    const Index at = cones.at(i), components = cones.components(i);
+    const double stiffness = cones.W().block(at + 1, at + 1, components, components).trace();
+    VectorXd along = p.segment(at + 1, components);
+    if (stiffness > 0) along -= cones.velocities(p).segment(at + 1, components) / stiffness;
+    const double radius = coefficient * p[at];
+    if (along.norm() > radius) along *= radius > 0 ? radius / along.norm() : 0;
+    const double change = (along - p.segment(at + 1, components)).norm();
+    p.segment(at + 1, components) = along;
+    return change;
+}
+
+/// Projects until nothing changes; the radii of the cones are `coefficient` of each contact times π. Nothing if
+/// that does not settle.
+std::optional<VectorXd> projected(const Cones& cones, const std::vector<double>& coefficient, VectorXd p) {
+    for (std::size_t i = 0; i < cones.count(); ++i) rub(cones, i, coefficient[i], p);
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+        double change = 0;
+        for (std::size_t i = 0; i < cones.count(); ++i) {
+            change = std::max(change, press(cones, i, p));
+            change = std::max(change, rub(cones, i, coefficient[i], p));
+        }
+        if (!p.allFinite()) return std::nullopt;
+        if (change <= settled * p.cwiseAbs().maxCoeff()) return p;
+    }
+    return std::nullopt;
+}
+
+std::vector<ConeMode> modes_of(const Cones& cones, const std::vector<double>& coefficient, const VectorXd& p) {
+    const VectorXd v = cones.velocities(p), sizes = cones.sizes(p);
+    const double largest = p.cwiseAbs().maxCoeff();
+    std::vector<ConeMode> modes;
+    for (std::size_t i = 0; i < cones.count(); ++i) {
+        const Index at = cones.at(i), components = cones.components(i);
+        if (p[at] <= slack * largest) {
+            modes.push_back(ConeMode::open);
+            continue;
+        }
+        const double radius = coefficient[i] * p[at];
+        const bool moves = components > 0 && v.segment(at + 1, components).norm() >
+                                                 slack * sizes.segment(at + 1, components).maxCoeff();
+        const bool is_full = components > 0 && p.segment(at + 1, components).norm() >= (1 - slack) * radius;
+        modes.push_back(moves && is_full ? ConeMode::slides : ConeMode::sticks);
+    }
+    return modes;
+}
+
+/// Solves the equations of the modes by Newton's method from p.
+VectorXd polished(const Cones& cones, const std::vector<ConeMode>& modes, VectorXd p) {
+    const MatrixXd& W = cones.W();
+    for (std::size_t i = 0; i < cones.count(); ++i)
+        if (modes[i] == ConeMode::open) p.segment(cones.at(i), 1 + cones.components(i)).setZero();
+    for (int step = 0; step < most_newton; ++step) {
+        const VectorXd v = cones.velocities(p);
+        VectorXd misfit = p;
+        MatrixXd slope = MatrixXd::Identity(cones.size(), cones.size());
+        for (std::size_t i = 0; i < cones.count(); ++i) {
+            if (modes[i] == ConeMode::open) continue;
+            const Index at = cones.at(i), components = cones.components(i);
+            misfit[at] = v[at];
+            slope.row(at) = W.row(at);
+            if (components == 0) continue;
+            const auto moving = W.middleRows(at + 1, components);
+            const VectorXd slip = v.segment(at + 1, components);
+            if (modes[i] == ConeMode::sticks) {
+                misfit.segment(at + 1, components) = slip;
+                slope.middleRows(at + 1, components) = moving;
+                continue;
+            }
+            const double speed = slip.norm(), mu = cones.contact(i).coefficient;
+            const VectorXd along = slip / speed;
+            const MatrixXd turning =
+                (MatrixXd::Identity(components, components) - along * along.transpose()) / speed;
+            misfit.segment(at + 1, components) += mu * p[at] * along;
+            slope.middleRows(at + 1, components) += mu * p[at] * turning * moving;
+            slope.block(at + 1, at, components, 1) += mu * along;
+        }
+        VectorXd change = least_norm(slope, misfit).x.col(0);
+        for (std::size_t i = 0; i < cones.count(); ++i)
+            if (modes[i] == ConeMode::open) change.segment(cones.at(i), 1 + cones.components(i)).setZero();
+        p -= change;
+        if (!p.allFinite() || change.norm() <= settled * p.norm()) break;
+    }
+    return p;
+}
+
+bool is_consistent(const Cones& cones, const std::vector<ConeMode>& modes, const VectorXd& p) {
+    if (!p.allFinite()) return false;
+    const VectorXd v = cones.velocities(p), sizes = cones.sizes(p);
+    const double largest = p.cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < cones.count(); ++i) {
+        const Index at = cones.at(i), components = cones.components(i);
+        if (v[at] < -slack * sizes[at] || p[at] < -slack * largest) return false;
+        if (modes[i] != ConeMode::open && v[at] > slack * sizes[at]) return false;
+        if (modes[i] == ConeMode::open || components == 0) continue;
+        const auto slip = v.segment(at + 1, components), along = p.segment(at + 1, components);
+        const double size = sizes.segment(at + 1, components).maxCoeff();
+        if (modes[i] == ConeMode::sticks) {
+            if (slip.norm() > slack * size || along.norm() > cones.contact(i).resting * p[at] + slack * largest)
+                return false;
+        } else if ((along + cones.contact(i).coefficient * p[at] * slip / slip.norm()).norm() > slack * largest) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// What slides under the static coefficient has the kinetic one; what then sticks stays so.
+std::optional<VectorXd> solved(const Cones& cones, const VectorXd& first) {
+    std::vector<double> coefficient;
+    for (std::size_t i = 0; i < cones.count(); ++i) coefficient.push_back(cones.contact(i).resting);
+    for (std::size_t round = 0; round <= cones.count(); ++round) {
+        const std::optional<VectorXd> p = projected(cones, coefficient, first);
+        if (!p) return std::nullopt;
+        const std::vector<ConeMode> modes = modes_of(cones, coefficient, *p);
+        bool changed = false;
+        for (std::size_t i = 0; i < cones.count(); ++i)
+            if (modes[i] == ConeMode::slides && coefficient[i] != cones.contact(i).coefficient) {
+                coefficient[i] = cones.contact(i).coefficient;
+                changed = true;
+            }
+        if (changed) continue;
+        const VectorXd exact = polished(cones, modes, *p);
+        if (!is_consistent(cones, modes, exact)) return std::nullopt;
+        return exact;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+ConeChoice choose_in_cones(const MatrixXd& M, const VectorXd& momentum, const MatrixXd& A, const VectorXd& b,
+                           const std::vector<ConeRows>& contacts) {
+    const Cones cones(M, momentum, A, b, contacts);
+    const std::optional<VectorXd> p = solved(cones, VectorXd::Zero(cones.size()));
+    const auto failed = [](const char* why) {
+        return ConeChoice{.failure = why, .after = {}, .normal = {}, .tangential = {}, .bilateral = {}};
+    };
+    if (!p) return failed("no choice of sticking and sliding is consistent in their impact together");
+    const std::optional<VectorXd> other = solved(cones, cones.large());
+    const VectorXd after = cones.after(*p);
+    if (other && (cones.after(*other) - after).norm() > same * std::max(after.norm(), (*p).norm()))
+        return failed(
+            "several choices of sticking and sliding are consistent in their impact together, and the motion "
+            "after "
+            "it depends on the order in which they strike");
+    ConeChoice result{.failure = {},
+                      .after = after,
+                      .normal = VectorXd(static_cast<Index>(contacts.size())),
+                      .tangential = {},
+                      .bilateral = cones.solution(*p).tail(A.rows())};
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        result.normal[static_cast<Index>(i)] = std::max(0.0, (*p)[cones.at(i)]);
+        result.tangential.push_back(p->segment(cones.at(i) + 1, cones.components(i)));
+    }
+    return result;
+}
+
+}  // namespace alembert
