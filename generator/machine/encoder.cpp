@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "machine/encoder.hpp"
+
+#include <bit>
+#include <cstring>
+
+namespace alembert::machine {
+
+/// The mandatory prefix (1: 66, 3: F2), the table of opcodes (1: 0F, 2: 0F38), the opcode, and the bit W.
+struct Encoder::Opcode {
+    unsigned prefix, table, code;
+    bool wide = false;
+};
+
+namespace {
+
+constexpr unsigned no_register = 0;  ///< in the field of a register that an instruction does not have
+
+}  // namespace
+
+bool can_run() {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+    return false;
+#endif
+}
+
+int Encoder::registers() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512dq"))
+        return 32;
+#endif
+    return 16;
+}
+
+void Encoder::four(std::uint32_t value) {
+    for (int k = 0; k < 4; ++k) byte(value >> (8 * k) & 0xff);
+}
+
+/// The bytes that say which register and which place in memory. An offset of one byte counts eights if it is
+/// compressed.
+void Encoder::place(unsigned reg, const Memory& memory, bool is_compressed) {
+    const unsigned middle = (reg & 7) << 3;
+    if (memory.base == Base::constants) {
+        byte(middle | 5);
+        relative_.push_back(bytes_.size());
+        four(static_cast<std::uint32_t>(memory.offset));
+        return;
+    }
+    const unsigned base = static_cast<unsigned>(memory.base) & 7;
+    const int unit = is_compressed ? 8 : 1, units = memory.offset / unit;
+    const bool is_short = memory.offset % unit == 0 && units >= -128 && units <= 127;
+    byte((is_short ? 0x40U : 0x80U) | middle | base);
+    if (base == 4) byte(0x24);  // rsp needs a byte that says: no index
+    if (is_short)
+        byte(static_cast<unsigned>(units) & 0xff);
+    else
+        four(static_cast<std::uint32_t>(memory.offset));
+}
+
+void Encoder::encode(const Opcode& code, int to, int first, const Operand& second) {
+    const auto t = static_cast<unsigned>(to), f = static_cast<unsigned>(first);
+    const unsigned s =
+        second.memory ? (second.memory->base == Base::constants ? 0U : static_cast<unsigned>(second.memory->base))
+                      : static_cast<unsigned>(second.reg);
+    const unsigned not_r = ~t >> 3 & 1, not_b = ~s >> 3 & 1;
+    const bool is_extended = t > 15 || f > 15 || (!second.memory && s > 15);
+    if (is_extended) {
+        const unsigned not_x = second.memory ? 1 : ~s >> 4 & 1;
+        byte(0x62);
+        byte(not_r << 7 | not_x << 6 | not_b << 5 | (~t >> 4 & 1) << 4 | code.table);
+        byte(1U << 7 | (~f & 15) << 3 | 1U << 2 | code.prefix);
+        byte((~f >> 4 & 1) << 3);
+    } else if (code.table == 1 && !code.wide && not_b == 1) {
+        byte(0xc5);
+        byte(not_r << 7 | (~f & 15) << 3 | code.prefix);
+    } else {
+        byte(0xc4);
+        byte(not_r << 7 | 1U << 6 | not_b << 5 | code.table);
+        byte((code.wide ? 1U : 0U) << 7 | (~f & 15) << 3 | code.prefix);
+    }
+    byte(code.code);
+    if (second.memory)
+        place(t, *second.memory, is_extended);
+    else
+        byte(0xc0 | (t & 7) << 3 | (s & 7));
+}
+
+void Encoder::compute(Instruction instruction, int to, int first, const Operand& second) {
+    static constexpr std::array<Opcode, 19> opcodes{{
+        {3, 1, 0x58},       {3, 1, 0x59},       {3, 1, 0x5c},       {3, 1, 0x5e},       {3, 1, 0x51},
+        {1, 1, 0x54},       {1, 1, 0x57},       {1, 2, 0x99, true}, {1, 2, 0xa9, true}, {1, 2, 0xb9, true},
+        {1, 2, 0x9b, true}, {1, 2, 0xab, true}, {1, 2, 0xbb, true}, {1, 2, 0x9d, true}, {1, 2, 0xad, true},
+        {1, 2, 0xbd, true}, {1, 2, 0x9f, true}, {1, 2, 0xaf, true}, {1, 2, 0xbf, true},
+    }};
+    encode(opcodes[static_cast<std::size_t>(instruction)], to, first, second);
+}
+
+void Encoder::load(int to, const Memory& from) {
+    encode({3, 1, 0x10}, to, no_register, {.memory = from});
+}
+
+void Encoder::store(const Memory& to, int from) {
+    encode({3, 1, 0x11}, from, no_register, {.memory = to});
+}
+
+void Encoder::copy(int to, int from) {
+    encode({1, 1, 0x28}, to, no_register, {.reg = from});
+}
+
+/// An instruction on a whole register of 64 bits.
+void Encoder::whole(unsigned opcode, Base reg, const Memory& memory) {
+    const unsigned r = static_cast<unsigned>(reg),
+                   b = memory.base == Base::constants ? 0U : static_cast<unsigned>(memory.base);
+    byte(0x48 | (r >> 3 & 1) << 2 | (b >> 3 & 1));
+    byte(opcode);
+    place(r, memory, false);
+}
+
+void Encoder::load_pointer(Base to, const Memory& from) {
+    whole(0x8b, to, from);
+}
+
+void Encoder::store_pointer(const Memory& to, Base from) {
+    whole(0x89, from, to);
+}
+
+void Encoder::address(Base to, const Memory& of) {
+    whole(0x8d, to, of);
+}
+
+std::size_t Encoder::lower_stack() {
+    for (const unsigned b : {0x48U, 0x81U, 0xecU}) byte(b);
+    four(0);
+    return bytes_.size() - 4;
+}
+
+void Encoder::raise_stack_and_return(std::size_t lowered, std::int32_t bytes) {
+    std::memcpy(&bytes_[lowered], &bytes, sizeof bytes);
+    for (const unsigned b : {0x48U, 0x81U, 0xc4U}) byte(b);
+    four(static_cast<std::uint32_t>(bytes));
+    byte(0xc3);
+}
+
+void Encoder::number(Base to, std::int32_t value) {
+    byte(0xb8 | static_cast<unsigned>(to));
+    four(static_cast<std::uint32_t>(value));
+}
+
+void Encoder::call(const void* function) {
+    byte(0x48);
+    byte(0xb8);  // the address to rax
+    const auto at = reinterpret_cast<std::uintptr_t>(function);
+    four(static_cast<std::uint32_t>(at));
+    four(static_cast<std::uint32_t>(at >> 32));
+    byte(0xff);
+    byte(0xd0);
+}
+
+Memory Encoder::constant(double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    const auto [known, is_new] = places_.try_emplace(bits, static_cast<std::int32_t>(8 * constants_.size()));
+    if (is_new) constants_.push_back(bits);
+    return {Base::constants, known->second};
+}
+
+void Encoder::align() {
+    while (bytes_.size() % 16 != 0) byte(0xcc);  // never reached
+}
+
+std::vector<std::uint8_t> Encoder::finished() {
+    align();
+    const std::size_t end = bytes_.size();
+    for (const std::size_t at : relative_) {
+        std::int32_t offset = 0;
+        std::memcpy(&offset, &bytes_[at], sizeof offset);
+        offset += static_cast<std::int32_t>(end - (at + sizeof offset));
+        std::memcpy(&bytes_[at], &offset, sizeof offset);
+    }
+    relative_.clear();
+    bytes_.resize(end + 8 * constants_.size());
+    std::memcpy(&bytes_[end], constants_.data(), 8 * constants_.size());
+    return bytes_;
+}
+
+}  // namespace alembert::machine

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Writes the lines of a function as machine code.
+///
+///     Encoder code;
+///     const std::size_t begin = code.size();
+///     if (write_function(code, lines)) …      // the function begins at `begin`
+///
+/// The function is called as System V's ABI for x86-64 says: t in xmm0, the arrays in rdi, rsi, rdx, rcx, r8, r9.
+
+#include "machine/encoder.hpp"
+#include "machine/lines.hpp"
+
+namespace alembert::machine {
+
+/// False, with an unusable rest of code, if the function would need too much room on the stack.
+bool write_function(Encoder& code, const Lines& lines);
+
+}  // namespace alembert::machine
