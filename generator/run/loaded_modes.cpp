@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "alembert/canonical.hpp"
-#include "alembert/compile.hpp"
+#include "alembert/pace.hpp"
 #include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
 #include "emit/taylor.hpp"
@@ -113,7 +113,7 @@ void LoadedModes::take_free(Program program) {
 
 int LoadedModes::operations() const {
     int most = 0;
-    for (const auto& [closed, mode] : loaded_) most = std::max(most, mode->source.operations.total());
+    for (const auto& [closed, mode] : loaded_) most = std::max(most, mode->operations.total());
     return most;
 }
 
@@ -132,11 +132,10 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
         mode.when_stiff = mode.contact.rhs;
         double clock = process_seconds();
         if (const auto derivatives = affordable_derivatives(mode.program, work_)) {
-            const Source source = emit(derivatives->program);
             seconds_.emit += process_seconds() - clock;
             clock = process_seconds();
-            const Compiled compiled = compile(source.text, mode.program.name + "_jacobian", options_of_compiler());
-            mode.when_stiff = make_rhs(load(compiled.object), start_.parameters, work_);
+            const SolverCode code = solver_code(derivatives->program, mode.program.name + "_jacobian", wishes_);
+            mode.when_stiff = make_rhs(code.module, start_.parameters, work_);
             mode.when_stiff->extra = mode.contact.rhs.extra;
             mode.when_stiff->effort = mode.contact.rhs.effort;
             if (!mode.derived.mechanism.constraints.empty())
@@ -148,8 +147,23 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
     return *mode.when_stiff;
 }
 
-CompileOptions LoadedModes::options_of_compiler() const {
-    return {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}};
+/// Goes over to compiled code where that is predicted to pay. Without a compiler, the run stays in memory.
+void LoadedModes::count_step(LoadedMode& mode) {
+    if (!mode.code.go_over) return;
+    constexpr double evaluations = 16;  // of a usual step, between those of the explicit methods
+    mode.effort += evaluations * effort_of_evaluation(mode.contact.rhs, uses_jacobian(method_.method));
+    if (!pays_to_compile(mode.run(), mode.effort)) return;
+    const auto go_over = std::exchange(mode.code.go_over, {});
+    if (!may_go_over(wishes_)) return;
+    const double begin = process_seconds();
+    try {
+        const SolverCode compiled = compiled_code(mode.run(), mode.program.name, wishes_);
+        go_over(compiled.module);
+        mode.code.from_cache = compiled.from_cache;
+        mode.kind = CodeKind::both;
+    } catch (const CompileError&) {
+    }
+    seconds_.compile += process_seconds() - begin;
 }
 
 void LoadedMode::hold(const std::vector<double>& sigma) {
@@ -237,24 +251,23 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
     std::optional<Switched> jumps;
     if (method_.sundials.empty() && !needs_canonical(method_.method)) jumps = switched(program);
     const Program& smooth = jumps ? jumps->program : program;
-    const std::optional<Differentiated> derivatives =
+    std::optional<Differentiated> derivatives =
         uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;
     std::optional<Source> series;
     if (needs_series(method_.method)) series = emit_taylor(smooth, work_ == Work::integrated);
-    std::optional<Source> form;
-    if (needs_canonical(method_.method)) form = emit(canonical_form(derived));
-    Source source = emit(derivatives ? derivatives->program : smooth);
+    std::optional<Program> form;
+    if (needs_canonical(method_.method)) form = canonical_form(derived);
     seconds_.emit += lap();
-    const Compiled compiled = compile(source.text, program.name, options_of_compiler());
-    const Module module = load(compiled.object);
+    SolverCode code = solver_code(derivatives ? derivatives->program : smooth, program.name, wishes_);
+    const Module module = code.module;
     SeriesModule series_module;
     if (series)
-        series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
+        series_module =
+            load_series(compile(series->text, program.name + "_taylor", compile_options(wishes_)).object);
     std::shared_ptr<const Canonical> canonical;
     if (form)
-        canonical = make_canonical(
-            module, load(compile(form->text, program.name + "_canonical", options_of_compiler()).object),
-            start_.parameters);
+        canonical = make_canonical(module, solver_code(*form, program.name + "_canonical", wishes_).module,
+                                   start_.parameters);
     seconds_.compile += lap();
 
     const std::size_t sides = jumps ? jumps->functions.size() : 0;
@@ -271,16 +284,24 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
     stops.resize(events + watched);
     directions.resize(events + watched);
     const bool constrained = !derived.mechanism.constraints.empty();
+    std::optional<Program> running;
+    if (derivatives)
+        running = std::move(derivatives->program);
+    else if (jumps)
+        running = smooth;
+    const CodeKind kind = code.go_over ? CodeKind::memory : CodeKind::compiled;
     auto mode = std::make_unique<LoadedMode>(
         LoadedMode{.derived = std::move(derived),
                    .program = std::move(program),
-                   .source = std::move(source),
+                   .running = std::move(running),
+                   .code = std::move(code),
+                   .kind = kind,
                    .module = module,
                    .par = prepared(module, values),
                    .projection = Projection(module, values),
                    .contact = {.rhs = make_rhs(module, values, work_),
-                               .events = make_events(module, values, stops, directions)},
-                   .from_cache = compiled.from_cache});
+                               .events = make_events(module, values, stops, directions)}});
+    mode->operations = mode->run().count(mode->run().right_hand_side());
     if (method_.when_stiff) mode->contact.rhs.effort = effort_of(mode->program);
     if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
@@ -297,6 +318,7 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
         if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
     }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
+        count_step(*self);
         on_step_(*self, t, state, rate);
     };
     return mode;

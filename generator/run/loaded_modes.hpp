@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 
-#include "alembert/compile.hpp"
 #include "alembert/module.hpp"
 #include "alembert/phases.hpp"
 #include "alembert/project.hpp"
@@ -22,22 +21,27 @@
 #include "emit/emit.hpp"
 #include "program/switches.hpp"
 #include "run/method.hpp"
+#include "run/solver_code.hpp"
 
 namespace alembert {
 
 struct LoadedMode {
     Derived derived;  ///< with a mechanism in which the closed contacts are constraints
     Program program;
-    Source source;
+    std::optional<Program> running = {};  ///< set if it is not `program` whose functions run
+    const Program& run() const { return running ? *running : program; }
+    Operations operations = {};  ///< of one right-hand side
+    SolverCode code;
+    CodeKind kind = CodeKind::memory;
     Module module;
     std::vector<double> par;  ///< the parameters after `prepare`
     Projection projection;
     ContactMode contact;
-    bool from_cache = false;
     std::optional<int> jacobian_operations = {};  ///< set if it is emitted
     std::optional<Rhs> when_stiff = {};           ///< set after the motion was found stiff
     /// The largest size during the motion of each function whose sign is held constant.
     std::vector<double> side_sizes = {};
+    double effort = 0;  ///< predicted time of all steps so far, ns
     /// Sets the signs in `par` to those at a state of the motion, or to given ones. To be called before anything
     /// is evaluated with `par`.
     void hold_sides(double t, const double* state);
@@ -97,7 +101,7 @@ private:
     std::unique_ptr<LoadedMode> made(const std::vector<int>& closed);
     void hold_signs(LoadedMode& mode, const Switched& jumps, std::size_t events, const SeriesModule& series);
     Rhs with_jacobian(LoadedMode& mode);
-    CompileOptions options_of_compiler() const;
+    void count_step(LoadedMode& mode);
 
     const RunOptions& wishes_;
     const Derived& derived_;

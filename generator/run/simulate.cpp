@@ -184,9 +184,7 @@ private:
         ContactMode& mode = modes({}).contact;
         if (mode.switching) return false;
         try {
-            charts_.emplace(
-                run_, *angles_, start_.parameters, work(),
-                CompileOptions{.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}});
+            charts_.emplace(run_, *angles_, start_.parameters, work(), wishes_);
         } catch (const CompileError&) {
             throw;
         } catch (const std::runtime_error& reason) {
@@ -255,10 +253,11 @@ private:
     void describe(LoadedModes& modes, const LoadedMode& free) {
         const Mechanism& m = run_.mechanism;
         run_.why_method = choice_.why;
-        run_.solver = {.formulation = free.source.formulation,
+        run_.solver = {.formulation = free.run().formulation,
                        .operations = modes.operations(),
                        .jacobian_operations = free.jacobian_operations,
-                       .from_cache = free.from_cache};
+                       .code = free.kind,
+                       .from_cache = free.code.from_cache};
         for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
         const auto end = run_.motion.final_state();
         run_.final_coordinates.assign(end.begin(), end.begin() + m.size());
