@@ -18,8 +18,9 @@ constexpr unsigned no_register = 0;  ///< in the field of a register that an ins
 
 }  // namespace
 
-bool can_run() {
+bool can_run([[maybe_unused]] int lanes) {
 #if defined(__x86_64__)
+    if (lanes > 1) return Encoder::registers() == 32;
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #else
     return false;
@@ -39,9 +40,9 @@ void Encoder::four(std::uint32_t value) {
     for (int k = 0; k < 4; ++k) byte(value >> (8 * k) & 0xff);
 }
 
-/// The bytes that say which register and which place in memory. An offset of one byte counts eights if it is
-/// compressed.
-void Encoder::place(unsigned reg, const Memory& memory, bool is_compressed) {
+/// The bytes that say which register and which place in memory. An offset of one byte counts units of so many
+/// bytes.
+void Encoder::place(unsigned reg, const Memory& memory, int unit) {
     const unsigned middle = (reg & 7) << 3;
     if (memory.base == Base::constants) {
         byte(middle | 5);
@@ -50,7 +51,7 @@ void Encoder::place(unsigned reg, const Memory& memory, bool is_compressed) {
         return;
     }
     const unsigned base = static_cast<unsigned>(memory.base) & 7;
-    const int unit = is_compressed ? 8 : 1, units = memory.offset / unit;
+    const int units = memory.offset / unit;
     const bool is_short = memory.offset % unit == 0 && units >= -128 && units <= 127;
     byte((is_short ? 0x40U : 0x80U) | middle | base);
     if (base == 4) byte(0x24);  // rsp needs a byte that says: no index
@@ -60,30 +61,54 @@ void Encoder::place(unsigned reg, const Memory& memory, bool is_compressed) {
         four(static_cast<std::uint32_t>(memory.offset));
 }
 
+namespace {
+
+/// The number of a register, or of the base of a place in memory.
+unsigned number_of(const Operand& operand) {
+    if (!operand.memory) return static_cast<unsigned>(operand.reg);
+    return operand.memory->base == Base::constants ? 0U : static_cast<unsigned>(operand.memory->base);
+}
+
+}  // namespace
+
+/// An instruction with the prefix EVEX. `more`: the bits of its last byte besides that of the register `first`.
+void Encoder::extended(const Opcode& code, int to, int first, const Operand& second, unsigned more) {
+    const auto t = static_cast<unsigned>(to), f = static_cast<unsigned>(first);
+    const unsigned s = number_of(second), not_x = second.memory ? 1 : ~s >> 4 & 1;
+    byte(0x62);
+    byte((~t >> 3 & 1) << 7 | not_x << 6 | (~s >> 3 & 1) << 5 | (~t >> 4 & 1) << 4 | code.table);
+    byte(1U << 7 | (~f & 15) << 3 | 1U << 2 | code.prefix);
+    byte((~f >> 4 & 1) << 3 | more);
+    byte(code.code);
+}
+
+void Encoder::encode_packed(const Opcode& code, int to, int first, const Operand& second, bool broadcasts) {
+    constexpr unsigned whole_register = 0x40, one_for_all = 0x10;
+    extended(code, to, first, second, whole_register | (broadcasts ? one_for_all : 0));
+    if (second.memory)
+        place(static_cast<unsigned>(to), *second.memory, 64);
+    else
+        byte(0xc0 | (static_cast<unsigned>(to) & 7) << 3 | (number_of(second) & 7));
+}
+
 void Encoder::encode(const Opcode& code, int to, int first, const Operand& second) {
     const auto t = static_cast<unsigned>(to), f = static_cast<unsigned>(first);
-    const unsigned s =
-        second.memory ? (second.memory->base == Base::constants ? 0U : static_cast<unsigned>(second.memory->base))
-                      : static_cast<unsigned>(second.reg);
-    const unsigned not_r = ~t >> 3 & 1, not_b = ~s >> 3 & 1;
+    const unsigned s = number_of(second), not_r = ~t >> 3 & 1, not_b = ~s >> 3 & 1;
     const bool is_extended = t > 15 || f > 15 || (!second.memory && s > 15);
     if (is_extended) {
-        const unsigned not_x = second.memory ? 1 : ~s >> 4 & 1;
-        byte(0x62);
-        byte(not_r << 7 | not_x << 6 | not_b << 5 | (~t >> 4 & 1) << 4 | code.table);
-        byte(1U << 7 | (~f & 15) << 3 | 1U << 2 | code.prefix);
-        byte((~f >> 4 & 1) << 3);
+        extended(code, to, first, second, 0);
     } else if (code.table == 1 && !code.wide && not_b == 1) {
         byte(0xc5);
         byte(not_r << 7 | (~f & 15) << 3 | code.prefix);
+        byte(code.code);
     } else {
         byte(0xc4);
         byte(not_r << 7 | 1U << 6 | not_b << 5 | code.table);
         byte((code.wide ? 1U : 0U) << 7 | (~f & 15) << 3 | code.prefix);
+        byte(code.code);
     }
-    byte(code.code);
     if (second.memory)
-        place(t, *second.memory, is_extended);
+        place(t, *second.memory, is_extended ? 8 : 1);
     else
         byte(0xc0 | (t & 7) << 3 | (s & 7));
 }
@@ -95,19 +120,35 @@ void Encoder::compute(Instruction instruction, int to, int first, const Operand&
         {1, 2, 0x9b, true}, {1, 2, 0xab, true}, {1, 2, 0xbb, true}, {1, 2, 0x9d, true}, {1, 2, 0xad, true},
         {1, 2, 0xbd, true}, {1, 2, 0x9f, true}, {1, 2, 0xaf, true}, {1, 2, 0xbf, true},
     }};
-    encode(opcodes[static_cast<std::size_t>(instruction)], to, first, second);
+    const Opcode& code = opcodes[static_cast<std::size_t>(instruction)];
+    if (!is_packed_) return encode(code, to, first, second);
+    // The opcodes of fused instructions on whole registers are even; a root has one operand.
+    const bool is_root = instruction == Instruction::root;
+    encode_packed({1, code.table, code.table == 2 ? code.code & ~1U : code.code, true}, to,
+                  is_root ? no_register : first, second, second.memory && second.memory->base == Base::constants);
 }
 
 void Encoder::load(int to, const Memory& from) {
-    encode({3, 1, 0x10}, to, no_register, {.memory = from});
+    if (!is_packed_)
+        encode({3, 1, 0x10}, to, no_register, {.memory = from});
+    else if (from.base == Base::constants)
+        encode_packed({1, 2, 0x19, true}, to, no_register, {.memory = from}, false);
+    else
+        encode_packed({1, 1, 0x10, true}, to, no_register, {.memory = from}, false);
 }
 
 void Encoder::store(const Memory& to, int from) {
-    encode({3, 1, 0x11}, from, no_register, {.memory = to});
+    if (is_packed_)
+        encode_packed({1, 1, 0x11, true}, from, no_register, {.memory = to}, false);
+    else
+        encode({3, 1, 0x11}, from, no_register, {.memory = to});
 }
 
 void Encoder::copy(int to, int from) {
-    encode({1, 1, 0x28}, to, no_register, {.reg = from});
+    if (is_packed_)
+        encode_packed({1, 1, 0x28, true}, to, no_register, {.reg = from}, false);
+    else
+        encode({1, 1, 0x28}, to, no_register, {.reg = from});
 }
 
 /// An instruction on a whole register of 64 bits.
@@ -116,7 +157,7 @@ void Encoder::whole(unsigned opcode, Base reg, const Memory& memory) {
                    b = memory.base == Base::constants ? 0U : static_cast<unsigned>(memory.base);
     byte(0x48 | (r >> 3 & 1) << 2 | (b >> 3 & 1));
     byte(opcode);
-    place(r, memory, false);
+    place(r, memory, 1);
 }
 
 void Encoder::load_pointer(Base to, const Memory& from) {
@@ -144,17 +185,39 @@ void Encoder::raise_stack_and_return(std::size_t lowered, std::int32_t bytes) {
     byte(0xc3);
 }
 
+// push rbp; mov rbp, rsp; sub rsp, …; and rsp, −64
+std::size_t Encoder::lower_aligned_stack() {
+    for (const unsigned b : {0x55U, 0x48U, 0x89U, 0xe5U}) byte(b);
+    const std::size_t lowered = lower_stack();
+    for (const unsigned b : {0x48U, 0x83U, 0xe4U, 0xc0U}) byte(b);
+    return lowered;
+}
+
+void Encoder::leave_and_return(std::size_t lowered, std::int32_t bytes) {
+    std::memcpy(&bytes_[lowered], &bytes, sizeof bytes);
+    byte(0xc9);
+    byte(0xc3);
+}
+
+void Encoder::forget_upper_parts() {
+    for (const unsigned b : {0xc5U, 0xf8U, 0x77U}) byte(b);
+}
+
 void Encoder::number(Base to, std::int32_t value) {
     byte(0xb8 | static_cast<unsigned>(to));
     four(static_cast<std::uint32_t>(value));
 }
 
-void Encoder::call(const void* function) {
+void Encoder::pointer(Base to, const void* value) {
     byte(0x48);
-    byte(0xb8);  // the address to rax
-    const auto at = reinterpret_cast<std::uintptr_t>(function);
+    byte(0xb8 | static_cast<unsigned>(to));
+    const auto at = reinterpret_cast<std::uintptr_t>(value);
     four(static_cast<std::uint32_t>(at));
     four(static_cast<std::uint32_t>(at >> 32));
+}
+
+void Encoder::call(const void* function) {
+    pointer(Base::rax, function);
     byte(0xff);
     byte(0xd0);
 }

@@ -11,6 +11,9 @@
 /// Registers are 0 … 15, with AVX-512 also 16 … 31 (`Encoder::registers()`). Constants lie behind the code, and
 /// are addressed relative to it. The encoding is that of Intel's Software Developer's Manual, volume 2, 2.3 (VEX)
 /// and 2.7 (EVEX).
+///
+/// With eight lanes, a register and a place in memory hold eight doubles side by side (AVX-512), and a constant is
+/// one double that stands for eight.
 
 #include <array>
 #include <cstdint>
@@ -57,11 +60,13 @@ enum class Instruction : unsigned char {
     fused_minus_231
 };
 
-/// Whether this processor and its system have the instructions: AVX2 and FMA.
-bool can_run();
+/// Whether this processor and its system have the instructions: AVX2 and FMA; for eight lanes AVX-512.
+bool can_run(int lanes = 1);
 
 class Encoder {
 public:
+    /// `lanes`: 1 or 8.
+    explicit Encoder(int lanes = 1) : is_packed_(lanes > 1) {}
     /// The number of registers of this processor: 16 or 32.
     static int registers();
 
@@ -73,11 +78,17 @@ public:
     /// Makes room on the stack; how much is said at the end.
     std::size_t lower_stack();
     void raise_stack_and_return(std::size_t lowered, std::int32_t bytes);
+    /// The same where the stack is then at a multiple of 64 bytes.
+    std::size_t lower_aligned_stack();
+    void leave_and_return(std::size_t lowered, std::int32_t bytes);
     void load_pointer(Base to, const Memory& from);
     void store_pointer(const Memory& to, Base from);
     void address(Base to, const Memory& of);
     void number(Base to, std::int32_t value);
+    void pointer(Base to, const void* value);
     void call(const void* function);
+    /// Before code of others: it would wait for the upper parts of registers.
+    void forget_upper_parts();
 
     /// A constant behind the code; equal ones share a place.
     Memory constant(double value);
@@ -95,9 +106,12 @@ private:
     void byte(unsigned value) { bytes_.push_back(static_cast<std::uint8_t>(value)); }
     void four(std::uint32_t value);
     void encode(const Opcode& code, int to, int first, const Operand& second);
+    void encode_packed(const Opcode& code, int to, int first, const Operand& second, bool broadcasts);
+    void extended(const Opcode& code, int to, int first, const Operand& second, unsigned more);
     void whole(unsigned opcode, Base reg, const Memory& memory);
-    void place(unsigned reg, const Memory& memory, bool is_compressed);
+    void place(unsigned reg, const Memory& memory, int unit);
 
+    bool is_packed_;
     std::vector<std::uint8_t> bytes_;
     std::vector<std::uint64_t> constants_{0x7fffffffffffffff, 0, 0x8000000000000000, 0};
     std::map<std::uint64_t, std::int32_t> places_;

@@ -69,12 +69,13 @@ struct Signed {
 class Lining {
 public:
     Lining(const Program& program, const Vocabulary& words, const Readiness& ready,
-           const std::vector<FunctionArgument>& arguments, bool constants_are_given)
+           const std::vector<FunctionArgument>& arguments, bool constants_are_given, int lanes)
         : p_(program),
           ready_(ready),
           value_(static_cast<std::size_t>(program.size())),
           is_leaf_(value_.size(), 0),
           uses_(value_.size(), 0) {
+        lines_.lanes = lanes;
         for (const FunctionArgument& a : arguments)
             if (a.name == "t")
                 lines_.takes_time = true;
@@ -202,13 +203,14 @@ private:
 
     void add_sines(const std::vector<int>& sines) {
         std::map<int, int> position;  // argument → its position in the group
-        SineGroup group{.angles = {}, .place = lines_.block};
+        SineGroup group{.angles = {}, .place = lines_.block, .size = 0};
         for (const int id : sines) {
             const int argument = p_[id].args[0];
             if (!position.try_emplace(argument, static_cast<int>(group.angles.size())).second) continue;
             group.angles.push_back(whole(of(argument)));
         }
-        const int size = group.size();
+        const int together = lines_.lanes > 1 ? 1 : 4;
+        const int size = group.size = (static_cast<int>(group.angles.size()) + together - 1) / together * together;
         lines_.block += 3 * size;
         add({.kind = Line::Kind::sines, .place = static_cast<int>(lines_.groups.size())});
         for (const int id : sines) {
@@ -401,16 +403,17 @@ private:
 
 }  // namespace
 
-Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task) {
-    Lining lining(program, words, ready, task.arguments, true);
+Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task,
+               int lanes) {
+    Lining lining(program, words, ready, task.arguments, true, lanes);
     std::vector<Lining::Wanted> wanted;
     for (const FunctionResult& result : task.results)
         wanted.push_back({lining.array(result.array), result.places, result.node});
     return lining.lines(wanted, task.copies);
 }
 
-Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready) {
-    Lining lining(program, words, ready, {{"Real*", "par"}}, false);
+Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready, int lanes) {
+    Lining lining(program, words, ready, {{"Real*", "par"}}, false, lanes);
     std::vector<Lining::Wanted> wanted;
     for (std::size_t k = 0; k < words.constants().size(); ++k)
         wanted.push_back({0, {words.par().size() + k}, words.constants()[k]});

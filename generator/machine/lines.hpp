@@ -51,15 +51,16 @@ struct Line {
     int argument = 0, place = 0;
 };
 
-/// Angles stand at place, place + 1 … in the block of sines, then their sines, then their cosines; each of the
-/// three lists is filled up to a multiple of four.
+/// Angles stand at place, place + 1 … in the block of sines, then their sines, then their cosines; with one lane
+/// each of the three lists is filled up to a multiple of four.
 struct SineGroup {
     std::vector<int> angles;
     int place;
-    int size() const { return static_cast<int>(angles.size() + 3) / 4 * 4; }
+    int size;
 };
 
 struct Lines {
+    int lanes = 1;            ///< 1, or 8 for eight systems side by side
     std::vector<Home> homes;  ///< of each value
     std::vector<Line> list;
     std::vector<SineGroup> groups;
@@ -68,9 +69,10 @@ struct Lines {
     bool takes_time = false;  ///< whether the first argument is t
 };
 
-Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task);
+Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task,
+               int lanes = 1);
 
 /// The function that computes the constants after the parameters.
-Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready);
+Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready, int lanes = 1);
 
 }  // namespace alembert::machine

@@ -3,6 +3,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/executable.hpp"
+#include "alembert/packs.hpp"
 #include "emit/solver_functions.hpp"
 #include "machine/registers.hpp"
 
@@ -62,7 +63,8 @@ struct Tables {
 
 class Building {
 public:
-    explicit Building(const Program& program) : p_(program), words_(program), ready_(program, roots_of(program)) {}
+    explicit Building(const Program& program, int lanes = 1)
+        : p_(program), words_(program), ready_(program, roots_of(program)), lanes_(lanes), code_(lanes) {}
 
     std::optional<MemorySolver> solver() {
         const auto tables = std::make_shared<Tables>(p_, words_);
@@ -90,13 +92,33 @@ public:
         const bool derives = !p_.nodes_of(Group::jacobian).empty();
         if (derives) write_derivatives(*tables);
         if (!is_possible_) return std::nullopt;
-        tables->code = executable(code_.finished());
+        tables->code = placed();
         if (!tables->code) return std::nullopt;
-        for (const auto& [begin, put] : functions_) put(tables->code.get() + begin);
         return MemorySolver{
             .module = Module(std::shared_ptr<const alembert_solver_table>(tables, &tables->solver),
                              derives ? &tables->derivatives : nullptr, projects ? &tables->projection : nullptr),
             .go_over = [tables](const Module& compiled) { take_over(*tables, compiled); }};
+    }
+
+    std::shared_ptr<const alembert_pack_table> packs() {
+        struct Packs {
+            alembert_pack_table table{};
+            std::shared_ptr<const std::uint8_t> code;
+        };
+        const auto packs = std::make_shared<Packs>();
+        alembert_pack_table& t = packs->table;
+        t.abi = abi_version;
+        t.lanes = lanes_;
+        t.prepare = [](double*) {};
+        t.energy = [](const double*, const double*, const double*, const double*, double*, double*) {};
+        t.outputs_at = [](const double*, const double*, const double*, const double*, double*) {};
+        if (!words_.constants().empty()) write(lines_of_constants(p_, words_, ready_, lanes_), t.prepare);
+        write(right_hand_side(p_, words_), t.rhs);
+        write(mass_forcing(p_), t.mass_forcing);
+        write(energy(p_), t.energy);
+        write(outputs_at(p_), t.outputs_at);
+        if (!is_possible_ || !(packs->code = placed())) return nullptr;
+        return {packs, &packs->table};
     }
 
 private:
@@ -148,9 +170,18 @@ private:
         d.parameter_rows = tables.parameter_rows.data(), d.parameter_columns = tables.parameter_columns.data();
     }
 
+    /// The code in executable memory, with the addresses of its functions in the tables; null if there is none.
+    std::shared_ptr<const std::uint8_t> placed() {
+        std::shared_ptr<const std::uint8_t> code = executable(code_.finished());
+        if (code)
+            for (const auto& [begin, put] : functions_) put(code.get() + begin);
+        return code;
+    }
+
     template <typename Function>
     void write(const FunctionTask& task, Function& place) {
-        if (!task.results.empty() || !task.copies.empty()) write(lines_of(p_, words_, ready_, task), place);
+        if (!task.results.empty() || !task.copies.empty())
+            write(lines_of(p_, words_, ready_, task, lanes_), place);
     }
     template <typename Function>
     void write(const Lines& lines, Function& place) {
@@ -181,6 +212,7 @@ private:
     const Program& p_;
     Vocabulary words_;
     Readiness ready_;
+    int lanes_ = 1;
     Encoder code_;
     bool is_possible_ = true;
     std::vector<std::pair<std::size_t, std::function<void(const std::uint8_t*)>>> functions_;
@@ -188,10 +220,24 @@ private:
 
 }  // namespace
 
-std::optional<MemorySolver> memory_solver(const Program& program) {
-    if (!can_run()) return std::nullopt;
+namespace {
+
+void need_accelerations(const Program& program) {
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
+}
+
+}  // namespace
+
+std::shared_ptr<const alembert_pack_table> memory_packs(const Program& program) {
+    if (!can_run(lanes)) return nullptr;
+    need_accelerations(program);
+    return Building(program, lanes).packs();
+}
+
+std::optional<MemorySolver> memory_solver(const Program& program) {
+    if (!can_run()) return std::nullopt;
+    need_accelerations(program);
     return Building(program).solver();
 }
 

@@ -17,6 +17,7 @@
 /// not allow memory to be made executable.
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "alembert/module.hpp"
@@ -32,5 +33,9 @@ struct MemorySolver {
 
 /// Throws ModelError as `emit` does.
 std::optional<MemorySolver> memory_solver(const Program& program);
+
+/// The functions for eight systems at once, those of a file emitted with `--batch`; nothing where the processor
+/// has no AVX-512. Throws ModelError as `emit` does.
+std::shared_ptr<const alembert_pack_table> memory_packs(const Program& program);
 
 }  // namespace alembert

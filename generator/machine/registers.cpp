@@ -30,29 +30,41 @@ public:
           l_(lines),
           holds_(static_cast<std::size_t>(Encoder::registers()), -1),
           reg_(lines.homes.size(), -1),
-          slot_(lines.homes.size(), -1) {
+          slot_(lines.homes.size(), -1),
+          unit_(8 * lines.lanes) {
         free_ = holds_.size() == 32 ? ~0U : 0xffffU;
         find_uses();
         const bool calls = std::any_of(l_.list.begin(), l_.list.end(), [](const Line& line) {
             return line.kind == Line::Kind::call || line.kind == Line::Kind::sines;
         });
-        saved_ = calls ? l_.arrays : 0;
-        time_ = 8 * saved_;
-        block_ = time_ + 8;
-        frame_ = block_ + 8 * l_.block;
+        saved_ = calls ? l_.arrays + first_array() : 0;
+        const auto in_units = [&](std::int32_t bytes) { return (bytes + unit_ - 1) / unit_ * unit_; };
+        time_ = in_units(8 * saved_);
+        block_ = time_ + (is_packed() ? 2 * unit_ : 8);  // packed: for the arguments of a call
+        frame_ = block_ + unit_ * l_.block;
     }
 
     bool write() {
-        const std::size_t frame = code_.lower_stack();
+        const std::size_t frame = is_packed() ? code_.lower_aligned_stack() : code_.lower_stack();
         for (int k = 0; k < saved_; ++k) code_.store_pointer({Base::rsp, 8 * k}, bases[k]);
-        if (l_.takes_time) code_.store({Base::rsp, time_}, 0);
+        if (l_.takes_time && !is_packed()) code_.store({Base::rsp, time_}, 0);
         for (at_ = 0; at_ < static_cast<int>(l_.list.size()); ++at_) write(l_.list[at_]);
+        if (is_packed()) {
+            code_.forget_upper_parts();
+            code_.leave_and_return(frame, frame_);
+            return frame_ <= largest_frame;
+        }
         frame_ += frame_ % 16 == 8 ? 0 : 8;  // with the return address, a multiple of 16
         code_.raise_stack_and_return(frame, frame_);
         return frame_ <= largest_frame;
     }
 
 private:
+    bool is_packed() const { return l_.lanes > 1; }
+    /// Packs are given a pointer to their times, before the arrays.
+    int first_array() const { return is_packed() && l_.takes_time ? 1 : 0; }
+    Base base(int array) const { return bases[static_cast<std::size_t>(array + first_array())]; }
+
     /// Lists, for each value, the lines that use it.
     void find_uses() {
         first_.assign(l_.homes.size() + 1, 0);
@@ -85,13 +97,13 @@ private:
         const Home& home = l_.homes[v];
         switch (home.kind) {
             case Home::Kind::time:
-                return {Base::rsp, time_};
+                return is_packed() ? Memory{bases[0], 0} : Memory{Base::rsp, time_};
             case Home::Kind::argument:
-                return {bases[home.argument], 8 * home.place};
+                return {base(home.argument), unit_ * home.place};
             case Home::Kind::constant:
                 return code_.constant(home.number);
             case Home::Kind::sines:
-                return {Base::rsp, block_ + 8 * home.place};
+                return {Base::rsp, block_ + unit_ * home.place};
             case Home::Kind::none:
                 break;
         }
@@ -108,7 +120,7 @@ private:
         if (has_memory(v)) return;
         if (slots_.empty()) {
             slot_[v] = frame_;
-            frame_ += 8;
+            frame_ += unit_;
         } else {
             slot_[v] = slots_.back();
             slots_.pop_back();
@@ -213,7 +225,7 @@ private:
                 return sines(l_.groups[line.place]);
             case Line::Kind::store:
                 load(line.of[0]);
-                code_.store({bases[line.argument], 8 * line.place}, reg_[line.of[0]]);
+                code_.store({base(line.argument), unit_ * line.place}, reg_[line.of[0]]);
                 return drop(line.of[0]);
         }
     }
@@ -307,13 +319,29 @@ private:
             if (v >= 0 && next(v) != never) save(v);
     }
     void after_call(const void* function) {
+        if (is_packed()) code_.forget_upper_parts();
         code_.call(function);
         for (int r = 0; r < static_cast<int>(holds_.size()); ++r)
             if (holds_[r] >= 0) release(r);
         for (int k = 0; k < saved_; ++k) code_.load_pointer(bases[k], {Base::rsp, 8 * k});
     }
 
+    void call_packed(const Line& line) {
+        for (int k = 0; k < 2 && line.of[k] >= 0; ++k) {
+            load(line.of[k]);
+            code_.store({Base::rsp, time_ + unit_ * k}, reg_[line.of[k]]);
+        }
+        save_all();
+        code_.pointer(Base::rdi, line.function);
+        code_.address(Base::rsi, {Base::rsp, time_});
+        after_call(line.of[1] < 0 ? reinterpret_cast<const void*>(each_for_code)
+                                  : reinterpret_cast<const void*>(each_pair_for_code));
+        code_.load(0, {Base::rsp, time_});
+        finish(line, 0);
+    }
+
     void call(const Line& line) {
+        if (is_packed()) return call_packed(line);
         save_all();
         const int a = line.of[0], b = line.of[1];
         int rb = b >= 0 ? reg_[b] : -1;
@@ -335,12 +363,12 @@ private:
     }
 
     void sines(const SineGroup& group) {
-        const int count = group.size();
+        const int count = group.size;
         const auto angle = [&](int k) {
             return group.angles[std::min(static_cast<std::size_t>(k), group.angles.size() - 1)];
         };
         const auto store = [&](int k) {
-            code_.store({Base::rsp, block_ + 8 * (group.place + k)}, reg_[angle(k)]);
+            code_.store({Base::rsp, block_ + unit_ * (group.place + k)}, reg_[angle(k)]);
         };
         std::vector<int> others;  // a register for one of these may be that of an angle which has been stored
         for (int k = 0; k < count; ++k)
@@ -354,9 +382,10 @@ private:
             store(k);
         }
         save_all();
-        code_.address(Base::rdi, {Base::rsp, block_ + 8 * group.place});
-        code_.number(Base::rsi, count);
-        after_call(reinterpret_cast<const void*>(sines_for_code));
+        code_.address(Base::rdi, {Base::rsp, block_ + unit_ * group.place});
+        code_.number(Base::rsi, count * l_.lanes);
+        after_call(is_packed() ? reinterpret_cast<const void*>(sines_of_packs_for_code)
+                               : reinterpret_cast<const void*>(sines_for_code));
         for (const int v : group.angles) drop(v);
     }
 
@@ -366,6 +395,7 @@ private:
     std::vector<int> reg_;             // the register of each value
     std::vector<std::int32_t> slot_;   // the place on the stack of each value
     std::vector<std::int32_t> slots_;  // places that are free
+    std::int32_t unit_;                // the size of a value, in bytes
     std::vector<int> first_, uses_, next_;
     unsigned free_ = 0, locked_ = 0;  // registers, a bit for each
     int at_ = 0;                      // the current line

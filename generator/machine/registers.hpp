@@ -8,6 +8,7 @@
 ///     if (write_function(code, lines)) …      // the function begins at `begin`
 ///
 /// The function is called as System V's ABI for x86-64 says: t in xmm0, the arrays in rdi, rsi, rdx, rcx, r8, r9.
+/// With eight lanes, the first of these registers has the address of the times.
 
 #include "machine/encoder.hpp"
 #include "machine/lines.hpp"

@@ -15,6 +15,14 @@ namespace alembert {
 /// FMA.
 void sines_for_code(double* values, int count);
 
+/// The same where `count` is a multiple of eight and the array begins at a multiple of 64 bytes. Only for
+/// processors with AVX-512.
+void sines_of_packs_for_code(double* values, int count);
+
+/// values[i] = f(values[i]), and values[i] = f(values[i], values[i + 8]), for i = 0 … 7.
+void each_for_code(double (*f)(double), double* values);
+void each_pair_for_code(double (*f)(double, double), double* values);
+
 double sign_for_code(double x);
 double lesser_for_code(double x, double y);   ///< NaN if one of the two is
 double greater_for_code(double x, double y);  ///< likewise
