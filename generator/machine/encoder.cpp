@@ -41,12 +41,12 @@ void Encoder::four(std::uint32_t value) {
 }
 
 /// The bytes that say which register and which place in memory. An offset of one byte counts units of so many
-/// bytes.
-void Encoder::place(unsigned reg, const Memory& memory, int unit) {
+/// bytes. `after`: the bytes of the instruction that follow.
+void Encoder::place(unsigned reg, const Memory& memory, int unit, int after) {
     const unsigned middle = (reg & 7) << 3;
     if (memory.base == Base::constants) {
         byte(middle | 5);
-        relative_.push_back(bytes_.size());
+        relative_.emplace_back(bytes_.size(), after);
         four(static_cast<std::uint32_t>(memory.offset));
         return;
     }
@@ -82,13 +82,15 @@ void Encoder::extended(const Opcode& code, int to, int first, const Operand& sec
     byte(code.code);
 }
 
-void Encoder::encode_packed(const Opcode& code, int to, int first, const Operand& second, bool broadcasts) {
+void Encoder::encode_packed(const Opcode& code, int to, int first, const Operand& second, bool broadcasts,
+                            std::optional<unsigned> last) {
     constexpr unsigned whole_register = 0x40, one_for_all = 0x10;
     extended(code, to, first, second, whole_register | (broadcasts ? one_for_all : 0));
     if (second.memory)
-        place(static_cast<unsigned>(to), *second.memory, 64);
+        place(static_cast<unsigned>(to), *second.memory, 64, last ? 1 : 0);
     else
         byte(0xc0 | (static_cast<unsigned>(to) & 7) << 3 | (number_of(second) & 7));
+    if (last) byte(*last);
 }
 
 void Encoder::encode(const Opcode& code, int to, int first, const Operand& second) {
@@ -126,6 +128,26 @@ void Encoder::compute(Instruction instruction, int to, int first, const Operand&
     const bool is_root = instruction == Instruction::root;
     encode_packed({1, code.table, code.table == 2 ? code.code & ~1U : code.code, true}, to,
                   is_root ? no_register : first, second, second.memory && second.memory->base == Base::constants);
+}
+
+void Encoder::shift(bool to_left, int to, int from, int bits) {
+    // The register of the result stands where other instructions have their first operand.
+    encode_packed({1, 1, to_left ? 0x73U : 0x72U, true}, to_left ? 6 : 4, to, {.reg = from}, false,
+                  static_cast<unsigned>(bits));
+}
+
+void Encoder::larger_size(int to, int first, const Operand& second) {
+    constexpr unsigned largest_absolute = 3, sign_is_clear = 2 << 2;
+    encode_packed({1, 3, 0x50, true}, to, first, second, false, largest_absolute | sign_is_clear);
+}
+
+// The last byte lists the result for all bits of the result's register, the second and the third.
+void Encoder::select(int to, int second, int mask) {
+    encode_packed({1, 3, 0x25, true}, to, second, {.reg = mask}, false, 0xd8);
+}
+
+void Encoder::turn_sign(int to, int by) {
+    encode_packed({1, 3, 0x25, true}, to, by, {.memory = sign()}, true, 0x78);
 }
 
 void Encoder::load(int to, const Memory& from) {
@@ -199,6 +221,23 @@ void Encoder::leave_and_return(std::size_t lowered, std::int32_t bytes) {
     byte(0xc3);
 }
 
+void Encoder::leave_and_return_unless_above(int reg, double bound, std::size_t other, std::size_t lowered,
+                                            std::int32_t bytes) {
+    constexpr unsigned greater = 30;
+    std::memcpy(&bytes_[lowered], &bytes, sizeof bytes);
+    const int free = reg == 0 ? 1 : 0;
+    load(free, constant(bound));
+    encode_packed({1, 1, 0xc2, true}, 1, reg, {.reg = free}, false, greater);  // a bit for each double, to k1
+    for (const unsigned b : {0xc5U, 0xf9U, 0x98U, 0xc9U}) byte(b);             // whether one of the eight is set
+    forget_upper_parts();
+    byte(0xc9);
+    byte(0x0f);
+    byte(0x85);
+    four(static_cast<std::uint32_t>(static_cast<std::int64_t>(other) -
+                                    static_cast<std::int64_t>(bytes_.size() + 4)));
+    byte(0xc3);
+}
+
 void Encoder::forget_upper_parts() {
     for (const unsigned b : {0xc5U, 0xf8U, 0x77U}) byte(b);
 }
@@ -236,10 +275,10 @@ void Encoder::align() {
 std::vector<std::uint8_t> Encoder::finished() {
     align();
     const std::size_t end = bytes_.size();
-    for (const std::size_t at : relative_) {
+    for (const auto& [at, after] : relative_) {
         std::int32_t offset = 0;
         std::memcpy(&offset, &bytes_[at], sizeof offset);
-        offset += static_cast<std::int32_t>(end - (at + sizeof offset));
+        offset += static_cast<std::int32_t>(end - (at + sizeof offset)) - after;
         std::memcpy(&bytes_[at], &offset, sizeof offset);
     }
     relative_.clear();

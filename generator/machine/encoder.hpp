@@ -71,6 +71,13 @@ public:
     static int registers();
 
     void compute(Instruction instruction, int to, int first, const Operand& second);
+    /// Shifts the bits of each double to the left, or to the right so that the sign moves in; eight lanes only.
+    void shift(bool to_left, int to, int from, int bits);
+    /// The larger size of two; the second where the bits of a mask are set, else the result's register; the
+    /// result's register with its sign turned where that of the second is set. Eight lanes only.
+    void larger_size(int to, int first, const Operand& second);
+    void select(int to, int second, int mask);
+    void turn_sign(int to, int by);
     void load(int to, const Memory& from);
     void store(const Memory& to, int from);
     void copy(int to, int from);
@@ -81,6 +88,9 @@ public:
     /// The same where the stack is then at a multiple of 64 bytes.
     std::size_t lower_aligned_stack();
     void leave_and_return(std::size_t lowered, std::int32_t bytes);
+    /// The same, but goes to the function at `other` if a double in the register is larger than `bound`.
+    void leave_and_return_unless_above(int reg, double bound, std::size_t other, std::size_t lowered,
+                                       std::int32_t bytes);
     void load_pointer(Base to, const Memory& from);
     void store_pointer(const Memory& to, Base from);
     void address(Base to, const Memory& of);
@@ -106,16 +116,18 @@ private:
     void byte(unsigned value) { bytes_.push_back(static_cast<std::uint8_t>(value)); }
     void four(std::uint32_t value);
     void encode(const Opcode& code, int to, int first, const Operand& second);
-    void encode_packed(const Opcode& code, int to, int first, const Operand& second, bool broadcasts);
+    void encode_packed(const Opcode& code, int to, int first, const Operand& second, bool broadcasts,
+                       std::optional<unsigned> last = {});
     void extended(const Opcode& code, int to, int first, const Operand& second, unsigned more);
     void whole(unsigned opcode, Base reg, const Memory& memory);
-    void place(unsigned reg, const Memory& memory, int unit);
+    void place(unsigned reg, const Memory& memory, int unit, int after = 0);
 
     bool is_packed_;
     std::vector<std::uint8_t> bytes_;
     std::vector<std::uint64_t> constants_{0x7fffffffffffffff, 0, 0x8000000000000000, 0};
     std::map<std::uint64_t, std::int32_t> places_;
-    std::vector<std::size_t> relative_;  ///< where an offset counts from the end of its four bytes
+    /// Where an offset counts from the end of the instruction, which is so many bytes after its own four.
+    std::vector<std::pair<std::size_t, int>> relative_;
 };
 
 }  // namespace alembert::machine

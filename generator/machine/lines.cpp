@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "alembert/code_functions.hpp"
+#include "alembert/packs.hpp"
 #include "emit/schedule.hpp"
 #include "program/interpret.hpp"
 #include "program/processor.hpp"
@@ -59,6 +60,12 @@ bool is_sine(const Node& node) {
     return node.op == Op::sin || node.op == Op::cos;
 }
 
+/// The polynomials P and Q of sines_for_code, from the lowest power.
+constexpr std::array sine_coefficients{0.1666666666666663,      -0.008333333333322118, 0.00019841269829589533,
+                                       -2.7557313621383334e-06, 2.505074776244275e-08, -1.5896230131492603e-10};
+constexpr std::array cosine_coefficients{0.041666666666666595,   -0.0013888888888873056, 2.4801587288851683e-05,
+                                         -2.755731417929107e-07, 2.0875700841213046e-09, -1.13585364822807e-11};
+
 /// A value, or its negative.
 struct Signed {
     int value = -1;
@@ -69,13 +76,14 @@ struct Signed {
 class Lining {
 public:
     Lining(const Program& program, const Vocabulary& words, const Readiness& ready,
-           const std::vector<FunctionArgument>& arguments, bool constants_are_given, int lanes)
+           const std::vector<FunctionArgument>& arguments, bool constants_are_given, std::optional<Sines> packed)
         : p_(program),
           ready_(ready),
           value_(static_cast<std::size_t>(program.size())),
           is_leaf_(value_.size(), 0),
           uses_(value_.size(), 0) {
-        lines_.lanes = lanes;
+        lines_.lanes = packed ? lanes : 1;
+        sines_ = packed;
         for (const FunctionArgument& a : arguments)
             if (a.name == "t")
                 lines_.takes_time = true;
@@ -109,7 +117,7 @@ public:
                          .place = static_cast<int>(place)});
             stored[id].clear();
         };
-        std::vector<int> done = with_sines(nodes);
+        std::vector<int> done = sines_ ? std::vector<int>() : with_sines(nodes);
         std::vector<char> is_done(value_.size(), 0);
         for (const int id : done) is_done[id] = 1;
         for (const int id : done) store(id);
@@ -209,8 +217,7 @@ private:
             if (!position.try_emplace(argument, static_cast<int>(group.angles.size())).second) continue;
             group.angles.push_back(whole(of(argument)));
         }
-        const int together = lines_.lanes > 1 ? 1 : 4;
-        const int size = group.size = (static_cast<int>(group.angles.size()) + together - 1) / together * together;
+        const int size = group.size = (static_cast<int>(group.angles.size()) + 3) / 4 * 4;
         lines_.block += 3 * size;
         add({.kind = Line::Kind::sines, .place = static_cast<int>(lines_.groups.size())});
         for (const int id : sines) {
@@ -218,6 +225,61 @@ private:
             value_[id] = {leaf({.kind = Home::Kind::sines, .place = first + position.at(p_[id].args[0])})};
         }
         lines_.groups.push_back(std::move(group));
+    }
+
+    /// The sine and the cosine of an angle, for packs.
+    std::array<int, 2> sine_and_cosine(int argument) {
+        const auto [known, is_new] = turned_.try_emplace(argument);
+        if (!is_new) return known->second;
+        const int x = whole(of(argument));
+        if (*sines_ == Sines::called) {
+            lines_.groups.push_back({.angles = {x}, .place = lines_.block, .size = 1});
+            add({.kind = Line::Kind::sines, .place = static_cast<int>(lines_.groups.size()) - 1});
+            const int first = lines_.block + 1;
+            lines_.block += 3;
+            return known->second = {leaf({.kind = Home::Kind::sines, .place = first}),
+                                    leaf({.kind = Home::Kind::sines, .place = first + 1})};
+        }
+        lines_.largest = lines_.largest < 0
+                             ? add({.kind = Line::Kind::absolute, .of = {x, -1, -1}})
+                             : add({.kind = Line::Kind::larger_size, .of = {lines_.largest, x, -1}});
+        return known->second = turned(x);
+    }
+
+    /// As sines_for_code (alembert/code_functions.hpp), step by step.
+    std::array<int, 2> turned(int x) {
+        const auto unary = [&](Line::Kind kind, int a, int bits = 0) {
+            return add({.kind = kind, .of = {a, -1, -1}, .place = bits});
+        };
+        const auto binary = [&](Line::Kind kind, int a, int b) { return add({.kind = kind, .of = {a, b, -1}}); };
+        const auto fused = [&](int a, int b, int c, bool minus = false) {
+            return add({.kind = Line::Kind::fused, .of = {a, b, c}, .minus_product = minus});
+        };
+        const int shift = number(0x1.8p52), shifted = fused(x, number(0x1.45f306dc9c883p-1), shift);
+        const int turns = binary(Line::Kind::subtract, shifted, shift);
+        int r = x;
+        for (const double part : {0x1.921fb54442d18p0, 0x1.1a62633145c06p-54, 0x1.c1cd129024e09p-107})
+            r = fused(turns, number(part), r, true);
+        const int z = binary(Line::Kind::multiply, r, r), zz = binary(Line::Kind::multiply, z, z);
+        const auto polynomial = [&](const std::array<double, 6>& c) {
+            std::array<int, 3> line{};
+            for (std::size_t k = 0; k < 3; ++k)
+                line[k] = fused(number(std::abs(c[2 * k + 1])), z, number(c[2 * k]), c[2 * k + 1] < 0);
+            return fused(zz, fused(zz, line[2], line[1]), line[0]);
+        };
+        const int P = polynomial(sine_coefficients), Q = polynomial(cosine_coefficients);
+        const int s = binary(Line::Kind::multiply, r, fused(z, P, number(1), true));
+        const int c = fused(zz, Q, fused(number(0.5), z, number(1), true));
+        // The lowest bit of the number of quarter turns says whether sine and cosine change places.
+        const int odd = unary(Line::Kind::shift_right, unary(Line::Kind::shift_left, shifted, 63), 63);
+        const auto signed_by = [&](int value, int quarters) {
+            return binary(Line::Kind::turn_sign, value, unary(Line::Kind::shift_left, quarters, 62));
+        };
+        const auto selected = [&](int even, int other) {
+            return add({.kind = Line::Kind::select, .of = {even, other, odd}});
+        };
+        const int next = binary(Line::Kind::add, shifted, number(1));
+        return {signed_by(selected(s, c), shifted), signed_by(selected(c, s), next)};
     }
 
     int leaf(const Home& home) {
@@ -301,6 +363,10 @@ private:
             return;
         }
         if (node.op == Op::unspecified) p_.refuse_unspecified(node);
+        if (is_sine(node)) {
+            value_[id] = {sine_and_cosine(node.args[0])[node.op == Op::sin ? 0 : 1]};
+            return;
+        }
         const int x = whole(of(node.args[0]));
         if (node.op == Op::sqrt)
             value_[id] = {add({.kind = Line::Kind::root, .of = {x, -1, -1}})};
@@ -399,25 +465,45 @@ private:
     std::map<int, int> constant_place_;
     std::map<double, int> numbers_;
     Lines lines_;
+    std::optional<Sines> sines_;                // of packs
+    std::map<int, std::array<int, 2>> turned_;  // an angle, and the values of its sine and cosine
 };
 
-}  // namespace
-
-Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task,
-               int lanes) {
-    Lining lining(program, words, ready, task.arguments, true, lanes);
+Lines lines_for(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task,
+                std::optional<Sines> packed) {
+    Lining lining(program, words, ready, task.arguments, true, packed);
     std::vector<Lining::Wanted> wanted;
     for (const FunctionResult& result : task.results)
         wanted.push_back({lining.array(result.array), result.places, result.node});
     return lining.lines(wanted, task.copies);
 }
 
-Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready, int lanes) {
-    Lining lining(program, words, ready, {{"Real*", "par"}}, false, lanes);
+Lines constants_for(const Program& program, const Vocabulary& words, const Readiness& ready,
+                    std::optional<Sines> packed) {
+    Lining lining(program, words, ready, {{"Real*", "par"}}, false, packed);
     std::vector<Lining::Wanted> wanted;
     for (std::size_t k = 0; k < words.constants().size(); ++k)
         wanted.push_back({0, {words.par().size() + k}, words.constants()[k]});
     return lining.lines(wanted, {});
+}
+
+}  // namespace
+
+Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task) {
+    return lines_for(program, words, ready, task, {});
+}
+
+Lines lines_of_packs(const Program& program, const Vocabulary& words, const Readiness& ready,
+                     const FunctionTask& task, Sines sines) {
+    return lines_for(program, words, ready, task, sines);
+}
+
+Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready) {
+    return constants_for(program, words, ready, {});
+}
+
+Lines lines_of_constants_in_packs(const Program& program, const Vocabulary& words, const Readiness& ready) {
+    return constants_for(program, words, ready, Sines::called);
 }
 
 }  // namespace alembert::machine

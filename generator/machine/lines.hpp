@@ -38,10 +38,15 @@ struct Line {
         root,
         absolute,
         negative,
-        fused,  ///< ± of[0]·of[1] ± of[2]
-        call,   ///< function(of[0]), or function(of[0], of[1])
-        sines,  ///< the group `place`
-        store   ///< of[0] to the array `argument` at `place`
+        shift_left,   ///< by `place` bits
+        shift_right,  ///< likewise; the sign moves in
+        larger_size,  ///< the larger of |of[0]| and |of[1]|; the other where one is not a number
+        select,       ///< of[1] where the bits of of[2] are set, else of[0]
+        turn_sign,    ///< of[0] with its sign turned where that of of[1] is set
+        fused,        ///< ± of[0]·of[1] ± of[2]
+        call,         ///< function(of[0]), or function(of[0], of[1])
+        sines,        ///< the group `place`
+        store         ///< of[0] to the array `argument` at `place`
     };
     Kind kind;
     int to = -1;                           ///< a value; −1 if there is none
@@ -50,6 +55,10 @@ struct Line {
     const void* function = nullptr;
     int argument = 0, place = 0;
 };
+
+/// How packs compute sines and cosines: by instructions between the others, which is faster, or by calls, which
+/// take angles of any size. All else is the same in both.
+enum class Sines : unsigned char { inside, called };
 
 /// Angles stand at place, place + 1 … in the block of sines, then their sines, then their cosines; with one lane
 /// each of the three lists is filled up to a multiple of four.
@@ -67,12 +76,15 @@ struct Lines {
     int block = 0;  ///< length of the block of sines
     int arrays = 0;
     bool takes_time = false;  ///< whether the first argument is t
+    int largest = -1;         ///< the value that holds the largest angle of sines inside
 };
 
-Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task,
-               int lanes = 1);
+Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task);
+Lines lines_of_packs(const Program& program, const Vocabulary& words, const Readiness& ready,
+                     const FunctionTask& task, Sines sines);
 
 /// The function that computes the constants after the parameters.
-Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready, int lanes = 1);
+Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready);
+Lines lines_of_constants_in_packs(const Program& program, const Vocabulary& words, const Readiness& ready);
 
 }  // namespace alembert::machine

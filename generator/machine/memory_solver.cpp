@@ -112,11 +112,11 @@ public:
         t.prepare = [](double*) {};
         t.energy = [](const double*, const double*, const double*, const double*, double*, double*) {};
         t.outputs_at = [](const double*, const double*, const double*, const double*, double*) {};
-        if (!words_.constants().empty()) write(lines_of_constants(p_, words_, ready_, lanes_), t.prepare);
-        write(right_hand_side(p_, words_), t.rhs);
-        write(mass_forcing(p_), t.mass_forcing);
-        write(energy(p_), t.energy);
-        write(outputs_at(p_), t.outputs_at);
+        if (!words_.constants().empty()) write(lines_of_constants_in_packs(p_, words_, ready_), t.prepare);
+        write_packed(right_hand_side(p_, words_), t.rhs);
+        write_packed(mass_forcing(p_), t.mass_forcing);
+        write_packed(energy(p_), t.energy);
+        write_packed(outputs_at(p_), t.outputs_at);
         if (!is_possible_ || !(packs->code = placed())) return nullptr;
         return {packs, &packs->table};
     }
@@ -180,14 +180,23 @@ private:
 
     template <typename Function>
     void write(const FunctionTask& task, Function& place) {
-        if (!task.results.empty() || !task.copies.empty())
-            write(lines_of(p_, words_, ready_, task, lanes_), place);
+        if (!task.results.empty() || !task.copies.empty()) write(lines_of(p_, words_, ready_, task), place);
+    }
+    /// The function, and before it the one that takes its place for large angles.
+    template <typename Function>
+    void write_packed(const FunctionTask& task, Function& place) {
+        if (task.results.empty() && task.copies.empty()) return;
+        code_.align();
+        const std::size_t other = code_.size();
+        is_possible_ =
+            is_possible_ && write_function(code_, lines_of_packs(p_, words_, ready_, task, Sines::called));
+        write(lines_of_packs(p_, words_, ready_, task, Sines::inside), place, other);
     }
     template <typename Function>
-    void write(const Lines& lines, Function& place) {
+    void write(const Lines& lines, Function& place, std::size_t other = 0) {
         code_.align();
         const std::size_t begin = code_.size();
-        is_possible_ = is_possible_ && write_function(code_, lines);
+        is_possible_ = is_possible_ && write_function(code_, lines, other);
         functions_.emplace_back(begin, [&place](const std::uint8_t* at) {
             place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
         });

@@ -25,8 +25,9 @@ Instruction plus(Instruction first, int k) {
 
 class Registering {
 public:
-    Registering(Encoder& code, const Lines& lines)
+    Registering(Encoder& code, const Lines& lines, std::size_t other)
         : code_(code),
+          other_(other),
           l_(lines),
           holds_(static_cast<std::size_t>(Encoder::registers()), -1),
           reg_(lines.homes.size(), -1),
@@ -49,6 +50,12 @@ public:
         for (int k = 0; k < saved_; ++k) code_.store_pointer({Base::rsp, 8 * k}, bases[k]);
         if (l_.takes_time && !is_packed()) code_.store({Base::rsp, time_}, 0);
         for (at_ = 0; at_ < static_cast<int>(l_.list.size()); ++at_) write(l_.list[at_]);
+        if (l_.largest >= 0) {
+            locked_ = 0;
+            load(l_.largest);
+            code_.leave_and_return_unless_above(reg_[l_.largest], farthest_for_code, other_, frame, frame_);
+            return frame_ <= largest_frame;
+        }
         if (is_packed()) {
             code_.forget_upper_parts();
             code_.leave_and_return(frame, frame_);
@@ -76,6 +83,7 @@ private:
                 for (const int v : line.of)
                     if (v >= 0) use(v, k);
             }
+            if (l_.largest >= 0) use(l_.largest, static_cast<int>(l_.list.size()));
         };
         each([&](int v, int) { ++first_[v + 1]; });
         for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
@@ -217,6 +225,23 @@ private:
             case Line::Kind::negative:
                 load(line.of[0]);
                 return unary(line, Instruction::other_bits, Encoder::sign());
+            case Line::Kind::larger_size: {
+                load(line.of[0]);
+                load(line.of[1]);
+                const int x = reg_[line.of[0]], y = reg_[line.of[1]], to = target(line);
+                code_.larger_size(to, x, {.reg = y});
+                return finish(line, to);
+            }
+            case Line::Kind::shift_left:
+            case Line::Kind::shift_right: {
+                load(line.of[0]);
+                const int x = reg_[line.of[0]], to = target(line);
+                code_.shift(line.kind == Line::Kind::shift_left, to, x, line.place);
+                return finish(line, to);
+            }
+            case Line::Kind::select:
+            case Line::Kind::turn_sign:
+                return bits(line);
             case Line::Kind::fused:
                 return fused(line);
             case Line::Kind::call:
@@ -308,6 +333,27 @@ private:
         finish(line, r);
     }
 
+    /// A result that takes the register of the first operand, or of its copy.
+    void bits(const Line& line) {
+        for (const int v : line.of)
+            if (v >= 0) load(v);
+        const int a = line.of[0];
+        int r = reg_[a];
+        if (next(a) == never) {
+            holds_[r] = -1;
+            reg_[a] = -1;
+        } else {
+            r = taken();
+            free_ &= ~(1U << r);
+            code_.copy(r, reg_[a]);
+        }
+        if (line.kind == Line::Kind::select)
+            code_.select(r, reg_[line.of[1]], reg_[line.of[2]]);
+        else
+            code_.turn_sign(r, reg_[line.of[1]]);
+        finish(line, r);
+    }
+
     void in_registers(int first, int second) {
         load(first);
         load_if_useful(second);
@@ -390,6 +436,7 @@ private:
     }
 
     Encoder& code_;
+    std::size_t other_;
     const Lines& l_;
     std::vector<int> holds_;           // the value in each register
     std::vector<int> reg_;             // the register of each value
@@ -405,9 +452,9 @@ private:
 
 }  // namespace
 
-bool write_function(Encoder& code, const Lines& lines) {
+bool write_function(Encoder& code, const Lines& lines, std::size_t other) {
     code.align();
-    return Registering(code, lines).write();
+    return Registering(code, lines, other).write();
 }
 
 }  // namespace alembert::machine

@@ -15,7 +15,8 @@
 
 namespace alembert::machine {
 
-/// False, with an unusable rest of code, if the function would need too much room on the stack.
-bool write_function(Encoder& code, const Lines& lines);
+/// False, with an unusable rest of code, if the function would need too much room on the stack. Lines with sines
+/// inside need `other`, where the same function with called sines begins: it is taken for large angles.
+bool write_function(Encoder& code, const Lines& lines, std::size_t other = 0);
 
 }  // namespace alembert::machine

@@ -19,8 +19,6 @@ namespace alembert {
 
 namespace {
 
-constexpr double farthest = 1e8;
-
 ALEMBERT_WIDE inline __m256d all(double x) {
     return _mm256_set1_pd(x);
 }
@@ -41,7 +39,8 @@ ALEMBERT_WIDE inline __m256d sign_of(__m256i quarters) {
 }
 
 ALEMBERT_WIDE inline bool are_near(__m256d x) {
-    return _mm256_movemask_pd(_mm256_cmp_pd(_mm256_andnot_pd(all(-0.0), x), all(farthest), _CMP_LE_OQ)) == 15;
+    return _mm256_movemask_pd(_mm256_cmp_pd(_mm256_andnot_pd(all(-0.0), x), all(farthest_for_code), _CMP_LE_OQ)) ==
+           15;
 }
 
 /// A number that is loaded by itself: a wide load of numbers that were just written one by one would wait for
@@ -53,7 +52,8 @@ inline double alone(double x) {
 
 [[gnu::noinline, gnu::cold]] void sines_far(const double* angles, double* sines, double* cosines) {
     for (int i = 0; i < 4; ++i)
-        if (!(std::abs(angles[i]) <= farthest)) sines[i] = std::sin(angles[i]), cosines[i] = std::cos(angles[i]);
+        if (!(std::abs(angles[i]) <= farthest_for_code))
+            sines[i] = std::sin(angles[i]), cosines[i] = std::cos(angles[i]);
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ ALEMBERT_WIDEST void sines_of_packs_for_code(double* values, int count) {
         const __mmask8 odd = _mm512_test_epi64_mask(quarters, _mm512_set1_epi64(1));
         _mm512_store_pd(sines, _mm512_xor_pd(_mm512_mask_blend_pd(odd, s, c), sign_of(quarters)));
         _mm512_store_pd(cosines, _mm512_xor_pd(_mm512_mask_blend_pd(odd, c, s), sign_of(next)));
-        const __mmask8 near = _mm512_cmp_pd_mask(_mm512_abs_pd(x), eight(farthest), _CMP_LE_OQ);
+        const __mmask8 near = _mm512_cmp_pd_mask(_mm512_abs_pd(x), eight(farthest_for_code), _CMP_LE_OQ);
         if (near != 0xff)
             for (int half = 0; half < 8; half += 4) sines_far(angles + half, sines + half, cosines + half);
     }

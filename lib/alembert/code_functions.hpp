@@ -10,6 +10,9 @@
 
 namespace alembert {
 
+/// The largest angle whose sine and cosine are computed by polynomials.
+inline constexpr double farthest_for_code = 1e8;
+
 /// The sines and cosines of `count` angles, each within 2 ulp up to 1e8 and libm's beyond. `count` is a multiple
 /// of four; the sines stand after the angles, and the cosines after the sines. Only for processors with AVX2 and
 /// FMA.
