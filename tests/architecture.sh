@@ -16,7 +16,7 @@ files() { find "$@" -name '*.?pp' | sort; }
 ginac='#include.*(ginac|cln/)'
 mapfile -t runtime < <(files lib)
 mapfile -t scene < <(files generator/scene)
-mapfile -t graph < <(files generator/program generator/emit)
+mapfile -t graph < <(files generator/program generator/emit generator/machine)
 mapfile -t generator < <(files generator | grep -v -e '^generator/commands' -e '^generator/main.cpp')
 mapfile -t not_reader < <(files lib generator | grep -v '^generator/scene/')
 mapfile -t not_module < <(files lib generator | grep -v '^lib/alembert/module.cpp')
@@ -40,7 +40,7 @@ done
 forbid 'the runtime includes the generator' "#include \"($every)/" "${runtime[@]}"
 forbid 'the runtime includes GPL libraries' "$ginac" "${runtime[@]}"
 forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
-forbid 'GiNaC in the rooms program and emit' '#include.*(ginac|"(symbolic|notation|model|formalism|lower)/)' "${graph[@]}"
+forbid 'GiNaC in the rooms program, emit and machine' '#include.*(ginac|"(symbolic|notation|model|formalism|lower)/)' "${graph[@]}"
 forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
 forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
 mapfile -t not_options < <(files lib generator | grep -v -e '^generator/commands/\(verb.cpp\|help\|command_line.cpp\)')
@@ -49,7 +49,9 @@ mapfile -t not_urdf < <(files lib generator | grep -v '^generator/urdf/')
 forbid 'urdfdom outside its reader' '#include.*(urdf_|tinyxml|console_bridge)' "${not_urdf[@]}"
 mapfile -t not_server < <(files lib generator | grep -v '^generator/commands/page_server.cpp')
 forbid 'cpp-httplib outside the server of pages' '#include.*httplib' "${not_server[@]}"
+mapfile -t not_executable < <(files lib generator | grep -v '^lib/alembert/executable.cpp')
 forbid 'dlfcn outside the module' '#include <dlfcn' "${not_module[@]}"
+forbid 'memory that can be run outside its one file' 'PROT_EXEC' "${not_executable[@]}"
 forbid 'the emitted code includes something' '#include' templates/solver.cpp.mustache generated/*.cpp
 forbid 'a shell' '\b(system|popen)\(' "${runtime[@]}" "${generator[@]}"
 

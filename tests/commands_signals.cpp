@@ -30,7 +30,7 @@ chmod +x slow
 export CXX="$PWD/slow" NOTE="$PWD/note" TMPDIR="$PWD/temporary" XDG_CACHE_HOME="$PWD/$4"
 mkdir temporary
 : >file
-"$ALEMBERT" simulate "$2" >out 2>err &
+"$ALEMBERT" simulate --code compiled "$2" >out 2>err &
 program=$!
 for k in $(seq 200); do [ -s note ] && break; sleep 0.05; done
 [ -s note ] || { cat err >&2; exit 99; }

@@ -68,10 +68,13 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SimulateVerb>(
         app, chosen,
         {.name = "simulate",
-         .about = say("emits, compiles and integrates, and says how large the error is"),
+         .about = say("makes code, integrates, and says how large the error is"),
          .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
         run, [](Verb& verb, SimulateVerb& options) {
             add_run_options(verb, options);
+            verb.add_option("--code", options.wishes.code, say("auto (default); memory: no compiler; compiled"))
+                .type_name(values::code)
+                .one_of({"auto", "memory", "compiled"});
             verb.add_option("--sample", options.wishes.sample, say("time between rows of the table"))
                 .type_name(values::seconds)
                 .positive();

@@ -18,7 +18,7 @@ inline constexpr const char *scene = "SCENE", *claims = "CLAIMS", *robot = "ROBO
                             *seconds = "S", *number = "X", *count = "N", *assignment = "NAME=VALUE",
                             *names = "NAMES", *range = "RANGE", *interval = "NAME=FROM:TO", *shell = "SHELL",
                             *verb = "VERB", *language = "LANGUAGE", *point = "POINT", *formula = "EXPRESSION",
-                            *reading = "en|zh", *interface_version = "2|3", *sampling = "SAMPLING",
+                            *reading = "en|zh", *interface_version = "2|3", *sampling = "SAMPLING", *code = "CODE",
                             *statistics = "LIST";
 }
 

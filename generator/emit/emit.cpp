@@ -62,6 +62,12 @@ std::vector<std::string> labels(const Program& p, std::initializer_list<Group> g
     return result;
 }
 
+std::vector<std::string> texts(const std::vector<int>& numbers) {
+    std::vector<std::string> result;
+    for (const int number : numbers) result.push_back(std::to_string(number));
+    return result;
+}
+
 class SolverFile {
 public:
     SolverFile(const Program& program, const EmitOptions& options)
@@ -108,15 +114,10 @@ private:
         for (const FunctionTask& task :
              {mass_forcing(p_), energy(p_), outputs_at(p_), events_at(p_), constraints_at(p_), multipliers_at(p_)})
             add(task);
-        const std::vector<int> position = p_.nodes_of(Group::position);
-        const bool has_gamma = !p_.nodes_of(Group::gamma).empty(), moves = !p_.nodes_of(Group::projected).empty();
-        const bool is_needed = has_gamma || std::any_of(position.begin(), position.end(),
-                                                        [&](int node) { return !p_.is_zero(node); });
         add(impulses_at(p_));
         add(project(p_));
-        add(moves ? gamma_at(p_)
-                  : FunctionTask{.name = "gamma_at", .about = {}, .arguments = {}, .goals = {}, .results = {}});
-        file_.set("has_projection", !position.empty() && is_needed == moves);
+        add(gamma_at(p_));
+        file_.set("has_projection", has_projection(p_));
     }
 
     void add_derivatives() {
@@ -126,12 +127,12 @@ private:
         for (const SparseTask* part : {&by_state, &by_parameters, &of_values}) add(part->task);
         file_.set("has_derivatives", !nodes.empty());
         file_.set("has_parameter_derivatives", !p_.nodes_of(Group::parameter_jacobian).empty());
-        file_.set("rows", wrapped_list(by_state.rows));
-        file_.set("columns", wrapped_list(by_state.columns));
-        file_.set("parameter_rows", wrapped_list(by_parameters.rows));
-        file_.set("parameter_columns", wrapped_list(by_parameters.columns));
-        file_.set("value_rows", wrapped_list(of_values.rows));
-        file_.set("value_columns", wrapped_list(of_values.columns));
+        file_.set("rows", wrapped_list(texts(by_state.rows)));
+        file_.set("columns", wrapped_list(texts(by_state.columns)));
+        file_.set("parameter_rows", wrapped_list(texts(by_parameters.rows)));
+        file_.set("parameter_columns", wrapped_list(texts(by_parameters.columns)));
+        file_.set("value_rows", wrapped_list(texts(of_values.rows)));
+        file_.set("value_columns", wrapped_list(texts(of_values.columns)));
         number("value_entries", of_values.rows.size());
         number("entries", by_state.rows.size());
         number("parameter_entries", by_parameters.rows.size());

@@ -58,6 +58,14 @@ std::vector<std::string> ignored(const std::vector<FunctionArgument>& arguments,
     return names;
 }
 
+/// "mass[1] = mass[2]"
+std::string place_of(const FunctionResult& result) {
+    std::string text;
+    for (const std::size_t place : result.places)
+        text += fmt::format("{}{}[{}]", text.empty() ? "" : " = ", result.array, place);
+    return text;
+}
+
 std::set<std::string> used_in(const std::vector<Passage>& passages, const std::vector<ArrayInput>& items) {
     constexpr const char* arrays[] = {"state", "rate", "par"};
     std::set<std::string> used;
@@ -120,9 +128,14 @@ std::vector<EmittedFunction> written(const Program& program, const Vocabulary& w
     if (task.results.empty() && task.copies.empty()) return {};
     Writer writer(program, words.names(), words.leaves(), options.batch, options.language);
     std::vector<Passage> passages = writer.write(task.goals);
-    Passage last{.title = "Result", .statements = task.copies};
+    Passage last{.title = "Result"};
+    for (const RateCopy& copy : task.copies) {
+        const std::string& speed = words.u()[static_cast<std::size_t>(copy.from) - words.q().size()];
+        last.statements.push_back(
+            {.uses = {"rate", speed}, .text = fmt::format("rate[{}] = {};", copy.to, speed)});
+    }
     for (const FunctionResult& result : task.results)
-        last.statements.push_back(writer.assigned(result.array, result.place, result.node));
+        last.statements.push_back(writer.assigned(result.array, place_of(result), result.node));
     passages.push_back(std::move(last));
     std::vector<ArrayInput> items = words.inputs(writer.uses(), !task.copies.empty());
     if (options.language == CodeLanguage::c) {  // C compilers warn about names that are not used

@@ -19,10 +19,16 @@ struct FunctionArgument {
     std::string type, name;  ///< "const Real*", "state"
 };
 
-/// The value of a goal is written to `place` in the array `array`.
+/// The value of a node is written to these places in the array.
 struct FunctionResult {
-    std::string array, place;  ///< "mass", "mass[1] = mass[2]"
+    std::string array;
+    std::vector<std::size_t> places;
     int node;
+};
+
+/// rate[to] = state[from]: a rate that is a speed.
+struct RateCopy {
+    int from, to;
 };
 
 struct FunctionTask {
@@ -30,7 +36,7 @@ struct FunctionTask {
     std::vector<FunctionArgument> arguments;
     std::vector<Goal> goals;
     std::vector<FunctionResult> results;
-    std::vector<CodeStatement> copies = {};  ///< written before the results: the rates that are speeds
+    std::vector<RateCopy> copies = {};  ///< written before the results
 };
 
 struct EmittedFunction {

@@ -34,8 +34,7 @@ void add_goals(std::vector<Goal>& goals, const Program& p, Group group, const st
 /// Adds results for array[first], array[first + 1] …
 void add_results(std::vector<FunctionResult>& results, const Program& p, Group group, const std::string& array,
                  std::size_t first = 0) {
-    for (const int node : p.nodes_of(group))
-        results.push_back({array, fmt::format("{}[{}]", array, first++), node});
+    for (const int node : p.nodes_of(group)) results.push_back({array, {first++}, node});
 }
 
 std::vector<Goal> unnamed(const std::string& section, const std::vector<FunctionResult>& results) {
@@ -67,9 +66,9 @@ SparseTask sparse(FunctionTask task, const Program& p, const std::vector<std::pa
         for (std::size_t k = 0; const int node : p.nodes_of(group)) {
             const std::size_t entry = k++;
             if (p.is_zero(node)) continue;
-            result.rows.push_back(std::to_string(first + entry / columns));
-            result.columns.push_back(std::to_string(entry % columns));
-            result.task.results.push_back({"values", fmt::format("values[{}]", result.task.results.size()), node});
+            result.rows.push_back(static_cast<int>(first + entry / columns));
+            result.columns.push_back(static_cast<int>(entry % columns));
+            result.task.results.push_back({"values", {result.task.results.size()}, node});
         }
     result.task.goals = unnamed("Derivatives", result.task.results);
     return result;
@@ -114,8 +113,7 @@ FunctionTask right_hand_side(const Program& p, const Vocabulary& words) {
     add_results(task.results, p, Group::rate, "rate");
     add_results(task.results, p, Group::acceleration, "rate", n);
     for (std::size_t i = 0; i < n && !own_speeds; ++i)
-        task.copies.push_back(
-            {.uses = {"rate", words.u()[i]}, .text = fmt::format("rate[{}] = {};", i, words.u()[i])});
+        task.copies.push_back({.from = static_cast<int>(n + i), .to = static_cast<int>(i)});
     return task;
 }
 
@@ -132,8 +130,9 @@ FunctionTask mass_forcing(const Program& p) {
     const std::size_t s = speeds_of(p);
     for (std::size_t i = 0, k = 0; i < s; ++i)
         for (std::size_t j = 0; j <= i; ++j, ++k) {
-            const std::string mirror = i == j ? "" : fmt::format("mass[{}] = ", j * s + i);
-            task.results.push_back({"mass", fmt::format("{}mass[{}]", mirror, i * s + j), task.goals[k].node});
+            std::vector<std::size_t> places{i * s + j};
+            if (i != j) places.insert(places.begin(), j * s + i);
+            task.results.push_back({"mass", std::move(places), task.goals[k].node});
         }
     add_results(task.results, p, Group::forcing, "forcing");
     return task;
@@ -224,11 +223,20 @@ FunctionTask gamma_at(const Program& p) {
                       .arguments = {t, state, par, to("out")},
                       .goals = {},
                       .results = {}};
+    if (p.nodes_of(Group::projected).empty()) return task;
     add_goals(task.goals, p, Group::gamma, "Constraints");
     const std::vector<int> kept = p.kept_constraints();
     for (std::size_t k = 0; k < kept.size(); ++k)
-        task.results.push_back({"out", fmt::format("out[{}]", kept[k]), task.goals[k].node});
+        task.results.push_back({"out", {static_cast<std::size_t>(kept[k])}, task.goals[k].node});
     return task;
+}
+
+bool has_projection(const Program& p) {
+    const std::vector<int> position = p.nodes_of(Group::position);
+    const bool is_needed =
+        !p.nodes_of(Group::gamma).empty() ||
+        std::any_of(position.begin(), position.end(), [&](int node) { return !p.is_zero(node); });
+    return !position.empty() && is_needed == !p.nodes_of(Group::projected).empty();
 }
 
 FunctionTask impulses_at(const Program& p) {
@@ -249,7 +257,7 @@ FunctionTask named_function(const Program&, const NamedFunction& function) {
                       .goals = {},
                       .results = {}};
     for (std::size_t k = 0; k < function.nodes.size(); ++k)
-        task.results.push_back({"out", fmt::format("out[{}]", k), function.nodes[k]});
+        task.results.push_back({"out", {k}, function.nodes[k]});
     task.goals = unnamed("Values", task.results);
     return task;
 }

@@ -20,6 +20,9 @@ FunctionTask multipliers_at(const Program& program);
 /// One step of the projection to the constraints; it has no results if there is no such step.
 FunctionTask project(const Program& program);
 FunctionTask gamma_at(const Program& program);
+/// Whether the solver has the table of the projection: there are constraints, and the program moves states to them
+/// if any of them needs that.
+bool has_projection(const Program& program);
 /// The impulses of events; without results if no event of the program has one.
 FunctionTask impulses_at(const Program& program);
 
@@ -29,7 +32,7 @@ FunctionTask named_function(const Program& program, const NamedFunction& functio
 /// The entries of a Jacobian that are not zero.
 struct SparseTask {
     FunctionTask task;
-    std::vector<std::string> rows, columns;
+    std::vector<int> rows, columns;
 };
 SparseTask jacobian(const Program& program);
 SparseTask parameter_jacobian(const Program& program);

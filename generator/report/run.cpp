@@ -271,9 +271,11 @@ void add_account(std::string& page, const Run& run) {
     if (energy.jacobi_conserved) say_on(page, "T2 - T0 + V is; its drift {:.2e}\n", energy.jacobi_drift);
     if (run.is_constrained()) say_on(page, "constraint drift {:.2e}\n", run.constraint_drift);
     for (const std::string& line : run.adjusted) say_on(page, "adjusted at the start: {}\n", line);
+    const std::string code = run.solver.code == CodeKind::memory ? say(" (in memory)")
+                             : run.solver.from_cache             ? say(" (cached)")
+                                                                 : "";
     say_on(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.timings.derive,
-           run.timings.emit, run.timings.compile, run.solver.from_cache ? say(" (cached)") : "",
-           run.timings.integrate);
+           run.timings.emit, run.timings.compile, code, run.timings.integrate);
 }
 
 }  // namespace
@@ -293,6 +295,7 @@ Json as_json(const Run& run) {
     for (const Switch& later : s.later_switches) result["switched_later"].push_back(json_of(later));
     if (run.solver.jacobian_operations) result["jacobian_operations"] = *run.solver.jacobian_operations;
     result["formulation"] = run.solver.formulation;
+    result["code"] = name_of(run.solver.code);
     result["steps"] = s.steps;
     result["rejected"] = s.rejected;
     result["evaluations"] = s.evaluations;

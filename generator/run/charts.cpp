@@ -9,8 +9,8 @@
 
 #include "alembert/project.hpp"
 #include "alembert/run.hpp"
-#include "emit/emit.hpp"
 #include "language/say.hpp"
+#include "run/solver_code.hpp"
 
 namespace alembert {
 
@@ -33,7 +33,7 @@ std::optional<AnglesOfFrame> angles_of_frame(const Derived& d, const MethodChoic
 class ChartRun::Parts {
 public:
     Parts(const Derived& d, const AnglesOfFrame& angles, const std::vector<double>& parameters, Work work,
-          const CompileOptions& options)
+          const RunOptions& wishes)
         : angles_(angles), n_(d.mechanism.size()) {
         if (named_elsewhere(d.scene, angles)) throw ModelError(say("other parts of the scene name the angles"));
         const Derived other = derived(with_quaternion(d.scene, angles), {.use = Use::run});
@@ -41,7 +41,7 @@ public:
             throw ModelError(
                 say("the equations are in generalized speeds (the formalism 'routh' has them in rates)"));
         const Program program = lowered(other).program;
-        const Module module = load(compile(emit(program).text, program.name + "_quaternion", options).object);
+        const Module module = solver_code(program, program.name + "_quaternion", wishes).module;
         projection_.emplace(module, parameters);
         rhs_ = make_rhs(module, parameters, work);
         if (work == Work::integrated) rhs_.extra = 0;
@@ -187,8 +187,8 @@ private:
 };
 
 ChartRun::ChartRun(const Derived& derived, const AnglesOfFrame& angles, const std::vector<double>& parameters,
-                   Work work, const CompileOptions& options)
-    : parts_(std::make_unique<Parts>(derived, angles, parameters, work, options)) {}
+                   Work work, const RunOptions& wishes)
+    : parts_(std::make_unique<Parts>(derived, angles, parameters, work, wishes)) {}
 
 ChartRun::~ChartRun() = default;
 

@@ -5,7 +5,7 @@
 /// with a quaternion in their place, and comes back.
 ///
 ///     if (const auto angles = angles_of_frame(derived)) …       // nothing where no chart can replace them
-///     ChartRun charts(derived, *angles, start, work, options);  // derives, emits, compiles the other description
+///     ChartRun charts(derived, *angles, start, work, wishes);  // derives the other description
 ///     contact.by = charts.integrator();
 ///     charts.passes();                                          // where it went on with the quaternion
 ///
@@ -21,11 +21,11 @@
 #include <memory>
 #include <optional>
 
-#include "alembert/compile.hpp"
 #include "alembert/integrate.hpp"
 #include "derive/derived.hpp"
 #include "run/angles_of_frame.hpp"
 #include "run/method.hpp"
+#include "run/options.hpp"
 
 namespace alembert {
 
@@ -44,7 +44,7 @@ public:
     /// Throws what the stages throw, also where other parts of the scene name the angles. Not movable, because the
     /// integrator refers to it.
     ChartRun(const Derived& derived, const AnglesOfFrame& angles, const std::vector<double>& parameters, Work work,
-             const CompileOptions& options);
+             const RunOptions& wishes);
     ~ChartRun();
     ChartRun(const ChartRun&) = delete;
     ChartRun& operator=(const ChartRun&) = delete;

@@ -2,6 +2,7 @@
 #include "run/compiled_modes.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
@@ -53,12 +54,32 @@ void CompiledModes::take_free(Program program) {
 
 int CompiledModes::operations() const {
     int most = 0;
-    for (const auto& [closed, mode] : made_) most = std::max(most, mode->source.operations.total());
+    for (const auto& [closed, mode] : made_) most = std::max(most, mode->operations.total());
     return most;
 }
 
-CompileOptions CompiledModes::options_of_compiler() const {
-    return {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}};
+CompiledMode& CompiledModes::own(const CompiledMode& mode) {
+    return *std::find_if(made_.begin(), made_.end(), [&](const auto& entry) {
+                return entry.second.get() == &mode;
+            })->second;
+}
+
+bool CompiledModes::may_go_over(const CompiledMode& mode) const {
+    return !is_shared && mode.code.go_over && alembert::may_go_over(wishes_);
+}
+
+void CompiledModes::go_over(const CompiledMode& asked) {
+    CompiledMode& mode = own(asked);
+    const auto go_over = std::exchange(mode.code.go_over, {});
+    const double begin = process_seconds();
+    try {
+        const SolverCode compiled = compiled_code(mode.run(), mode.program.name, wishes_);
+        go_over(compiled.module);
+        mode.code.from_cache = compiled.from_cache;
+        mode.kind = CodeKind::both;
+    } catch (const CompileError&) {
+    }
+    seconds_.compile += process_seconds() - begin;
 }
 
 const CompiledMode& CompiledModes::operator()(const std::vector<int>& closed, const State<double>& first) {
@@ -70,18 +91,15 @@ const CompiledMode& CompiledModes::operator()(const std::vector<int>& closed, co
 
 const Module* CompiledModes::jacobian_of(const CompiledMode& asked) {
     const std::lock_guard lock(symbols);
-    const auto own =
-        std::find_if(made_.begin(), made_.end(), [&](const auto& entry) { return entry.second.get() == &asked; });
-    CompiledMode& mode = *own->second;
+    CompiledMode& mode = own(asked);
     if (!mode.was_asked_for_jacobian) {
         mode.was_asked_for_jacobian = true;
         double clock = process_seconds();
         if (const auto derivatives = affordable_derivatives(mode.program, work_)) {
-            const Source source = emit(derivatives->program);
             seconds_.emit += process_seconds() - clock;
             clock = process_seconds();
             mode.with_jacobian =
-                load(compile(source.text, mode.program.name + "_jacobian", options_of_compiler()).object);
+                solver_code(derivatives->program, mode.program.name + "_jacobian", wishes_).module;
             mode.jacobian_operations = derivatives->operations.total();
             seconds_.compile += process_seconds() - clock;
         }
@@ -111,36 +129,43 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
     std::optional<Switched> jumps;
     if (!takes_signs_as_they_are(method_, derived)) jumps = switched(program);
     const Program& smooth = jumps ? jumps->program : program;
-    const std::optional<Differentiated> derivatives =
+    std::optional<Differentiated> derivatives =
         uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;
     std::optional<Source> series;
     if (needs_series(method_.method)) series = emit_taylor(smooth, work_ == Work::integrated);
-    std::optional<Source> form;
-    if (needs_canonical(method_.method)) form = emit(canonical_form(derived));
-    Source source = emit(derivatives ? derivatives->program : smooth);
+    std::optional<Program> form;
+    if (needs_canonical(method_.method)) form = canonical_form(derived);
     seconds_.emit += lap();
-    const Compiled compiled = compile(source.text, program.name, options_of_compiler());
-    const Module module = load(compiled.object);
+    SolverCode code = solver_code(derivatives ? derivatives->program : smooth, program.name, wishes_);
     SeriesModule series_module;
     if (series)
-        series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
+        series_module =
+            load_series(compile(series->text, program.name + "_taylor", compile_options(wishes_)).object);
     std::optional<Module> canonical;
-    if (form) canonical = load(compile(form->text, program.name + "_canonical", options_of_compiler()).object);
+    if (form) canonical = solver_code(*form, program.name + "_canonical", wishes_).module;
     seconds_.compile += lap();
+    const CodeKind kind = !code.go_over ? CodeKind::compiled : series_module ? CodeKind::both : CodeKind::memory;
+    std::optional<Program> running;
+    if (derivatives)
+        running = std::move(derivatives->program);
+    else if (jumps)
+        running = smooth;
     std::vector<std::string> sides = jumps ? names_of_sides(program, *jumps) : std::vector<std::string>();
     const double effort = effort_of(program);
-    return std::make_unique<CompiledMode>(CompiledMode{
+    auto mode = std::make_unique<CompiledMode>(CompiledMode{
         .derived = std::move(derived),
         .program = std::move(program),
         .jumps = std::move(jumps),
         .sides = std::move(sides),
-        .source = std::move(source),
-        .module = module,
+        .running = std::move(running),
+        .code = std::move(code),
+        .kind = kind,
         .series = series_module,
         .canonical = canonical,
-        .from_cache = compiled.from_cache,
         .jacobian_operations = derivatives ? std::optional(derivatives->operations.total()) : std::nullopt,
         .effort = effort});
+    mode->operations = mode->run().count(mode->run().right_hand_side());
+    return mode;
 }
 
 }  // namespace alembert

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The contact modes of a scene, each derived, emitted, compiled and loaded when a motion first needs it. They
-/// hold no numbers of a motion, so that any number of motions share them (run/loaded_modes.hpp), on several
+/// The contact modes of a scene, each derived and made into code (solver_code.hpp) when a motion first needs it.
+/// They hold no numbers of a motion, so that any number of motions share them (run/loaded_modes.hpp), on several
 /// threads.
 ///
 ///     CompiledModes compiled(wishes, derived, Work::left_out, method);
@@ -15,27 +15,28 @@
 #include <memory>
 #include <mutex>
 
-#include "alembert/compile.hpp"
 #include "alembert/module.hpp"
 #include "alembert/rhs.hpp"
 #include "alembert/series.hpp"
 #include "derive/derived.hpp"
-#include "emit/emit.hpp"
 #include "program/switches.hpp"
 #include "run/method.hpp"
+#include "run/solver_code.hpp"
 
 namespace alembert {
 
 struct CompiledMode {
     Derived derived;  ///< with a mechanism in which the closed contacts are constraints
     Program program;
-    std::optional<Switched> jumps;   ///< where signs are held constant
-    std::vector<std::string> sides;  ///< the names of these signs
-    Source source;
-    Module module;
-    SeriesModule series = {};              ///< for taylor
-    std::optional<Module> canonical = {};  ///< for rattle
-    bool from_cache = false;
+    std::optional<Switched> jumps;        ///< where signs are held constant
+    std::vector<std::string> sides;       ///< the names of these signs
+    std::optional<Program> running = {};  ///< set if it is not `program` whose functions run
+    const Program& run() const { return running ? *running : program; }
+    SolverCode code;
+    CodeKind kind = CodeKind::memory;
+    Operations operations = {};                   ///< of one right-hand side
+    SeriesModule series = {};                     ///< for taylor
+    std::optional<Module> canonical = {};         ///< for rattle
     std::optional<int> jacobian_operations = {};  ///< set if it is emitted
     double effort = 0;                            ///< of a right-hand side (effort_of)
     bool was_asked_for_jacobian = false;
@@ -62,6 +63,11 @@ public:
     /// The mode's solver with its Jacobian; null if that is too long to be written out.
     const Module* jacobian_of(const CompiledMode& mode);
 
+    /// Whether code in memory may be replaced by compiled code: not where several threads share it.
+    bool may_go_over(const CompiledMode& mode) const;
+    /// Compiles the mode's code, which takes the place of that in memory. Without a compiler, that stays.
+    void go_over(const CompiledMode& mode);
+
     /// Uses a given program for the mode {}.
     void take_free(Program program);
 
@@ -77,10 +83,11 @@ public:
     Work work() const { return work_; }
 
     std::recursive_mutex symbols;
+    bool is_shared = false;  ///< by several threads
 
 private:
     std::unique_ptr<CompiledMode> made(const std::vector<int>& closed, const State<double>& first);
-    CompileOptions options_of_compiler() const;
+    CompiledMode& own(const CompiledMode& mode);
 
     const RunOptions& wishes_;
     const Derived& derived_;

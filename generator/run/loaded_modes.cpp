@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "alembert/canonical.hpp"
+#include "alembert/pace.hpp"
 #include "language/say.hpp"
 #include "run/first_accelerations.hpp"
 #include "run/held_state.hpp"
@@ -101,6 +102,14 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
     return *mode.when_stiff;
 }
 
+/// Goes over to compiled code where that is predicted to pay.
+void LoadedModes::count_step(LoadedMode& mode) {
+    if (!compiled_.may_go_over(mode.compiled)) return;
+    constexpr double evaluations = 16;  // of a usual step, between those of the explicit methods
+    mode.effort += evaluations * effort_of_evaluation(mode.contact.rhs, uses_jacobian(compiled_.method().method));
+    if (pays_to_compile(mode.compiled.run(), mode.effort)) compiled_.go_over(mode.compiled);
+}
+
 void LoadedMode::hold(const std::vector<double>& sigma) {
     const auto first = par.begin() + module.table().parameters - static_cast<std::ptrdiff_t>(sigma.size());
     if (std::equal(sigma.begin(), sigma.end(), first)) return;
@@ -173,7 +182,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
         need_accelerations(made.derived, made.program, first_);
     }
     const MethodChoice& method = compiled_.method();
-    const Module& module = made.module;
+    const Module& module = made.code.module;
     const std::optional<Switched>& jumps = made.jumps;
     const std::size_t sides = jumps ? jumps->functions.size() : 0;
     const std::size_t watched = jumps && jumps->has_frictions() ? 4 * sides : 2 * sides;
@@ -193,7 +202,6 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
         LoadedMode{.compiled = made,
                    .derived = made.derived,
                    .program = made.program,
-                   .source = made.source,
                    .module = module,
                    .par = prepared(module, values),
                    .projection = Projection(module, values),
@@ -214,6 +222,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
         if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
     }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
+        count_step(*self);
         on_step_(*self, t, state, rate);
     };
     return mode;

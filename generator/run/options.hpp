@@ -15,6 +15,9 @@ namespace alembert {
 struct RunOptions {
     std::string by = {};      ///< a formalism; if empty, the program chooses
     std::string method = {};  ///< if empty, the scene's
+    /// "memory", "compiled" or "auto" (solver_code.hpp); if empty, that of the environment's ALEMBERT_CODE, or
+    /// auto.
+    std::string code = {};
     double duration = -1, tolerance = -1, step = -1, sample = -1,
            max_step = -1;      ///< in s, except the tolerance; if negative, the scene's
     long budget = 10'000'000;  ///< the most right-hand sides

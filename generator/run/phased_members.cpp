@@ -51,6 +51,7 @@ PhasedMembers::PhasedMembers(const Derived& derived, const RunOptions& wishes, c
       along_(along),
       work_(work_of(derived.mechanism)),
       compiled_(wishes, derived, work_, method) {
+    compiled_.is_shared = true;
     if (!has_jumps(derived.mechanism)) return;
     view_.emplace(derived.mechanism);
     kicks_.emplace(derived.mechanism);
@@ -58,7 +59,7 @@ PhasedMembers::PhasedMembers(const Derived& derived, const RunOptions& wishes, c
 
 Module PhasedMembers::compile(const State<double>& first) {
     free_ = &compiled_({}, first);
-    return free_->module;
+    return free_->code.module;
 }
 
 std::optional<std::string> PhasedMembers::obstacle(const Start& start) const {

@@ -187,9 +187,7 @@ private:
         ContactMode& mode = modes({}).contact;
         if (mode.switching) return false;
         try {
-            charts_.emplace(
-                run_, *angles_, start_.parameters, work(),
-                CompileOptions{.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}});
+            charts_.emplace(run_, *angles_, start_.parameters, work(), wishes_);
         } catch (const CompileError&) {
             throw;
         } catch (const std::runtime_error& reason) {
@@ -259,10 +257,11 @@ private:
     void describe(LoadedModes& modes, const LoadedMode& free) {
         const Mechanism& m = run_.mechanism;
         run_.why_method = choice_.why;
-        run_.solver = {.formulation = free.source.formulation,
+        run_.solver = {.formulation = free.compiled.run().formulation,
                        .operations = modes.compiled().operations(),
                        .jacobian_operations = free.compiled.jacobian_operations,
-                       .from_cache = free.compiled.from_cache};
+                       .code = free.compiled.kind,
+                       .from_cache = free.compiled.code.from_cache};
         for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
         const auto end = run_.motion.final_state();
         run_.final_coordinates.assign(end.begin(), end.begin() + m.size());

@@ -9,7 +9,7 @@
 ///     *run.estimate->value;              // the estimated error
 ///     run.doubts.empty();                // nothing speaks against trusting it
 ///
-/// The scene is derived, emitted, compiled (compiled solvers are kept in a cache) and integrated; contact modes
+/// The scene is derived, turned into code (solver_code.hpp) and integrated; contact modes
 /// are treated in this way when the motion first reaches them.
 
 #include <optional>
@@ -20,6 +20,7 @@
 #include "run/options.hpp"
 #include "run/rows.hpp"
 #include "run/sensitivity.hpp"
+#include "run/solver_code.hpp"
 
 namespace alembert {
 
@@ -38,11 +39,12 @@ struct Timings {
     double derive = 0, emit = 0, compile = 0, integrate = 0, estimate = 0;
 };
 
-/// The solver that was compiled for the run.
+/// The solver that was made for the run.
 struct Solver {
     std::string formulation;  ///< formalism and form, for people
     int operations = 0;       ///< operations of one right-hand side, the largest number of all contact modes
     std::optional<int> jacobian_operations;  ///< set if the Jacobian is emitted
+    CodeKind code = CodeKind::memory;        ///< that of the mode in which the run began
     bool from_cache = false;
 };
 
@@ -87,8 +89,8 @@ struct Run : Derived {
 };
 
 /// Throws what `derived` throws; ModelError for a method that the scene does not allow; IntegrationError if there
-/// are no finite accelerations at the start; CompileError if there is no compiler. A motion that ends early later
-/// on is a Run with a `failure`.
+/// are no finite accelerations at the start; CompileError if a compiler is needed and there is none. A motion that
+/// ends early later on is a Run with a `failure`.
 Run simulate(Scene scene, const RunOptions& wishes = {});
 
 }  // namespace alembert

@@ -9,7 +9,6 @@
 #include <set>
 #include <utility>
 
-#include "alembert/compile.hpp"
 #include "alembert/fingerprint.hpp"
 #include "alembert/process_time.hpp"
 #include "emit/emit.hpp"
@@ -17,6 +16,7 @@
 #include "lower/lower.hpp"
 #include "run/method.hpp"
 #include "run/rows.hpp"
+#include "run/solver_code.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -146,16 +146,15 @@ void Sweeper::compile_phased() {
     ensemble_.emplace(
         Ensemble{.module = phased_->compile(state_of(start_of(s_.mechanism), s_.mechanism, s_.equations))});
     ensemble_->by = [this](const Member& member, std::vector<double>& state) { return (*phased_)(member, state); };
-    s_.formulation = phased_->free().source.formulation;
+    s_.formulation = phased_->free().run().formulation;
     s_.operations = phased_->operations();
     s_.timings.compile = phased_->seconds_of_compiler();
 }
 
 void Sweeper::compile_smooth() {
-    const Compiled compiled = alembert::compile(
-        source_, program_.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}});
-    s_.timings.compile = compiled.from_cache ? 0.0 : compiled.seconds;
-    ensemble_.emplace(Ensemble{.module = load(compiled.object)});
+    const double begin = process_seconds();
+    ensemble_.emplace(Ensemble{.module = batch_code(program_, source_, wishes_).module});
+    s_.timings.compile = process_seconds() - begin;
     ensemble_->along = !s_.along.empty();
     ensemble_->work = s_.conserved ? Work::left_out : Work::integrated;
     for (const Mechanism::EventAction& event : s_.mechanism.event_actions) {

@@ -32,6 +32,18 @@ private:
 
 class Module {
 public:
+    /// The tables of a solver, which the first of them keeps alive: those of a file (`load`), or of code in
+    /// memory.
+    explicit Module(std::shared_ptr<const alembert_solver_table> table,
+                    const alembert_derivative_table* derivatives = nullptr,
+                    const alembert_projection_table* projection = nullptr,
+                    const alembert_pack_table* pack = nullptr, const alembert_function_table* functions = nullptr)
+        : table_(std::move(table)),
+          derivatives_(derivatives),
+          projection_(projection),
+          pack_(pack),
+          functions_(functions) {}
+
     const alembert_solver_table& table() const { return *table_; }
     /// Null if the file was emitted without derivatives.
     const alembert_derivative_table* derivatives() const { return derivatives_; }
@@ -45,16 +57,7 @@ public:
     const alembert_named_function* function(const std::string& name) const;
 
 private:
-    friend Module load(const std::filesystem::path& object);
-    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives,
-           const alembert_projection_table* projection, const alembert_pack_table* pack,
-           const alembert_function_table* functions)
-        : table_(std::move(table)),
-          derivatives_(derivatives),
-          projection_(projection),
-          pack_(pack),
-          functions_(functions) {}
-    std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
+    std::shared_ptr<const alembert_solver_table> table_;  ///< owns what the tables point to
     const alembert_derivative_table* derivatives_;        ///< in it
     const alembert_projection_table* projection_;         ///< in it
     const alembert_pack_table* pack_;                     ///< in it

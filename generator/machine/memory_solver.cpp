@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "machine/memory_solver.hpp"
+
+#include "alembert/error.hpp"
+#include "alembert/executable.hpp"
+#include "alembert/packs.hpp"
+#include "emit/solver_functions.hpp"
+#include "machine/registers.hpp"
+
+namespace alembert {
+
+namespace {
+
+using namespace machine;
+
+/// Names as a table lists them.
+class NameList {
+public:
+    explicit NameList(std::vector<std::string> names) : names_(std::move(names)) {
+        for (const std::string& name : names_) list_.push_back(name.c_str());
+        list_.push_back(nullptr);
+    }
+    NameList(const NameList&) = delete;
+    NameList& operator=(const NameList&) = delete;
+    const char* const* list() const { return list_.data(); }
+
+private:
+    std::vector<std::string> names_;
+    std::vector<const char*> list_;
+};
+
+std::vector<std::string> labels(const Program& p, std::initializer_list<Group> groups) {
+    std::vector<std::string> result;
+    for (const Group group : groups)
+        for (const Root& root : p.roots)
+            if (root.group == group) result.push_back(ascii_identifier(root.name));
+    return result;
+}
+
+/// All that the tables point to.
+struct Tables {
+    explicit Tables(const Program& p, const Vocabulary& words)
+        : scene(ascii_identifier(p.name)),
+          formulation(p.formulation),
+          coordinates(words.q()),
+          speeds(words.u()),
+          parameters(words.par()),
+          outputs(labels(p, {Group::output, Group::speed})),
+          events(labels(p, {Group::event})) {
+        for (const Quantity& parameter : p.parameters) values.push_back(parameter.value);
+    }
+
+    std::string scene, formulation;
+    NameList coordinates, speeds, parameters, outputs, events;
+    std::vector<double> values;
+    std::shared_ptr<const std::uint8_t> code;
+    std::vector<int> rows, columns, parameter_rows, parameter_columns;
+    alembert_solver_table solver{};
+    alembert_derivative_table derivatives{};
+    alembert_projection_table projection{};
+    std::shared_ptr<const alembert_pack_table> packs;
+    std::optional<Module> compiled;
+};
+
+class Building {
+public:
+    explicit Building(const Program& program, int lanes = 1)
+        : p_(program), words_(program), ready_(program, roots_of(program)), lanes_(lanes), code_(lanes) {}
+
+    std::optional<MemorySolver> solver(std::shared_ptr<const alembert_pack_table> packs) {
+        const auto tables = std::make_shared<Tables>(p_, words_);
+        alembert_solver_table& s = tables->solver;
+        describe(*tables);
+        tables->packs = std::move(packs);
+        s.prepare = [](double*) {};
+        s.energy = [](double, const double*, const double*, const double*, double*, double*) {};
+        s.outputs_at = s.events_at = [](double, const double*, const double*, const double*, double*) {};
+        s.constraints_at = [](double, const double*, const double*, double*, double*, double*) {};
+        s.multipliers_at = [](double, const double*, const double*, double*) {};
+        if (!words_.constants().empty()) write(lines_of_constants(p_, words_, ready_), s.prepare);
+        write(right_hand_side(p_, words_), s.rhs);
+        write(mass_forcing(p_), s.mass_forcing);
+        write(energy(p_), s.energy);
+        write(outputs_at(p_), s.outputs_at);
+        write(events_at(p_), s.events_at);
+        write(constraints_at(p_), s.constraints_at);
+        write(multipliers_at(p_), s.multipliers_at);
+        const bool projects = has_projection(p_);
+        if (projects) {
+            tables->projection.abi = abi_version;
+            write(project(p_), tables->projection.project);
+            write(gamma_at(p_), tables->projection.gamma_at);
+        }
+        const bool derives = !p_.nodes_of(Group::jacobian).empty();
+        if (derives) write_derivatives(*tables);
+        if (!is_possible_) return std::nullopt;
+        tables->code = placed();
+        if (!tables->code) return std::nullopt;
+        return MemorySolver{.module = Module(std::shared_ptr<const alembert_solver_table>(tables, &tables->solver),
+                                             derives ? &tables->derivatives : nullptr,
+                                             projects ? &tables->projection : nullptr, tables->packs.get()),
+                            .go_over = [tables](const Module& compiled) { take_over(*tables, compiled); }};
+    }
+
+    std::shared_ptr<const alembert_pack_table> packs() {
+        struct Packs {
+            alembert_pack_table table{};
+            std::shared_ptr<const std::uint8_t> code;
+        };
+        const auto packs = std::make_shared<Packs>();
+        alembert_pack_table& t = packs->table;
+        t.abi = abi_version;
+        t.lanes = lanes_;
+        t.prepare = [](double*) {};
+        t.energy = [](const double*, const double*, const double*, const double*, double*, double*) {};
+        t.outputs_at = [](const double*, const double*, const double*, const double*, double*) {};
+        if (!words_.constants().empty()) write(lines_of_constants_in_packs(p_, words_, ready_), t.prepare);
+        write_packed(right_hand_side(p_, words_), t.rhs);
+        write_packed(mass_forcing(p_), t.mass_forcing);
+        write_packed(energy(p_), t.energy);
+        write_packed(outputs_at(p_), t.outputs_at);
+        if (!is_possible_ || !(packs->code = placed())) return nullptr;
+        return {packs, &packs->table};
+    }
+
+private:
+    static std::vector<int> roots_of(const Program& p) {
+        std::vector<int> nodes;
+        for (const Root& root : p.roots) nodes.push_back(root.node);
+        return nodes;
+    }
+
+    void describe(Tables& tables) const {
+        const auto count = [](std::size_t size) { return static_cast<int>(size); };
+        alembert_solver_table& s = tables.solver;
+        s.abi = abi_version;
+        s.coordinates = count(words_.q().size());
+        s.speeds = count(words_.u().size());
+        s.parameters = count(words_.par().size());
+        s.constants = count(words_.constants().size());
+        s.outputs = count(p_.nodes_of(Group::output).size() + p_.nodes_of(Group::speed).size());
+        s.events = count(p_.nodes_of(Group::event).size());
+        s.constraints = count(p_.nodes_of(Group::velocity).size());
+        s.scene = tables.scene.c_str();
+        s.formulation = tables.formulation.c_str();
+        s.coordinate_names = tables.coordinates.list();
+        s.speed_names = p_.speeds.empty() ? nullptr : tables.speeds.list();
+        s.parameter_names = tables.parameters.list();
+        s.output_names = tables.outputs.list();
+        s.event_names = tables.events.list();
+        s.parameter_values = tables.values.data();
+    }
+
+    void write_derivatives(Tables& tables) {
+        const auto entries = [](SparseTask& task, std::vector<int>& rows, std::vector<int>& columns) {
+            rows = std::move(task.rows), columns = std::move(task.columns);
+            rows.push_back(-1), columns.push_back(-1);
+            return static_cast<int>(rows.size()) - 1;
+        };
+        SparseTask by_state = jacobian(p_), by_parameters = parameter_jacobian(p_);
+        alembert_derivative_table& d = tables.derivatives;
+        const auto nothing = [](double, const double*, const double*, double*) {};
+        d.abi = abi_version;
+        d.jacobian = nothing;
+        if (!p_.nodes_of(Group::parameter_jacobian).empty()) d.parameter_jacobian = nothing;
+        write(by_state.task, d.jacobian);
+        write(by_parameters.task, d.parameter_jacobian);
+        d.entries = entries(by_state, tables.rows, tables.columns);
+        d.parameter_entries = entries(by_parameters, tables.parameter_rows, tables.parameter_columns);
+        d.operations = p_.count(p_.nodes_of(Group::jacobian)).total();
+        d.rows = tables.rows.data(), d.columns = tables.columns.data();
+        d.parameter_rows = tables.parameter_rows.data(), d.parameter_columns = tables.parameter_columns.data();
+    }
+
+    /// The code in executable memory, with the addresses of its functions in the tables; null if there is none.
+    std::shared_ptr<const std::uint8_t> placed() {
+        std::shared_ptr<const std::uint8_t> code = executable(code_.finished());
+        if (code)
+            for (const auto& [begin, put] : functions_) put(code.get() + begin);
+        return code;
+    }
+
+    template <typename Function>
+    void write(const FunctionTask& task, Function& place) {
+        if (!task.results.empty() || !task.copies.empty()) write(lines_of(p_, words_, ready_, task), place);
+    }
+    /// The function, and before it the one that takes its place for large angles.
+    template <typename Function>
+    void write_packed(const FunctionTask& task, Function& place) {
+        if (task.results.empty() && task.copies.empty()) return;
+        code_.align();
+        const std::size_t other = code_.size();
+        is_possible_ =
+            is_possible_ && write_function(code_, lines_of_packs(p_, words_, ready_, task, Sines::called));
+        write(lines_of_packs(p_, words_, ready_, task, Sines::inside), place, other);
+    }
+    template <typename Function>
+    void write(const Lines& lines, Function& place, std::size_t other = 0) {
+        code_.align();
+        const std::size_t begin = code_.size();
+        is_possible_ = is_possible_ && write_function(code_, lines, other);
+        functions_.emplace_back(begin, [&place](const std::uint8_t* at) {
+            place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
+        });
+    }
+
+    static void take_over(Tables& tables, const Module& compiled) {
+        const auto functions = [](auto& own, const auto& other, auto... function) {
+            ((own.*function = other.*function), ...);
+        };
+        using S = alembert_solver_table;
+        functions(tables.solver, compiled.table(), &S::prepare, &S::rhs, &S::mass_forcing, &S::energy,
+                  &S::outputs_at, &S::events_at, &S::constraints_at, &S::multipliers_at);
+        if (compiled.projection() != nullptr)
+            functions(tables.projection, *compiled.projection(), &alembert_projection_table::project,
+                      &alembert_projection_table::gamma_at);
+        if (compiled.derivatives() != nullptr)
+            functions(tables.derivatives, *compiled.derivatives(), &alembert_derivative_table::jacobian,
+                      &alembert_derivative_table::parameter_jacobian);
+        tables.compiled = compiled;
+    }
+
+    const Program& p_;
+    Vocabulary words_;
+    Readiness ready_;
+    int lanes_ = 1;
+    Encoder code_;
+    bool is_possible_ = true;
+    std::vector<std::pair<std::size_t, std::function<void(const std::uint8_t*)>>> functions_;
+};
+
+}  // namespace
+
+std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs) {
+    if (!can_run() || (with_packs && !can_run(lanes))) return std::nullopt;
+    if (program.singular)
+        throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
+    std::shared_ptr<const alembert_pack_table> packs;
+    if (with_packs && !(packs = Building(program, lanes).packs())) return std::nullopt;
+    return Building(program).solver(std::move(packs));
+}
+
+}  // namespace alembert

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// How the functions of a solver are made: as machine code in memory, which takes milliseconds, or by the
+/// compiler.
+///
+///     const SolverCode code = solver_code(program, program.name, wishes);
+///     code.module.table().rhs(…);
+///     if (pays_to_compile(program, effort)) go_over(…);
+///
+/// A compiler's code is up to a fifth faster, and waits a tenth of a second for a pendulum and many seconds for a
+/// long chain. So a run begins in memory, and goes over to compiled code after steps that are predicted to have
+/// taken ten times as long as compiling. The prediction is made from counts alone, so that the same run takes the
+/// same code, and gives the same digits, every time.
+
+#include "alembert/compile.hpp"
+#include "machine/memory_solver.hpp"
+#include "run/options.hpp"
+
+namespace alembert {
+
+struct SolverCode {
+    Module module;
+    std::function<void(const Module& compiled)> go_over = {};  ///< set if the code is in memory
+    bool from_cache = false;
+};
+
+/// Where the scene's functions are, for people who ask.
+enum class CodeKind { memory, compiled, both };
+const char* name_of(CodeKind kind);
+
+CompileOptions compile_options(const RunOptions& wishes);
+
+/// The functions of `program` as RunOptions::code wants them; `name` is that of the compiled file. Throws
+/// ModelError for wishes that contradict each other, CompileError if the wished code cannot be made here.
+SolverCode solver_code(const Program& program, const std::string& name, const RunOptions& wishes);
+SolverCode compiled_code(const Program& program, const std::string& name, const RunOptions& wishes);
+
+/// The functions for one system and for eight at once, which a sweep takes. `text` is the emitted file.
+SolverCode batch_code(const Program& program, const std::string& text, const RunOptions& wishes);
+
+/// Whether compiling pays for a run that has taken `effort` (in predicted ns, as in pace.hpp) in memory.
+bool pays_to_compile(const Program& program, double effort);
+
+/// Whether code that begins in memory may be replaced.
+bool may_go_over(const RunOptions& wishes);
+
+}  // namespace alembert
