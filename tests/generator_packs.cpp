@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Functions over packs against the scalar functions of the same file, which generator_agreement.cpp holds against
-// the interpreter: M, f, energies and outputs to 4 ulp of the largest term, accelerations to 4 ulp times the
-// condition of M.
+// Functions over packs, compiled and in memory, against the scalar functions beside them, which
+// generator_agreement.cpp holds against the interpreter: M, f, energies and outputs to 4 ulp of the largest term,
+// accelerations to 4 ulp times the condition of M.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -13,6 +13,7 @@
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
+#include "machine/memory_solver.hpp"
 #include "scenes.hpp"
 #include "state/prepared.hpp"
 
@@ -67,13 +68,7 @@ struct Values {
 
 constexpr double four_ulp = 4 * std::numeric_limits<double>::epsilon();
 
-void agrees(const std::string& scene, const std::string& by, const std::vector<std::string>& flags) {
-    CAPTURE(scene);
-    const Mechanism mechanism = prepared(read_scene(scene)).mechanism;
-    const Program program = choose(mechanism, formalism(by).derive(mechanism)).program;
-    const Module module = load(compile(emit(program, {.batch = true}).text, program.name,
-                                       {.compiler = {}, .extra_flags = flags, .cache = {}})
-                                   .object);
+void agrees(const Mechanism& mechanism, const Program& program, const Module& module) {
     const alembert_solver_table& one = module.table();
     const alembert_pack_table& eight = *module.pack();
     REQUIRE(eight.lanes == lanes);
@@ -132,6 +127,48 @@ void agrees(const std::string& scene, const std::string& by, const std::vector<s
                 CHECK(distance(lane_of(rate, lane), expected.rate) <= four_ulp * std::max(scale, condition * 3));
         }
     }
+}
+
+void agrees(const std::string& scene, const std::string& by, const std::vector<std::string>& flags) {
+    CAPTURE(scene);
+    const Mechanism mechanism = prepared(read_scene(scene)).mechanism;
+    const Program program = choose(mechanism, formalism(by).derive(mechanism)).program;
+    agrees(mechanism, program,
+           load(compile(emit(program, {.batch = true}).text, program.name,
+                        {.compiler = {}, .extra_flags = flags, .cache = {}})
+                    .object));
+    if (const auto memory = memory_solver(program, true)) agrees(mechanism, program, memory->module);
+}
+
+/// Every function of a program of x and y, for each pair of values in each lane.
+void goes_lane_by_lane(const Module& module, std::size_t outputs) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const std::vector<double> values{0.0,    -0.0, 0.5,    -0.75,    1.0,       -2.0,
+                                     1e-310, 1e9,  -1e300, infinity, -infinity, std::nan("")};
+    int lane = 0;
+    for (const double a : values)
+        for (const double b : values) {
+            std::vector<Lanes> state(4), found(outputs);
+            for (int l = 0; l < lanes; ++l)
+                state[0][l] = values[(l * 5) % values.size()], state[1][l] = values[(l * 7) % values.size()];
+            state[0][lane] = a, state[1][lane] = b;
+            const Lanes t;
+            module.pack()->outputs_at(reals(&t), reals(state.data()), nullptr, nullptr, reals(found.data()));
+            const std::vector<double> one{a, b, 0, 0};
+            std::vector<double> expected(outputs);
+            module.table().outputs_at(0, one.data(), nullptr, nullptr, expected.data());
+            for (std::size_t i = 0; i < outputs; ++i) {
+                const double value = found[i][lane];
+                CAPTURE(i);
+                CAPTURE(a);
+                CAPTURE(b);
+                if (std::isnan(expected[i]))
+                    CHECK(std::isnan(value));
+                else
+                    CHECK(std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(expected[i]));
+            }
+            lane = (lane + 1) % lanes;
+        }
 }
 
 }  // namespace
@@ -200,35 +237,8 @@ TEST_CASE(
         program.roots.push_back({Group::forcing, "f", program.number(0)});
         program.roots.push_back({Group::acceleration, "a", program.number(0)});
     }
-    const Module module = load(compile(emit(program, {.batch = true}).text, "functions", {}).object);
-
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const std::vector<double> values{0.0,    -0.0, 0.5,    -0.75,    1.0,       -2.0,
-                                     1e-310, 1e9,  -1e300, infinity, -infinity, std::nan("")};
-    int lane = 0;
-    for (const double a : values)
-        for (const double b : values) {
-            std::vector<Lanes> state(4), found(outputs.size());
-            for (int l = 0; l < lanes; ++l)
-                state[0][l] = values[(l * 5) % values.size()], state[1][l] = values[(l * 7) % values.size()];
-            state[0][lane] = a, state[1][lane] = b;
-            const Lanes t;
-            module.pack()->outputs_at(reals(&t), reals(state.data()), nullptr, nullptr, reals(found.data()));
-            const std::vector<double> one{a, b, 0, 0};
-            std::vector<double> expected(outputs.size());
-            module.table().outputs_at(0, one.data(), nullptr, nullptr, expected.data());
-            for (std::size_t i = 0; i < outputs.size(); ++i) {
-                const double value = found[i][lane];
-                CAPTURE(i);
-                CAPTURE(a);
-                CAPTURE(b);
-                if (std::isnan(expected[i]))
-                    CHECK(std::isnan(value));
-                else
-                    CHECK(std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(expected[i]));
-            }
-            lane = (lane + 1) % lanes;
-        }
+    goes_lane_by_lane(load(compile(emit(program, {.batch = true}).text, "functions", {}).object), outputs.size());
+    if (const auto memory = memory_solver(program, true)) goes_lane_by_lane(memory->module, outputs.size());
 }
 
 }  // namespace generator_packs
