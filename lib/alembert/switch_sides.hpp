@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -90,13 +91,30 @@ public:
             slope = slopes();
             return !(slope.cwiseAbs().maxCoeff() > enough);
         };
+        // Where ġ bends, the slope there takes the place of that between 0 and 1, which may have the other sign.
+        const auto look_around = [&] {
+            constexpr double apart = 1.0 / 8192;
+            for (Eigen::Index j = 0; j < s; ++j) {
+                held(j) = alpha[j] + apart;
+                rates(t, y);
+                B_.col(j) = (slopes() - slope) / apart;
+                held(j) = alpha[j];
+            }
+            rates(t, y);
+        };
+        if (go_to(-decomposed(B_).solve(none))) return;
+        if (s == 1) {
+            const Quotient quotient = by_quotient(t, y, none[0], none[0] + B_(0, 0));
+            const bool is_found = go_to(Eigen::VectorXd::Constant(1, quotient.zero));
+            if (std::isfinite(quotient.slope)) B_(0, 0) = quotient.slope;
+            if (is_found) return;
+        } else {
+            look_around();
+        }
         Eigen::MatrixXd secant = B_;
-        if (go_to(-decomposed(secant).solve(none)) ||
-            (s == 1 && go_to(by_quotient(t, y, none[0], none[0] + B_(0, 0)))))
-            return;
         for (int round = 0; round < 20; ++round) {  // Broyden's method
             const Eigen::VectorXd step = -decomposed(secant).solve(slope);
-            if (go_to(alpha + step)) return;
+            if (go_to(alpha + step)) return look_around();
             secant += slope * step.transpose() / step.squaredNorm();
         }
         if (slope.cwiseAbs().maxCoeff() > negligible * B_.cwiseAbs().maxCoeff())  // no σ can keep g at zero
@@ -133,14 +151,18 @@ private:
     /// unique; the least are taken.
     static Orthogonal decomposed(const Eigen::MatrixXd& matrix) { return {matrix, dependent}; }
 
-    /// The zero of ġ(α) = (a + b α)/(1 + c α), with a, b and c such that it has the values found at 0 and 1.
-    /// Friction that changes its own normal force has this form.
-    Eigen::VectorXd by_quotient(double t, const double* y, double at_none, double at_one) {
+    /// The zero of ġ(α) = (a + b α)/(1 + c α) and the slope there, with a, b and c such that it has the values
+    /// found at −1, 0 and 1. Friction that changes its own normal force has this form.
+    struct Quotient {
+        double zero, slope;
+    };
+    Quotient by_quotient(double t, const double* y, double at_none, double at_one) {
         held(0) = -1;
         rates(t, y);
         const double at_minus = slopes()[0];
         const double c = (2 * at_none - at_one - at_minus) / (at_one - at_minus);
-        return Eigen::VectorXd::Constant(1, -at_none / (at_one * (1 + c) - at_none));
+        const double b = at_one * (1 + c) - at_none, zero = -at_none / b, below = 1 + c * zero;
+        return {.zero = zero, .slope = (b - at_none * c) / (below * below)};
     }
 
     /// σ of the function at this position of `sliding`.

@@ -243,6 +243,7 @@ private:
                 open.push_back(w.index);
             }
         }
+        if (!open.empty()) open_what_has_stopped(open);
         if (!open.empty() ||
             (gone && system_.bounds)) {  // a contact that has opened may change the normal forces of others
             for (int k = 0; k < system_.count(); ++k)
@@ -253,6 +254,15 @@ private:
         for (const int i : hit) decided.push_back(watched[i].index);
         follow_others(decided);
         return true;
+    }
+
+    /// Adds the pairs that slide without a velocity: of the feet of a body that stops as a whole rounding may have
+    /// let one go just before.
+    void open_what_has_stopped(std::vector<int>& open) const {
+        for (int pair = 0; sides_.is_pair(pair); pair += 2)
+            if (sides_[pair] != 0 && std::find(open.begin(), open.end(), pair) == open.end() &&
+                std::hypot(value_of(pair), value_of(pair + 1)) <= stopped(pair))
+                open.push_back(pair);
     }
 
     /// Chooses sides for the open functions; the others keep theirs.
