@@ -289,7 +289,7 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
         running = std::move(derivatives->program);
     else if (jumps)
         running = smooth;
-    const CodeKind kind = code.go_over ? CodeKind::memory : CodeKind::compiled;
+    const CodeKind kind = !code.go_over ? CodeKind::compiled : series_module ? CodeKind::both : CodeKind::memory;
     auto mode = std::make_unique<LoadedMode>(
         LoadedMode{.derived = std::move(derived),
                    .program = std::move(program),
