@@ -233,11 +233,12 @@ void add_verbs(py::module_& module) {
     module.def("simulate",
                [](const std::string& text, const std::string& file, const std::string& by,
                   const std::string& method, const std::array<double, 5>& numbers, long budget, bool estimate,
-                  bool reactions, bool fast_math, const std::string& section,
+                  bool reactions, bool fast_math, const std::string& section, const std::string& code,
                   const std::vector<std::string>& sensitivity, const std::vector<std::string>& sensitivity_of) {
                    return simulated(text, file,
                                     {.by = by,
                                      .method = method,
+                                     .code = code,
                                      .duration = numbers[0],
                                      .tolerance = numbers[1],
                                      .step = numbers[2],

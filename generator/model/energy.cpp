@@ -28,14 +28,16 @@ std::vector<GiNaC::symbol> clock(const Mechanism& m) {
 /// A frame that turns at a given rate leaves T₁ and T₀ in T even if t itself cancels from T (a gyrocompass).
 /// Therefore the positions are tested, not T.
 bool places_depend_on_time(const Mechanism& m) {
-    const std::vector<GiNaC::symbol> time = clock(m);
-    const auto depends = [&](const Vector3& v) {
-        return std::any_of(v.begin(), v.end(), [&](const ex& x) { return m.z->depends(x, time); });
+    GiNaC::lst places;  // one list, so that intermediate symbols that many have in common are followed once
+    const auto add = [&](const Vector3& v) {
+        for (const ex& x : v) places.append(x);
     };
-    return std::any_of(m.masses.begin(), m.masses.end(), [&](const MassElement& body) {
-        return depends(body.position) ||
-               (body.rotation && std::any_of(body.rotation->axes.begin(), body.rotation->axes.end(), depends));
-    });
+    for (const MassElement& body : m.masses) {
+        add(body.position);
+        if (body.rotation)
+            for (const Vector3& axis : body.rotation->axes) add(axis);
+    }
+    return m.z->depends(places, clock(m));
 }
 
 }  // namespace

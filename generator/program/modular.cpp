@@ -200,7 +200,7 @@ private:
     // Angles
 
     ModularAngle angle_or_leaf(int id) {
-        if (auto result = angle_at(program_, result_.value, pi_, id)) return *result;
+        if (auto result = angle_at(program_, result_.value, pi_, id, sums_)) return *result;
         result_.exact = false;
         return angle_of_value(value(id));
     }
@@ -280,6 +280,7 @@ private:
     Prime pi_;
     ModularValues result_;
     std::vector<char> fraction_;
+    std::map<int, ModularAngle> sums_;
     cln::cl_I known_denominators_ = 1;
     double denominators_ = 1;
 };

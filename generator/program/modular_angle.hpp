@@ -21,7 +21,9 @@ using ModularAngle = std::map<Prime, Rational>;
 ModularAngle angle_of_value(Prime value);
 
 /// Node `id` as such a polynomial in the values of its leaves; nothing if it has too many terms. `values` are
-/// those of the nodes on which it depends, `pi` the value of π.
-std::optional<ModularAngle> angle_at(const Program& program, const std::vector<Prime>& values, Prime pi, int id);
+/// those of the nodes on which it depends, `pi` the value of π. `sums` keeps the polynomials of sums for further
+/// calls with the same values: in a chain, the angle of each link is that of the one before and one more.
+std::optional<ModularAngle> angle_at(const Program& program, const std::vector<Prime>& values, Prime pi, int id,
+                                     std::map<int, ModularAngle>& sums);
 
 }  // namespace alembert

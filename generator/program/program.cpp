@@ -308,6 +308,9 @@ Program Program::shell() const {
     result.formulation = formulation;
     result.is_textbook = is_textbook;
     result.singular = singular;
+    // A copy has about as many nodes; growing in steps would copy each of them with all its lists several times.
+    result.nodes_.reserve(nodes_.size());
+    result.known_.reserve(nodes_.size());
     return result;
 }
 

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 constexpr int most_sweeps = 100000;
 constexpr double settled = 1e-15;  // the change in a sweep, relative to the impulses, after which none follows
-constexpr double slack = 1e-9;     // of inequalities, relative to the sizes of their terms
+constexpr double leeway = 1e-9;    // of inequalities, relative to the sizes of their terms
 constexpr double same = 1e-7;      // rates that differ by less, relative to the largest, are the same
 constexpr int most_newton = 30;
 
@@ -135,14 +135,14 @@ std::vector<ConeMode> modes_of(const Cones& cones, const std::vector<double>& co
     std::vector<ConeMode> modes;
     for (std::size_t i = 0; i < cones.count(); ++i) {
         const Index at = cones.at(i), components = cones.components(i);
-        if (p[at] <= slack * largest) {
+        if (p[at] <= leeway * largest) {
             modes.push_back(ConeMode::open);
             continue;
         }
         const double radius = coefficient[i] * p[at];
         const bool moves = components > 0 && v.segment(at + 1, components).norm() >
-                                                 slack * sizes.segment(at + 1, components).maxCoeff();
-        const bool is_full = components > 0 && p.segment(at + 1, components).norm() >= (1 - slack) * radius;
+                                                 leeway * sizes.segment(at + 1, components).maxCoeff();
+        const bool is_full = components > 0 && p.segment(at + 1, components).norm() >= (1 - leeway) * radius;
         modes.push_back(moves && is_full ? ConeMode::slides : ConeMode::sticks);
     }
     return modes;
@@ -193,15 +193,15 @@ bool is_consistent(const Cones& cones, const std::vector<ConeMode>& modes, const
     const double largest = p.cwiseAbs().maxCoeff();
     for (std::size_t i = 0; i < cones.count(); ++i) {
         const Index at = cones.at(i), components = cones.components(i);
-        if (v[at] < -slack * sizes[at] || p[at] < -slack * largest) return false;
-        if (modes[i] != ConeMode::open && v[at] > slack * sizes[at]) return false;
+        if (v[at] < -leeway * sizes[at] || p[at] < -leeway * largest) return false;
+        if (modes[i] != ConeMode::open && v[at] > leeway * sizes[at]) return false;
         if (modes[i] == ConeMode::open || components == 0) continue;
         const auto slip = v.segment(at + 1, components), along = p.segment(at + 1, components);
         const double size = sizes.segment(at + 1, components).maxCoeff();
         if (modes[i] == ConeMode::sticks) {
-            if (slip.norm() > slack * size || along.norm() > cones.contact(i).resting * p[at] + slack * largest)
+            if (slip.norm() > leeway * size || along.norm() > cones.contact(i).resting * p[at] + leeway * largest)
                 return false;
-        } else if ((along + cones.contact(i).coefficient * p[at] * slip / slip.norm()).norm() > slack * largest) {
+        } else if ((along + cones.contact(i).coefficient * p[at] * slip / slip.norm()).norm() > leeway * largest) {
             return false;
         }
     }

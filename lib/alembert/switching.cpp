@@ -123,6 +123,7 @@ private:
             if (now.normal(k) < -clear_margin * std::max((*normals_)[k], small_normal)) return fail_negative(k);
             if (sides_[k] != 0) (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
         }
+        *undefined_ = HUGE_VAL;
         const std::vector<Watched> watched = watches(now, {t_, end_}, *sizes_);
         const std::size_t scene = events_.list.size();
         Options here = options_;
@@ -205,7 +206,7 @@ private:
                 value = watched_value(w, *sides, *normals);
                 if (t <= w.open_until) value = std::max(value, std::numeric_limits<double>::min());
                 if (!std::isnan(value)) continue;
-                *undefined = true;  // the run ends where the value becomes undefined
+                *undefined = std::min(*undefined, t);  // the run ends there if it comes so far
                 value = -1;
             }
         };
@@ -214,7 +215,8 @@ private:
 
     /// Decides how the motion goes on where the functions watched at `hit` have reached zero.
     bool pass(const std::vector<Watched>& watched, const std::vector<int>& hit) {
-        if (*undefined_) return fail_undefined();
+        // A step may reach beyond the zero that ends it, to where another value is undefined.
+        if (*undefined_ <= t_ + 1e-12 * std::max(std::abs(t_), options_.duration)) return fail_undefined();
         in_one_place_ =
             t_ - last_change_ > 1e-13 * std::max(std::abs(t_), options_.duration) ? 0 : in_one_place_ + 1;
         last_change_ = t_;
@@ -344,9 +346,9 @@ private:
     double end_, t_;
     std::vector<double> state_;
     SideSet sides_;
-    std::shared_ptr<std::vector<double>> sizes_;                       ///< the largest |g_k| so far
-    std::shared_ptr<std::vector<double>> normals_;                     ///< the largest normal forces
-    std::shared_ptr<bool> undefined_ = std::make_shared<bool>(false);  ///< whether some g_k has been NaN
+    std::shared_ptr<std::vector<double>> sizes_;                              ///< the largest |g_k| so far
+    std::shared_ptr<std::vector<double>> normals_;                            ///< the largest normal forces
+    std::shared_ptr<double> undefined_ = std::make_shared<double>(HUGE_VAL);  ///< when some g_k was NaN in a piece
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL;
     Trajectory result_;
