@@ -175,6 +175,8 @@ TEST_CASE("ball joints: loads for accelerations, M and the bias are those of Lag
         function("mass", mass);
         function("bias", bias);
         function("inverse", loads);
+        CHECK_THROWS_WITH_AS(functions.dynamics("mass_inverse"), doctest::Contains("has no inertia along itself"),
+                             ModelError);
     }
 }
 
