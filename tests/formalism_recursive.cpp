@@ -452,7 +452,6 @@ TEST_CASE("recursive: scenes that are no tree of joints are refused, and the mes
     };
     CHECK(reason("scenes/textbook/double_pendulum.toml")
               .find("is on a point shifted by 'l1*sin(theta1)', which is not linear") != std::string::npos);
-    CHECK(reason("scenes/textbook/heavy_top_quaternion.toml").find("turns by a quaternion") != std::string::npos);
 }
 
 TEST_CASE(

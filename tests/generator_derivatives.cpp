@@ -211,8 +211,65 @@ std::string branching_tree(int n, bool oblique) {
     return text + "[forces]\n" + forces;
 }
 
+/// A body that floats by a quaternion, two links on it, one by a spherical joint, and a link on that.
+const char* const floating_tree = R"toml(gravity = [0, 1, -9.81]
+[parameters]
+m = 1.3
+k = 2
+[[body]]
+name = "A"
+mass = "m"
+inertia = { xx = 0.03, yy = 0.04, zz = 0.05, xy = 0.002 }
+[[joint]]
+name = "J0"
+type = "free"
+parent = "N"
+child = "A"
+coordinates = { x = 0, y = 0, z = 0, e0 = 1, e1 = 0, e2 = { initial = 0, rate = 0.7 }, e3 = 0 }
+[[body]]
+name = "B"
+mass = 0.5
+inertia = [0.02, 0.01, 0.015]
+[[joint]]
+name = "J1"
+type = "spherical"
+parent = "A"
+child = "B"
+parent_point = [0.1, 0.2, "m/10"]
+child_point = [0, 0.05, 0.1]
+coordinates = { f0 = 1, f1 = { initial = 0, rate = 0.4 }, f2 = 0, f3 = 0 }
+[[body]]
+name = "C"
+mass = 0.4
+inertia = [0.02, 0.01, 0.015]
+[[joint]]
+name = "J2"
+type = "revolute"
+parent = "B"
+child = "C"
+axis = [0.6, 0, 0.8]
+parent_point = [0, 0.1, 0]
+child_point = [0.1, 0, 0]
+coordinates = { c = { initial = 0.3, rate = 0.2 } }
+[[body]]
+name = "D"
+mass = 0.3
+inertia = [0.02, 0.01, 0.015]
+[[joint]]
+name = "J3"
+type = "prismatic"
+parent = "A"
+child = "D"
+axis = "y"
+coordinates = { d = { initial = 0.3, rate = 0.2 } }
+[[torque]]
+on = "B"
+vector = ["-0.1*c'", "k*f1", 0.3]
+)toml";
+
 TEST_CASE("derivatives: those of the articulated bodies of a tree are dual numbers' along any axes") {
-    for (const std::string& text : {branching_tree(9, true), branching_tree(8, false), chain(5)}) {
+    for (const std::string& text :
+         {branching_tree(9, true), branching_tree(8, false), chain(5), std::string(floating_tree)}) {
         const Mechanism m = prepared(parse_scene(text, "tree.toml")).mechanism;
         const Equations equations = formalism("recursive").derive(m);
         const Program program = choose(m, equations).program;

@@ -40,11 +40,13 @@ constexpr int most_with_matrix = 80;
 /// Nothing if other equations may be faster. M has an element for each joint and each joint that carries it, which
 /// means as many operations for all methods except articulated bodies.
 std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) {
-    if (!m.speeds.empty() || !m.constraints.empty() || !m.unilateral.empty() ||
-        m.size() * (m.size() + 1) / 2 < many_pairs || !masses_are_known(m))
+    const bool has_others = std::any_of(m.constraints.begin(), m.constraints.end(),
+                                        [](const Mechanism::Constraint& c) { return !c.norm; });
+    if (!m.speeds.empty() || has_others || !m.unilateral.empty() || m.size() * (m.size() + 1) / 2 < many_pairs ||
+        !masses_are_known(m))
         return {};
     const Possible<JointTree> tree = joint_tree(m);
-    if (!tree.exists()) return {};
+    if (!tree.exists() || !norms_alone(tree.value(), m)) return {};
     std::vector<int> depth;
     int pairs = 0;
     for (const TreeJoint& joint : tree.value().joints) {

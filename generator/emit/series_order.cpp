@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "emit/series_writer.hpp"
 
@@ -70,11 +71,18 @@ std::vector<std::string> SeriesWriter::gathering() {
     return lines;
 }
 
-bool SeriesWriter::is_ready(int id, const std::vector<char>& done, bool solved) const {
-    if (node(id).kind == Kind::unknown) return solved;
+/// The nodes whose coefficients of this order that of a node needs. The cosine of a sine, for example, is not
+/// among them, because only the products of later orders need it.
+std::vector<int> SeriesWriter::needed_now(int id) const {
     std::vector<int> list = arguments_of(node(id));
     for (const auto& [weight, m, a] : node(id).implied)
         list.push_back(m);  // the solution of the linear system at order 0 gives its first coefficient
+    return list;
+}
+
+bool SeriesWriter::is_ready(int id, const std::vector<char>& done, bool solved) const {
+    if (node(id).kind == Kind::unknown) return solved;
+    const std::vector<int> list = needed_now(id);
     return std::all_of(list.begin(), list.end(), [&](int arg) { return done[arg] != 0; });
 }
 
@@ -90,7 +98,7 @@ void SeriesWriter::add_coefficients(std::vector<CodeStatement>& lines, int id) {
     }
     const SeriesPack& pack = pack_of(id);
     if (!pack.by_lanes) {
-        add_copies(lines, pack, false);
+        for (const int source : copies_needed_now(pack)) add_copy(lines, source, false);
         const std::string& column = packs_[lanes_.pack(id)].column;
         const CodeExpression made = value(pack.nodes[0], view_of_pack(lanes_.pack(id)));
         lines.push_back(over_lanes(pack, {fmt::format("{} + {} * k + l", column, pack.padded()), 3}, made));
@@ -138,13 +146,11 @@ std::vector<CodeStatement> SeriesWriter::chain() {
 /// Adds the copies that have not been needed before, and the rates.
 void SeriesWriter::add_what_products_need(std::vector<CodeStatement>& lines) const {
     const std::vector<SeriesPack>& packs = lanes_.packs();
+    std::set<int> made;
+    for (const SeriesPack& pack : packs)
+        if (!pack.is_copy && !pack.by_lanes) made.merge(copies_needed_now(pack));
     for (std::size_t p = 0; p < packs.size(); ++p) {
-        bool used_before = !packs[p].is_copy;
-        for (const SeriesPack& other : packs)
-            if (!other.is_copy && !other.by_lanes)
-                for (const auto& [arg, source] : other.sources)
-                    used_before = used_before || source == static_cast<int>(p);
-        if (!used_before) add_copy(lines, static_cast<int>(p), false);
+        if (packs[p].is_copy && !made.contains(static_cast<int>(p))) add_copy(lines, static_cast<int>(p), false);
         if (packs_[p].rates.empty()) continue;
         const auto at = [&](const std::string& column) {
             return fmt::format("{} + {} * k + l", column, packs[p].padded());
@@ -222,10 +228,12 @@ void SeriesWriter::add_copy(std::vector<CodeStatement>& lines, int number, bool 
     }
 }
 
-/// Adds the copies that a pack takes from lanes of other packs.
-void SeriesWriter::add_copies(std::vector<CodeStatement>& lines, const SeriesPack& pack, bool at_zero) const {
-    for (const auto& [arg, source] : pack.sources)
-        if (lanes_.packs()[source].is_copy) add_copy(lines, source, at_zero);
+/// The copies of lanes of other packs that a pack needs for its coefficients of this order.
+std::set<int> SeriesWriter::copies_needed_now(const SeriesPack& pack) const {
+    std::set<int> result;
+    for (const int arg : needed_now(pack.nodes[0]))
+        if (const int source = lanes_.source_of(pack, arg); lanes_.packs()[source].is_copy) result.insert(source);
+    return result;
 }
 
 }  // namespace alembert

@@ -85,7 +85,7 @@ void SeriesWriter::add_pack_at_zero(std::vector<CodeStatement>& lines, int numbe
     const SeriesPack& pack = lanes_.packs()[number];
     const SeriesNode& leader = node(pack.nodes[0]);
     const std::string& column = packs_[number].column;
-    add_copies(lines, pack, true);
+    for (const int source : copies_needed_now(pack)) add_copy(lines, source, true);
     if (leader.kind != Kind::root && leader.kind != Kind::power) {
         lines.push_back(over_lanes(pack, column + " + l", value_at_zero(pack.nodes[0], view_of_pack(number))));
         return;

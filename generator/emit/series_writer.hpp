@@ -15,6 +15,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -111,12 +112,13 @@ private:
     CodeExpression value(int id, const View& view);
     SumParts sum_parts(int id);
     CodeExpression value_alone(int id);
+    std::vector<int> needed_now(int id) const;
     bool is_ready(int id, const std::vector<char>& done, bool solved) const;
     void add_coefficients(std::vector<CodeStatement>& lines, int id);
     void add_what_products_need(std::vector<CodeStatement>& lines) const;
     static CodeStatement over_lanes(const SeriesPack& pack, const CodeExpression& to, const CodeExpression& value);
     void add_copy(std::vector<CodeStatement>& lines, int number, bool at_zero) const;
-    void add_copies(std::vector<CodeStatement>& lines, const SeriesPack& pack, bool at_zero) const;
+    std::set<int> copies_needed_now(const SeriesPack& pack) const;
 
     const Recurrences& r_;
     const Program& p_;

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <map>
 
+#include "formalism/ball_joint.hpp"
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
 #include "model/parameter_values.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
+#include "scene/text.hpp"
 
 namespace alembert {
 
@@ -54,6 +56,7 @@ public:
             if (obstacle_) return *obstacle_;
         }
         for (const Rotor& rotor : m_.rotors) add(rotor);
+        if (!tree_.balls.empty()) check_alone();
         if (obstacle_) return *obstacle_;
         return std::move(tree_);
     }
@@ -116,14 +119,7 @@ private:
     const Fixed& fixed(int f) {
         if (const auto found = fixed_.find(f); found != fixed_.end()) return found->second;
         const Skeleton::Turn& turn_step = m_.skeleton.frames[f];
-        if (turn_step.by_quaternion) {
-            refuse(say(
-                "{} turns by a quaternion, which is no chain of joints with one rate each; use Euler angles, or "
-                "the formalism 'routh' or 'kane'",
-                label_));
-            return fixed_[f] = {0, unity()};
-        }
-        if (f == 0 || moves(turn_step.angle)) return fixed_[f] = {f, unity()};
+        if (f == 0 || turn_step.by_quaternion || moves(turn_step.angle)) return fixed_[f] = {f, unity()};
         const Fixed above = fixed(turn_step.parent);
         return fixed_[f] = {above.frame, above.R * turn(turn_step.axis, turn_step.angle)};
     }
@@ -180,6 +176,60 @@ private:
         return {static_cast<int>(tree_.joints.size()) - 1, transposed(C), {0, 0, 0}};
     }
 
+    /// The seat after a turn by a quaternion: three joints about x, y and z at the angle 0 (ball_joint.hpp).
+    Seat turned(const Seat& seat, const Rotation3& R, const std::array<ex, 4>& e) {
+        std::optional<BallJoint> ball = ball_joint(m_, e);
+        if (!ball) {
+            refuse(
+                say("{} turns by a quaternion that is prescribed; use Euler angles, or the formalism 'routh' or "
+                    "'kane'",
+                    label_));
+            return seat;
+        }
+        ball->first = static_cast<int>(tree_.joints.size());
+        const Rotation3 turn{named(ball->R[0]), named(ball->R[1]), named(ball->R[2])};
+        Seat next{seat.link, seat.to_link * (R * turn), seat.at};
+        for (int k = 0; k < 3; ++k) {
+            Vector3 axis{0, 0, 0};
+            axis[k] = 1;
+            const Rotation3 C = axes_along(axis);
+            TreeJoint joint;
+            joint.link.parent = next.link;
+            joint.link.R = next.to_link * C;
+            joint.link.p = next.at;
+            joint.link.of_ball = true;
+            joint.position = 0;
+            joint.rate = ball->rate[k];
+            joint.drift = ball->drift[k];
+            joint.row.assign(static_cast<std::size_t>(m_.size()), 0);
+            tree_.joints.push_back(std::move(joint));
+            next = {ball->first + k, transposed(C), {0, 0, 0}};
+        }
+        tree_.balls.push_back(*std::move(ball));
+        return next;
+    }
+
+    /// Refuses coordinates of a quaternion that move anything else.
+    void check_alone() {
+        std::vector<int> uses(static_cast<std::size_t>(m_.size()), 0);
+        for (const BallJoint& ball : tree_.balls)
+            for (const int a : ball.coordinate) ++uses[static_cast<std::size_t>(a)];
+        for (const TreeJoint& joint : tree_.joints)
+            for (std::size_t a = 0; a < joint.row.size(); ++a)
+                if (uses[a] > 0 && !joint.row[a].is_zero()) ++uses[a];
+        for (std::size_t a = 0; a < uses.size(); ++a)
+            if (uses[a] > 1)
+                refuse(
+                    say("the coordinate {} of a quaternion moves more than one joint; use the formalism 'routh' "
+                        "or 'kane'",
+                        in_quotes(m_.q[a].get_name())));
+    }
+
+    /// The turn of a frame against the one from which it is turned; `R` converts from the latter to the seat.
+    Seat turned(const Seat& seat, const Rotation3& R, const Skeleton::Turn& step) {
+        return step.by_quaternion ? turned(seat, R, step.quaternion) : turned(seat, R, step.axis, step.angle);
+    }
+
     /// Applies the turns that lead from one frame to another that does not come after it: up to the first common
     /// frame, then down.
     Seat turned_across(Seat seat, int from, int to) {
@@ -206,11 +256,20 @@ private:
         const std::vector<int> up = ancestors(from), down = ancestors(to);
         const auto common = std::find_first_of(up.begin(), up.end(), down.begin(), down.end());
         const auto step = [&](int frame) -> const Skeleton::Turn& { return m_.skeleton.frames[frame]; };
+        const auto by_quaternion = [&](int frame) { return step(frame).by_quaternion; };
+        const auto last = std::find(down.begin(), down.end(), *common);
+        if (std::any_of(up.begin(), common, by_quaternion) || std::any_of(down.begin(), last, by_quaternion)) {
+            refuse(say(
+                "{} turns by a quaternion that does not count from the body to which it is attached; let a joint "
+                "place it, or use the formalism 'routh' or 'kane'",
+                label_));
+            return seat;
+        }
         for (auto f = up.begin(); f != common; ++f) {
             push({step(*f).axis, -step(*f).angle, std::nullopt});
             push({{}, 0, transposed(fixed(step(*f).parent).R)});
         }
-        for (auto f = std::find(down.begin(), down.end(), *common); f != down.begin();) {
+        for (auto f = last; f != down.begin();) {
             --f;
             push({{}, 0, fixed(step(*f).parent).R});
             push({step(*f).axis, step(*f).angle, std::nullopt});
@@ -299,7 +358,7 @@ private:
         if (std::find(line.begin(), line.end(), own) != line.end()) {
             const int before = above(frame);
             const Skeleton::Turn& step = m_.skeleton.frames[frame];
-            result = turned(seat_of(before, point), fixed(step.parent).R, step.axis, step.angle);
+            result = turned(seat_of(before, point), fixed(step.parent).R, step);
         } else {
             result = turned_across(seat, own, frame);
         }
@@ -355,64 +414,6 @@ private:
 
 Possible<JointTree> joint_tree(const Mechanism& m) {
     return Finder(m).find();
-}
-
-std::vector<Dress> dress(const JointTree& tree, LinkAxes axes) {
-    std::vector<Dress> result(tree.joints.size());
-    if (axes == LinkAxes::own || !tree.rotors.empty()) return result;
-    std::vector<char> turns(result.size(), 1);  // whether the link turns relative to the ground
-    for (std::size_t j = 0; j < result.size(); ++j) {
-        const TreeLink<Named>& link = tree.joints[j].link;
-        const bool rooted = link.parent < 0 || turns[static_cast<std::size_t>(link.parent)] == 0;
-        result[j].still = !link.slides;
-        if (rooted) {
-            turns[j] = link.slides ? 0 : 1;
-            result[j].absolute = !link.slides;
-            continue;
-        }
-        const Dress& parent = result[link.parent];
-        const TreeJoint& above = tree.joints[link.parent];
-        result[j].continues = tree.joints[j].parallel && parent.still;
-        if (!result[j].continues) continue;
-        result[j].still = true;
-        const int base = above.link.slides ? parent.base : link.parent;
-        const bool counted = above.link.slides ? parent.base >= 0 : parent.absolute;
-        result[j].base = counted ? base : -1;
-        result[j].absolute = !link.slides && counted;
-    }
-    // A link whose axis is not followed by a parallel one keeps its own axes.
-    std::vector<char> followed(result.size(), 0);
-    for (std::size_t j = 0; j < result.size(); ++j)
-        if (result[j].continues) followed[static_cast<std::size_t>(tree.joints[j].link.parent)] = 1;
-    for (std::size_t j = 0; j < result.size(); ++j)
-        if (!result[j].continues && followed[j] == 0) result[j].still = false;
-    return result;
-}
-
-bool has_parallel_axes(const JointTree& tree) {
-    const std::vector<Dress> how = dress(tree, LinkAxes::still);
-    return std::any_of(how.begin(), how.end(), [](const Dress& d) { return d.continues; });
-}
-
-bool is_planar_chain(const JointTree& tree) {
-    const std::vector<Dress> how = dress(tree, LinkAxes::still);
-    for (std::size_t j = 0; j < how.size(); ++j)
-        if (tree.joints[j].link.parent != static_cast<int>(j) - 1 || !how[j].absolute ||
-            (j > 0 && !how[j].continues))
-            return false;
-    return how.size() > 1;
-}
-
-std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes) {
-    const std::vector<Dress> how = dress(tree, axes);
-    std::vector<std::vector<GiNaC::numeric>> rows;
-    for (std::size_t j = 0; j < tree.joints.size(); ++j) {
-        rows.push_back(tree.joints[j].row);
-        if (!how[j].absolute || how[j].base < 0) continue;
-        for (std::size_t i = 0; i < rows[j].size(); ++i)
-            rows[j][i] += rows[static_cast<std::size_t>(how[j].base)][i];
-    }
-    return rows;
 }
 
 }  // namespace alembert

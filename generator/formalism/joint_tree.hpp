@@ -10,10 +10,12 @@
 /// angle and each coordinate in an offset is a joint. The rates of joints are w = S q' + w₀ with rational S: a
 /// frame whose angle θ₂ counts from N, on a body that turns by θ₁, has w = θ₂' − θ₁'. In a chain of parallel axes
 /// that begins at the ground, angles and rates relative to the ground may be used instead (`LinkAxes::still`),
-/// except where rotors turn with joints.
+/// except where rotors turn with joints. A turn by a quaternion is three joints, whose rates S does not give
+/// (ball_joint.hpp).
 
 #include <functional>
 
+#include "formalism/ball_joint.hpp"
 #include "formalism/link_axes.hpp"
 #include "formalism/named.hpp"
 #include "formalism/obstacle.hpp"
@@ -25,7 +27,7 @@ namespace alembert {
 struct TreeJoint {
     TreeLink<Named> link;             ///< without the values that depend on the state
     GiNaC::ex position, rate, drift;  ///< angle or shift, w, w' at q'' = 0
-    std::vector<GiNaC::numeric> row;  ///< the joint's row of S
+    std::vector<GiNaC::numeric> row;  ///< the joint's row of S; zeros if it is of a ball joint
     GiNaC::ex rotor = 0;              ///< the inertia that w alone drives: J/s² for a rotor of q with w = s q'
     bool parallel = false;            ///< whether its axes differ from those of the parent by a turn about z only
 };
@@ -34,6 +36,7 @@ struct JointTree {
     std::vector<TreeJoint> joints;
     Triple<Named> gravity;
     int coordinates = 0;
+    std::vector<BallJoint> balls = {};
     std::vector<Rotor> rotors = {};
     std::vector<GiNaC::ex> forces =
         {};  ///< generalized forces without gravity and inertia, if the formalism has set them
@@ -41,6 +44,9 @@ struct JointTree {
 
 /// The tree, or the obstacle if the scene is no such tree: what is missing, and where.
 Possible<JointTree> joint_tree(const Mechanism& mechanism);
+
+/// The position in Mechanism::constraints of e·e = 1 of each ball joint; nothing if there are other constraints.
+std::optional<std::vector<int>> norms_alone(const JointTree& tree, const Mechanism& mechanism);
 
 /// S for these `axes`, one row for each joint.
 std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes);
@@ -69,7 +75,11 @@ BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
     for (std::size_t j = 0; j < joints.joints.size(); ++j) {
         const TreeJoint& joint = joints.joints[j];
         const TreeLink<Named>& l = joint.link;
-        TreeLink<S> link{.parent = l.parent, .slides = l.slides, .p = vector(l.p), .slide = vector(l.slide)};
+        TreeLink<S> link{.parent = l.parent,
+                         .slides = l.slides,
+                         .of_ball = l.of_ball,
+                         .p = vector(l.p),
+                         .slide = vector(l.slide)};
         for (int i = 0; i < 3; ++i) link.R[i] = vector(l.R[i]);
         link.has_rotor = !joint.rotor.is_zero();
         if (link.has_rotor) link.rotor = value(joint.rotor);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// With w = S q' + w₀: M = Sᵀ M_w S, f = Q − Sᵀ n, where n are the loads that the joints must apply at q'' = 0.
+// With w = S q' + w₀: M = Sᵀ M_w S, f = Q − Sᵀ n, where n are the loads that the joints must apply at q'' = 0. For
+// the three rates of a ball joint, S is J of its quaternion (ball_joint.hpp).
 #include "formalism/recursive.hpp"
 
 #include "formalism/elements.hpp"
@@ -23,6 +24,22 @@ std::vector<ex> potential_forces(const Mechanism& m) {
 Possible<JointTree> tree_with_masses(const Mechanism& m) {
     if (const auto unknown = masses_unknown(m, say("The recursive equations"))) return Obstacle{*unknown};
     return joint_tree(m);
+}
+
+/// S by rows, without its zeros.
+std::vector<std::vector<std::pair<int, ex>>> entries_of_S(const JointTree& joints, const Mechanism& m) {
+    std::vector<std::vector<std::pair<int, ex>>> S(joints.joints.size());
+    for (std::size_t j = 0; j < S.size(); ++j)
+        for (int a = 0; a < m.size(); ++a)
+            if (const ex s = joints.joints[j].row[a]; !s.is_zero()) S[j].emplace_back(a, s);
+    for (const BallJoint& ball : joints.balls) {
+        const auto G = rows_of_turn(ball.e);
+        for (std::size_t k = 0; k < 3; ++k)
+            for (std::size_t i = 0; i < 4; ++i)
+                S[static_cast<std::size_t>(ball.first) + k].emplace_back(
+                    ball.coordinate[i], m.z->name(2 * ball.sign[i] * G[k][i] * ball.inverse));
+    }
+    return S;
 }
 
 }  // namespace
@@ -52,6 +69,7 @@ Equations recursive_without_matrix(const Mechanism& mechanism) {
     Equations equations = equations_without_terms("recursive", m);
     equations.M = GiNaC::matrix(0, 0);
     equations.tree = std::make_shared<const JointTree>(loaded_tree(m).value());
+    attach_constraints(m, equations);
     return equations;
 }
 
@@ -67,21 +85,16 @@ Equations recursive(const Mechanism& mechanism) {
     Equations equations = equations_without_terms("recursive", m);
     const int n = m.size();
     std::vector<GiNaC::exvector> mass(static_cast<std::size_t>(n) * n), own(n);
-    const auto row = [&](std::size_t j) -> const std::vector<GiNaC::numeric>& { return joints.joints[j].row; };
-    const auto each = [&](std::size_t j, const auto& visit) {
-        for (int a = 0; a < n; ++a)
-            if (!row(j)[a].is_zero()) visit(a, row(j)[a]);
-    };
+    const std::vector<std::vector<std::pair<int, ex>>> S = entries_of_S(joints, m);
     for (std::size_t j = 0; j < M.size(); ++j) {
-        each(j, [&](int a, const GiNaC::numeric& s) { own[a].push_back(-s * loads[j].e); });
+        for (const auto& [a, s] : S[j]) own[a].push_back(-s * loads[j].e);
         for (std::size_t i = 0; i <= j; ++i) {
             if (M[j][i].e.is_zero()) continue;
-            each(j, [&](int a, const GiNaC::numeric& s) {
-                each(i, [&](int b, const GiNaC::numeric& t) {
+            for (const auto& [a, s] : S[j])
+                for (const auto& [b, t] : S[i]) {
                     mass[a * n + b].push_back(s * t * M[j][i].e);
                     if (i != j) mass[b * n + a].push_back(s * t * M[j][i].e);
-                });
-            });
+                }
         }
     }
     joints.forces = potential_forces(m);

@@ -20,7 +20,7 @@ std::optional<std::string> obstacle_to_recursive(const Mechanism& mechanism);
 
 /// The equations with the tree only, for solution by articulated bodies or from both ends of a chain. M and
 /// everything else with as many elements is left out (Equations::M has no rows). This is meant for trees of
-/// hundreds of joints without constraints.
+/// hundreds of joints, without constraints except those of their quaternions.
 Equations recursive_without_matrix(const Mechanism& mechanism);
 
 /// The generalized forces of springs, other potentials, dampers and applied loads; of everything but gravity.

@@ -42,6 +42,7 @@ template <typename S>
 struct TreeLink {
     int parent = -1;  ///< −1: the ground
     bool slides = false;
+    bool of_ball = false;  ///< whether it is one of three joints of a ball joint; R of the first changes with time
     Matrix<S> R{Triple<S>{S(1), S(0), S(0)}, Triple<S>{S(0), S(1), S(0)}, Triple<S>{S(0), S(0), S(1)}};
     Triple<S> p = no_vector<S>();  ///< R, p: the link's axes and origin in the parent's own axes when the joint is
                                    ///< at 0; constant
@@ -151,6 +152,9 @@ BodyTree<S> regrouped(BodyTree<S> tree) {
         if (link.slides) {
             moved.second = link.body.second;
             link.body.second = no_matrix<S>();
+        } else if (link.of_ball) {
+            moved.mass = link.body.mass;
+            link.body.mass = S(0);
         } else {
             moved.mass = link.body.mass;
             moved.first[2] = link.body.first[2];

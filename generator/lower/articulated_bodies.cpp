@@ -22,7 +22,7 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
         return Symbolic(program, lowering(e));
     };
     const BodyTree<Symbolic> tree = regrouped(reframed(program, dressed<Symbolic>(joints, form.axes, z, value)));
-    const JointChange change(program, joints, form.axes);
+    const JointChange change(program, joints, form.axes, lowering);
     const auto nodes = [&](const std::vector<Symbolic>& list) {
         std::vector<int> result;
         for (const Symbolic& s : list) result.push_back(s.node(program));
@@ -49,6 +49,7 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
             result.forcing[a] = program.sum(0, {{1, Q[a]}, {-1, result.forcing[a]}});
     }
     if (!change.determines()) return result;
+    result.multipliers = change.multipliers(Q);
     const std::vector<int> loads = change.loads(Q);
     if (form.solve == RecursionForm::Solve::articulated) {
         result.acceleration = change.accelerations(nodes(articulated_bodies(tree, bias.wrenches, symbols(loads))));
@@ -79,14 +80,19 @@ std::vector<int> inverse_recursion(Program& program, const JointTree& joints, In
         return Symbolic(program, lowering(e));
     };
     BodyTree<Symbolic> tree = regrouped(dressed<Symbolic>(joints, LinkAxes::own, z, value));
+    const JointChange change(program, joints, LinkAxes::own, lowering);
     for (std::size_t j = 0; j < joints.joints.size(); ++j) {
         GiNaC::ex w = joints.joints[j].drift;
         for (std::size_t a = 0; a < qddot.size(); ++a) w += joints.joints[j].row[a] * qddot[a];
         tree.links[j].drift = value(z.name(w));
     }
+    std::vector<int> second;
+    for (const GiNaC::symbol& a : qddot) second.push_back(lowering(a));
+    for (const auto& [j, added] : change.ball_accelerations(second))
+        tree.links[j].drift = tree.links[j].drift + Symbolic(program, added);
     std::vector<int> loads;
     for (const Symbolic& s : joint_loads(tree, Bias<Symbolic>(tree).wrenches)) loads.push_back(s.node(program));
-    loads = JointChange(program, joints, LinkAxes::own).forces(loads);
+    loads = change.forces(loads);
     add_rotors(program, joints, z, qddot, lowering, loads);
     for (std::size_t a = 0; a < loads.size(); ++a)
         loads[a] = program.sum(0, {{1, loads[a]}, {-1, lowering(joints.forces[a])}});

@@ -21,6 +21,7 @@ struct RecursionNodes {
     std::optional<std::vector<int>> acceleration =
         {};  ///< q''; nothing if the joints' rates do not determine those of the coordinates, or if the form does
              ///< not apply to this tree
+    std::vector<int> multipliers = {};  ///< for q'', λ of e·e = 1 of each ball joint of the tree
 };
 
 /// `lowering` gives the node of an expression. The sources of nodes are not set. Without `with_matrix` the form

@@ -155,7 +155,8 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
                const Energy& energy, const LowerOptions& options) {
     const Mechanism m = in_terms_of(equations, mechanism);
     const std::size_t before = programs.size();
-    if (!equations.tree || !m.constraints.empty()) {
+    const bool is_free = equations.tree && norms_alone(*equations.tree, m);
+    if (!is_free) {
         Equations intermediate = equations;
         intermediate.formalism += std::string(", ") + to_say("intermediate symbols");
         programs.push_back({lower(m, intermediate, energy, options)});
@@ -182,8 +183,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
             if (solve == Solve::both_ends && (axes == LinkAxes::own || !is_planar_chain(*equations.tree)))
                 continue;
             // The cost of LDLᵀ grows with the cube of the size; recursions without a matrix give no multipliers.
-            if (solve != Solve::matrix ? !m.constraints.empty()
-                                       : equations.tree->joints.size() > most_composite && m.constraints.empty())
+            if (solve != Solve::matrix ? !is_free : equations.tree->joints.size() > most_composite && is_free)
                 continue;
             Equations recursive = equations;
             recursive.formalism += ", " + form.text();

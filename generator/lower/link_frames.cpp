@@ -100,7 +100,7 @@ private:
     /// own R.
     void turn(int j) {
         TreeLink<Symbolic>& own = link(j);
-        if (!turns(own)) return;
+        if (!turns(own) || own.of_ball) return;
         Turn offset;
         if (is_hinge(j)) {
             const Matrix<Symbolic> columns = transposed(own.R);
@@ -174,7 +174,7 @@ private:
             std::vector<Place>& list = places_[static_cast<std::size_t>(j)];
             list.emplace_back();
             const TreeLink<Symbolic>& l = link(j);
-            if (turns(l)) {
+            if (turns(l) && !l.of_ball) {
                 if (is_hinge(j))
                     for (int i = 0; i < 2; ++i)
                         if (!l.p[i].is_zero() && std::abs(value(l.R[i][2])) > smallest_sine)

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "formalism/joint_tree.hpp"
 #include "formalism/kinematics.hpp"
 #include "language/say.hpp"
 #include "lower/articulated_bodies.hpp"
@@ -157,9 +158,9 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     // the others.
     std::vector<std::tuple<ex, const std::vector<ex>*, ex>> norms;
     for (std::size_t k = 0; k < kept.size(); ++k) {
-        if (!m.constraints[kept[k]].norm) continue;
+        if (!m.constraints[kept[k]].norm || !has_matrix) continue;
         GiNaC::exvector diagonal;
-        for (int i = 0; i < n; ++i)
+        for (int i = 0; i < n && !recursive; ++i)
             if (!equations.A[k][i].is_zero()) diagonal.push_back(equations.M(i, i));
         const int count = std::max<int>(1, static_cast<int>(diagonal.size()));
         norms.emplace_back(m.z->name(GiNaC::add(std::move(diagonal)) / (4 * count)), &equations.A[k],
@@ -199,23 +200,35 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     if (recursive)
         by_tree = recursion(program, *equations.tree, *m.z, *options.recursion, has_matrix,
                             [&](const ex& e) { return acting(e); });
+    std::vector<int> weights;  // c of each norm
+    for (const auto& [c, row, gamma] : norms) {
+        std::vector<Program::Term> diagonal;
+        for (int i = 0; i < n && recursive; ++i)
+            if (!(*row)[i].is_zero()) diagonal.emplace_back(1, by_tree.mass[i * (i + 1) / 2 + i]);
+        const Rational quarter = Rational(1) / (4 * std::max<int>(1, static_cast<int>(diagonal.size())));
+        weights.push_back(recursive ? program.sum(0, {{quarter, program.sum(0, diagonal)}}) : lowering(c));
+    }
     for (int i = 0; i < n && has_matrix; ++i)
         for (int j = 0; j <= i; ++j) {
             blame_row(i);
             std::vector<Program::Term> terms{
                 {1, recursive ? by_tree.mass[i * (i + 1) / 2 + j] : lowering(equations.M(i, j))}};
-            for (const auto& [c, row, gamma] : norms)
+            for (std::size_t k = 0; k < norms.size(); ++k) {
+                const std::vector<ex>& row = *std::get<1>(norms[k]);
                 terms.emplace_back(
-                    1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering((*row)[j]), 1}}));
+                    1, program.product(1, {{weights[k], 1}, {lowering(row[i]), 1}, {lowering(row[j]), 1}}));
+            }
             mass.push_back(program.sum(0, terms));
             program.roots.push_back({Group::mass, fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
         }
     for (int i = 0; i < n && has_matrix; ++i) {
         blame_row(i);
         std::vector<Program::Term> terms{{1, recursive ? by_tree.forcing[i] : acting(equations.forcing(i))}};
-        for (const auto& [c, row, gamma] : norms)
+        for (std::size_t k = 0; k < norms.size(); ++k) {
+            const auto& [c, row, gamma] = norms[k];
             terms.emplace_back(
-                1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
+                1, program.product(1, {{weights[k], 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
+        }
         forcing.push_back(program.sum(0, terms));
         program.roots.push_back({Group::forcing, fmt::format("f{}", i), forcing.back()});
     }
@@ -248,7 +261,15 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     if (!has_matrix && !by_tree.acceleration)
         throw ModelError(say(
             "the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'"));
-    std::optional<std::vector<int>> solution = by_tree.acceleration && m.constraints.empty() ? by_tree.acceleration
+    // In a tree whose only constraints are e·e = 1 of its ball joints, the recursion gives all that is unknown.
+    const std::optional<std::vector<int>> alone =
+        by_tree.acceleration && !normal_forces.any() ? norms_alone(*equations.tree, m) : std::nullopt;
+    if (alone) {
+        by_tree.acceleration->resize(static_cast<std::size_t>(n) + alone->size());
+        for (std::size_t b = 0; b < alone->size(); ++b)
+            (*by_tree.acceleration)[n + row_of[(*alone)[b]]] = program.sum(0, {{-1, by_tree.multipliers[b]}});
+    }
+    std::optional<std::vector<int>> solution = alone ? by_tree.acceleration
                                                : normal_forces.any()
                                                    ? normal_forces.solve(lowering, program, mass, forcing)
                                                    : solve_symmetric(program, mass, forcing, n);

@@ -23,7 +23,7 @@ public:
                  const std::function<std::function<int(const GiNaC::ex&)>(Program&)>& begin)
         : result_{.program = program, .outputs = {}, .held = {}, .stages = {}},
           p_(result_.program),
-          change_(p_, joints, axes) {
+          change_(p_, joints, axes, begin(p_)) {
         for (int id = 0; id < p_.size(); ++id)
             if (p_[id].op == Op::variable && p_[id].variable.kind == Variable::Kind::unknown)
                 next_unknown_ = std::max(next_unknown_, p_[id].variable.index + 1);
@@ -46,7 +46,10 @@ public:
         const std::vector<Symbolic> pushes = inwards(own);
         std::vector<int> changes;
         for (const Symbolic& x : accelerations(pushes)) changes.push_back(x.node(p_));
-        result_.outputs = change_.accelerations(changes);
+        std::vector<int> constant;
+        for (const Symbolic& x : rates_) constant.push_back(x.node(p_));
+        result_.outputs = change_.changed_accelerations(
+            constant, changes, [&](int node) { return held(Symbolic(p_, node)).node(p_); });
         result_.stages.resize(static_cast<std::size_t>(p_.size()), 0);
         return std::move(result_);
     }
@@ -207,10 +210,10 @@ private:
 std::vector<Perturbed> perturbed_tree(const Program& program, const Mechanism& mechanism,
                                       const Equations& equations, bool fold) {
     std::vector<Perturbed> list;
-    if (!mechanism.constraints.empty() || !equations.speeds_are_rates()) return list;
+    if (!equations.speeds_are_rates()) return list;
     const Mechanism m = in_terms_of(equations, mechanism);
     const Possible<JointTree> found = loaded_tree(m);
-    if (!found.exists()) return list;
+    if (!found.exists() || !norms_alone(found.value(), m)) return list;
     const auto begin = [&](Program& p) {
         std::vector<std::pair<GiNaC::symbol, int>> given;
         for (const Mechanism::Unilateral& contact : m.unilateral)

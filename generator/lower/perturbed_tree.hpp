@@ -27,8 +27,9 @@
 
 namespace alembert {
 
-/// The equations along each kind of axes. None unless the scene is a tree without constraints, whose
-/// joints' rates determine those of the coordinates. The arguments are those with which `program` was lowered.
+/// The equations along each kind of axes. None unless the scene is a tree without constraints but those of its
+/// quaternions, whose joints' rates determine those of the coordinates. The arguments are those with which
+/// `program` was lowered.
 std::vector<Perturbed> perturbed_tree(const Program& program, const Mechanism& mechanism,
                                       const Equations& equations, bool fold);
 

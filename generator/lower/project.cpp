@@ -4,6 +4,8 @@
 // Aₑᵀ ν.
 #include "lower/project.hpp"
 
+#include <algorithm>
+
 #include "lower/lower.hpp"
 #include "program/solve.hpp"
 
@@ -30,6 +32,24 @@ std::vector<int> combined(Program& program, const std::vector<std::vector<int>>&
             terms.emplace_back(1, program.product(1, {{columns[k][i], 1}, {x[k], 1}}));
         result.push_back(program.sum(0, terms));
     }
+    return result;
+}
+
+/// Moves coordinates along `rows` so that `misfit` becomes 0, by the least change in the Euclidean metric.
+struct LeastChange {
+    std::vector<int> change, pivots;  ///< pivots of rows·rowsᵀ
+};
+std::optional<LeastChange> least_change(Program& program, const std::vector<std::vector<int>>& rows,
+                                        const std::vector<int>& misfit) {
+    std::vector<int> square;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        for (std::size_t j = 0; j <= k; ++j) square.push_back(dot(program, rows[k], rows[j], program.number(0)));
+    const auto nu = solve_symmetric(program, square, misfit);
+    if (!nu) return std::nullopt;
+    LeastChange result{.change = combined(program, rows, *nu), .pivots = {}};
+    // The pivots of the elimination have the opposite sign.
+    for (const int pivot : later_pivots(program, square, static_cast<int>(rows.size()), 0))
+        result.pivots.push_back(program.sum(0, {{-1, pivot}}));
     return result;
 }
 
@@ -63,22 +83,19 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
         return *solve_symmetric(program, K, sides, static_cast<int>(s));
     };
     const auto row_of = [&](std::size_t k) { return own_speeds ? m.constraints[kept[k]].row : equations.A[k]; };
-    if (kept.empty()) {
+    const bool only_norms = !own_speeds && across.empty() &&
+                            std::all_of(kept.begin(), kept.end(), [&](int c) { return m.constraints[c].norm; });
+    const std::vector<int>& by_rows = kept.empty() ? across : kept;
+    if (kept.empty() || only_norms) {
         std::vector<std::vector<int>> rows;
-        std::vector<int> square;
-        for (const int c : across) {
+        for (const int c : by_rows) {
             rows.push_back(lowered(here, m.constraints[c].row));
-            for (const std::vector<int>& row : rows)
-                square.push_back(dot(program, rows.back(), row, program.number(0)));
             misfit.push_back(position[c]);
         }
-        const auto nu = solve_symmetric(program, square, misfit);
-        if (!nu) return;
-        off = combined(program, rows, *nu);
-        const std::vector<int> divided = later_pivots(program, square, static_cast<int>(across.size()), 0);
-        for (std::size_t k = 0; k < divided.size(); ++k)
-            // The pivots of the elimination have the opposite sign.
-            pivots[across[k]] = program.sum(0, {{-1, divided[k]}});
+        const auto least = least_change(program, rows, misfit);
+        if (!least) return;
+        off = least->change;
+        for (std::size_t k = 0; k < least->pivots.size(); ++k) pivots[by_rows[k]] = least->pivots[k];
     } else {
         for (const int c : kept) misfit.push_back(position[c]);
         off = solve(misfit);
@@ -104,7 +121,13 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
         misfit.clear();
         for (std::size_t k = 0; k < kept.size(); ++k)
             misfit.push_back(dot(program, lowered(there, row_of(k)), rates, there(m.constraints[kept[k]].drift)));
-        change = solve(misfit);
+        if (only_norms) {
+            std::vector<std::vector<int>> rows;
+            for (std::size_t k = 0; k < kept.size(); ++k) rows.push_back(lowered(there, row_of(k)));
+            if (const auto least = least_change(program, rows, misfit)) change = least->change;
+        } else {
+            change = solve(misfit);
+        }
     }
     for (std::size_t k = 0; k < s; ++k) {
         const std::string name = own_speeds ? equations.u[k].get_name() : m.q[k].get_name() + "'";

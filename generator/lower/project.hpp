@@ -11,9 +11,11 @@
 /// positions. Any speeds obey holonomic constraints that the speeds have eliminated, Aₑ S = 0 (e·e = 1 of a
 /// quaternion if the speeds are angular velocities; then all holonomic constraints are eliminated). M has no
 /// entries for directions across these, so coordinates are moved along the rows of Aₑ, by the least change in the
-/// Euclidean metric; for a quaternion this takes a handful of operations. Each constraint has one pivot: of A
-/// M⁻¹Aᵀ, of Aₑ Aₑᵀ, or 0 if it is nonholonomic and eliminated, when there is nothing to move. If all constraints
-/// are of the last kind, there are no roots.
+/// Euclidean metric; for a quaternion this takes a handful of operations. The same is done if e·e = 1 of
+/// quaternions are the only constraints with multipliers: there the least change in the metric of M is along e,
+/// where M has no inertia. Each constraint has one pivot: of A M⁻¹Aᵀ, of the rows' own products such as Aₑ Aₑᵀ, or
+/// 0 if it is nonholonomic and eliminated, when there is nothing to move. If all constraints are of the last kind,
+/// there are no roots.
 
 #include "formalism/equations.hpp"
 #include "program/program.hpp"

@@ -211,6 +211,12 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
 }
 
 FunctionProgram RobotFunctions::mass_inverse() const {
+    for (const Mechanism::Constraint& c : m_.constraints)
+        if (c.norm)
+            throw ModelError(say(
+                "the mass matrix has no inverse, because the quaternion of '{}' has no inertia along itself; give "
+                "its joint 'angles', or leave 'mass_inverse' out",
+                c.name));
     const int n = m_.size();
     Program program = dynamics("mass").program;
     const std::vector<int> full = program.nodes_of(Group::function);

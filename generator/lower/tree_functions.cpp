@@ -22,7 +22,7 @@ BodyTree<Symbolic> lean_tree(Program& program, const JointTree& joints, LinkAxes
 TreeFunctions::TreeFunctions(Program& program, const JointTree& joints, LinkAxes axes, Intermediates& z,
                              const std::function<int(const GiNaC::ex&)>& lowering)
     : p_(program),
-      change_(program, joints, axes),
+      change_(program, joints, axes, lowering),
       rows_(rate_rows(joints, axes)),
       tree_(lean_tree(program, joints, axes, z, lowering)) {}
 
@@ -42,6 +42,13 @@ std::vector<int> TreeFunctions::loads(Terms terms) const {
                 sum.emplace_back(cln::the<cln::cl_RA>(rows_[j][a].to_cl_N()),
                                  p_.variable({Variable::Kind::acceleration, static_cast<int>(a)}));
         tree.links[j].drift = Symbolic(p_, p_.sum(0, sum));
+    }
+    if (terms == Terms::inverse) {
+        std::vector<int> second;
+        for (int a = 0; a < change_.coordinates(); ++a)
+            second.push_back(p_.variable({Variable::Kind::acceleration, a}));
+        for (const auto& [j, added] : change_.ball_accelerations(second))
+            tree.links[j].drift = tree.links[j].drift + Symbolic(p_, added);
     }
     return along_coordinates(joint_loads(tree, Bias<Symbolic>(tree).wrenches));
 }

@@ -64,7 +64,7 @@ int Places::step(int from, int frame, const Vector3& offset) {
 
 Orientation Places::turned(const Orientation& o, const std::array<ex, 4>& e) {
     Orientation result = o.turned(e, {rate(e[0]), rate(e[1]), rate(e[2]), rate(e[3])}, *m_.z);
-    turn_step({.parent = o.frame, .by_quaternion = true}, result);
+    turn_step({.parent = o.frame, .by_quaternion = true, .quaternion = e}, result);
     return result;
 }
 

@@ -23,7 +23,8 @@ struct Skeleton {
         int parent = 0;
         Vector3 axis{0, 0, 1};  ///< a unit vector in parameters
         GiNaC::ex angle = 0;
-        bool by_quaternion = false;  ///< if true, axis and angle have no meaning
+        bool by_quaternion = false;                ///< if true, axis and angle have no meaning
+        std::array<GiNaC::ex, 4> quaternion = {};  ///< in coordinates or prescribed, scalar first
     };
     struct Step {
         int from = 0, frame = 0;
