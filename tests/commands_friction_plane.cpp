@@ -208,12 +208,13 @@ TEST_CASE(
 
 // The plate turns about a foot that sticks, and stops as a whole; rounding lets that foot go just before.
 TEST_CASE("friction in a plane: a plate on three feet that slides and turns comes to rest on all of them") {
-    for (const auto& [speed, mu] : {std::pair<std::string, std::string>{"1.8", "0.425"}, {"2.4", "0.8"}}) {
-        CAPTURE(speed);
+    using Texts = std::pair<std::string, std::string>;
+    for (const Texts& one : {Texts{"1.8", "0.425"}, Texts{"2.4", "0.8"}}) {
+        CAPTURE(one.first);
         std::string scene = contents(scene_of("falling_tripod"));
-        for (const auto& [from, to] :
-             {std::pair<std::string, std::string>{"vx = { value = 0.0", speed}, {"mu = { value = 0.2", mu}})
-            scene.replace(scene.find(from), from.size(), from.substr(0, from.rfind(' ') + 1) + to);
+        for (const Texts& change : {Texts{"vx = { value = 0.0", "vx = { value = " + one.first},
+                                    Texts{"mu = { value = 0.2", "mu = { value = " + one.second}})
+            scene.replace(scene.find(change.first), change.first.size(), change.second);
         const Json motion = simulated(temporary("plate.toml", scene), {"--duration", "1.2", "--no-estimate"});
         CHECK(of_kind(motion, "stick").size() >= 3);
         for (const char* const q : {"x", "y", "z", "psi", "a", "b"}) CHECK(std::abs(rate(motion, q)) < 1e-13);
@@ -250,8 +251,9 @@ TEST_CASE("friction in a plane: two balls that land at the same instant land as 
     CHECK(of_kind(both, "impact").size() == of_kind(first, "impact").size() + of_kind(second, "impact").size());
     for (const Json* one : {&first, &second})
         for (const char* const part : {"coordinates", "rates"})
-            for (const auto& [name, expected] : (*one)["final"][part].items())
-                CHECK_MESSAGE(both["final"][part][name].get<double>() == near(expected.get<double>()), name);
+            for (const auto& entry : (*one)["final"][part].items())
+                CHECK_MESSAGE(both["final"][part][entry.key()].get<double>() == near(entry.value().get<double>()),
+                              entry.key());
     check_balance(both);
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -166,6 +167,9 @@ bool obeys(const Json& value, const Json& node) {
             return false;
     }
     if (s.contains("enum") && std::find(s["enum"].begin(), s["enum"].end(), value) == s["enum"].end())
+        return false;
+    if (s.contains("pattern") && value.is_string() &&
+        !std::regex_search(value.get<std::string>(), std::regex(s["pattern"].get<std::string>())))
         return false;
     if (s.contains("anyOf") && count(s["anyOf"]) == 0) return false;
     if (s.contains("oneOf") && count(s["oneOf"]) != 1) return false;
