@@ -81,6 +81,8 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.add_option("--sensitivity", options.sensitivity,
                             say("derivatives of the end by initial values, parameters"))
                 .type_name(values::names);
+            verb.add_flag("--regularize", options.wishes.regularize,
+                          say("short steps where the potential is deep: near collisions"));
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));
             add_reactions_option(verb, options.wishes.reactions);

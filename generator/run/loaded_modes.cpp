@@ -211,6 +211,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, const Switched& jumps, std::size_
         own.contact.switching->rates(t, state, sigma.data(), rate);
     };
     rhs.jacobian = nullptr;
+    rhs.energies = nullptr;
     rhs.series = {};
     rhs.dimension = dimension;
 }

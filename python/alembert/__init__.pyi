@@ -148,7 +148,8 @@ class Scene:
     def simulate(
         self, duration: float | None = ..., tolerance: float | None = ..., *, method: str = ...,
         step: float | None = ..., sample: float | None = ..., max_step: float | None = ..., budget: int = ...,
-        estimate: bool = ..., reactions: bool = ..., by: str = ..., fast_math: bool = ..., poincare: str = ...
+        estimate: bool = ..., reactions: bool = ..., by: str = ..., fast_math: bool = ..., poincare: str = ...,
+        regularize: bool = ...
     ) -> Run: ...
     def sweep(
         self, values: Mapping[str, ArrayLike], duration: float | None = ..., tolerance: float | None = ..., *,

@@ -148,13 +148,14 @@ class Scene:
     # Motion
 
     def simulate(self, duration=None, tolerance=None, *, method="", step=None, sample=None, max_step=None,
-                 budget=10_000_000, estimate=True, reactions=False, by="", fast_math=False, poincare=""):
+                 budget=10_000_000, estimate=True, reactions=False, by="", fast_math=False, poincare="",
+                 regularize=False):
         """Integrates the motion. What is not given is the scene's. With `poincare="theta1 = 0"` the result has the
-        crossings of that section."""
+        crossings of that section; with `regularize=True` steps are short where the potential is deep."""
         given = run_numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
         run_numbers(budget=budget)
         return Run(_alembert.simulate(self.text, self.name, by, method, list(given.values()), int(budget), estimate,
-                                      reactions, fast_math, poincare))
+                                      reactions, fast_math, poincare, regularize))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
               budget=10_000_000, by="", threads=0):
