@@ -230,28 +230,29 @@ void add_verbs(py::module_& module) {
                [](const std::string& text, const std::string& file, const std::string& by, bool reactions) {
                    return derive(parse_scene(text, file), {.by = by, .reactions = reactions});
                });
-    module.def("simulate",
-               [](const std::string& text, const std::string& file, const std::string& by,
-                  const std::string& method, const std::array<double, 5>& numbers, long budget, bool estimate,
-                  bool reactions, bool fast_math, const std::string& section, const std::string& code,
-                  const std::vector<std::string>& sensitivity, const std::vector<std::string>& sensitivity_of) {
-                   return simulated(text, file,
-                                    {.by = by,
-                                     .method = method,
-                                     .code = code,
-                                     .duration = numbers[0],
-                                     .tolerance = numbers[1],
-                                     .step = numbers[2],
-                                     .sample = numbers[3],
-                                     .max_step = numbers[4],
-                                     .budget = budget,
-                                     .fast_math = fast_math,
-                                     .estimate = estimate,
-                                     .reactions = reactions,
-                                     .sensitivity = sensitivity,
-                                     .sensitivity_of = sensitivity_of},
-                                    section);
-               });
+    module.def("simulate", [](const std::string& text, const std::string& file, const std::string& by,
+                              const std::string& method, const std::array<double, 5>& numbers, long budget,
+                              bool estimate, bool reactions, bool fast_math, const std::string& section,
+                              const std::string& code, const std::vector<std::string>& sensitivity,
+                              const std::vector<std::string>& sensitivity_of, bool regularize) {
+        return simulated(text, file,
+                         {.by = by,
+                          .method = method,
+                          .code = code,
+                          .duration = numbers[0],
+                          .tolerance = numbers[1],
+                          .step = numbers[2],
+                          .sample = numbers[3],
+                          .max_step = numbers[4],
+                          .budget = budget,
+                          .fast_math = fast_math,
+                          .estimate = estimate,
+                          .regularize = regularize,
+                          .reactions = reactions,
+                          .sensitivity = sensitivity,
+                          .sensitivity_of = sensitivity_of},
+                         section);
+    });
     module.def("system", system_of);
     module.def("functions_of_robots", all_functions);
 }

@@ -20,6 +20,7 @@
 #include "state/gimbal.hpp"
 #include "state/redundancy.hpp"
 #include "state/speeds.hpp"
+#include "state/touching.hpp"
 
 namespace alembert {
 
@@ -107,6 +108,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     const double start = process_seconds();
     Derived d{prepared(std::move(scene), options.at, options.on_sheets)};
     d.by = options.by;
+    refuse_touching(d.mechanism);
     const std::vector<int> redundant = redundant_constraints(d.mechanism);
     check_implied(d.mechanism, redundant);
     for (const int k : redundant)

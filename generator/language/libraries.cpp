@@ -26,6 +26,10 @@ constexpr std::array patterns{
     to_say("step size underflow at t = {} (step {}): {} or its rate is not finite, however short the step; there "
            "is a "
            "singularity here"),
+    to_say("step size underflow at t = {}; there may be a singularity here, or the tolerance is beyond double "
+           "precision"),
+    to_say("the regularized run found no step after t = {}, where the potential energy is {}: it has to stay "
+           "negative, and steps short enough for their equations; take a shorter step, or no regularization"),
     to_say("{} is no longer finite after t = {}; take a shorter step, or an adaptive method such as dop853"),
     to_say(
         "the equations of {} could not be solved for the step after t = {}; take a shorter step, or radau for a "

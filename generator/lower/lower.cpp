@@ -15,6 +15,7 @@
 #include "lower/lowering.hpp"
 #include "lower/normal_forces.hpp"
 #include "lower/project.hpp"
+#include "lower/start.hpp"
 #include "program/solve.hpp"
 
 namespace alembert {
@@ -24,6 +25,21 @@ using GiNaC::ex_to;
 using GiNaC::is_a;
 
 namespace {
+
+/// The values at the initial state, if the constraints have to give pivots to coordinates without mass.
+Witness witness_of(const Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& mass) {
+    bool is_massless = false;
+    for (int i = 0; i < e.size(); ++i) is_massless = is_massless || program.is_zero(mass[i * (i + 1) / 2 + i]);
+    if (!is_massless || m.constraints.empty()) return {};
+    State<double> state = state_of(start_of(m), m, e);
+    state.qddot.assign(m.q.size(), 0.0);
+    return [state](const Program& p) {
+        for (int id = 0; id < p.size(); ++id)
+            if (p[id].op == Op::unspecified)
+                return std::vector<double>();  // a function that the scene leaves open
+        return interpret(p, state);
+    };
+}
 
 /// Defines q' = h(q,u,t) and q'' if the speeds are not the rates; u' are the nodes of `udot`.
 void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e,
@@ -261,6 +277,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     if (!has_matrix && !by_tree.acceleration)
         throw ModelError(say(
             "the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'"));
+    const Witness witness = has_matrix ? witness_of(program, m, equations, mass) : Witness();
     // In a tree whose only constraints are e·e = 1 of its ball joints, the recursion gives all that is unknown.
     const std::optional<std::vector<int>> alone =
         by_tree.acceleration && !normal_forces.any() ? norms_alone(*equations.tree, m) : std::nullopt;
@@ -272,13 +289,13 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     std::optional<std::vector<int>> solution = alone ? by_tree.acceleration
                                                : normal_forces.any()
                                                    ? normal_forces.solve(lowering, program, mass, forcing)
-                                                   : solve_symmetric(program, mass, forcing, n);
+                                                   : solve_symmetric(program, mass, forcing, n, witness);
     if (solution) {
         for (int i = 0; i < n; ++i)
             program.roots.push_back({Group::acceleration, fmt::format("a{}", i), (*solution)[i]});
         for (std::size_t k = 0; k < kept.size(); ++k)
             lowering.define(equations.lambda[k], program.sum(0, {{-1, (*solution)[n + k]}}));
-        if (!m.constraints.empty()) add_projection(program, m, equations, mass, options.fold);
+        if (!m.constraints.empty()) add_projection(program, m, equations, mass, options.fold, witness);
         Lowering motion(program, m, options.fold);  // with the solution for u'
         if (!equations.eliminated.empty()) {
             define_rates(motion, program, m, equations, {solution->begin(), solution->begin() + n});

@@ -62,7 +62,7 @@ std::vector<int> lowered(const std::function<int(const ex&)>& lowering, const st
 }  // namespace
 
 void add_projection(Program& program, const Mechanism& m, const Equations& equations, const std::vector<int>& K,
-                    bool fold) {
+                    bool fold, const Witness& witness) {
     const bool own_speeds = !equations.speeds_are_rates();
     const std::size_t n = m.q.size(), s = equations.u.size();
     const std::vector<int> position = program.nodes_of(Group::position), kept = equations.kept(m);
@@ -80,7 +80,7 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
     const auto solve = [&](const std::vector<int>& right) {
         std::vector<int> sides(s, program.number(0));
         sides.insert(sides.end(), right.begin(), right.end());
-        return *solve_symmetric(program, K, sides, static_cast<int>(s));
+        return *solve_symmetric(program, K, sides, static_cast<int>(s), witness);
     };
     const auto row_of = [&](std::size_t k) { return own_speeds ? m.constraints[kept[k]].row : equations.A[k]; };
     const bool only_norms = !own_speeds && across.empty() &&
@@ -105,7 +105,7 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
             columns.push_back(lowered(here, m.z->push_forward(equations.h, {{equations.u[k], 1}})));
         if (own_speeds) off = combined(program, columns, off);
         const std::vector<int> divided =
-            later_pivots(program, K, static_cast<int>(s + kept.size()), static_cast<int>(s));
+            later_pivots(program, K, static_cast<int>(s + kept.size()), static_cast<int>(s), witness);
         for (std::size_t k = 0; k < kept.size(); ++k)
             pivots[kept[k]] = divided.empty() ? program.number(1) : divided[k];
     }

@@ -19,13 +19,14 @@
 
 #include "formalism/equations.hpp"
 #include "program/program.hpp"
+#include "program/solve.hpp"
 
 namespace alembert {
 
 /// The program must have the roots "position". K is the lower triangle of [M Aᵀ; A 0], of size s plus the number
-/// of constraints that are kept; with `fold`, parameters are numbers. Nothing is added if a matrix is singular at
-/// every state.
+/// of constraints that are kept; with `fold`, parameters are numbers; `witness` is that of the accelerations.
+/// Nothing is added if a matrix is singular at every state.
 void add_projection(Program& program, const Mechanism& mechanism, const Equations& equations,
-                    const std::vector<int>& K, bool fold);
+                    const std::vector<int>& K, bool fold, const Witness& witness = {});
 
 }  // namespace alembert

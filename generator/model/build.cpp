@@ -67,6 +67,7 @@ void add_run(Building& here) {
     value(s.sample, here.m.run.sample);
     value(s.period, here.m.run.period);
     if (s.method) here.m.run.method = s.method->text;
+    here.m.run.regularize = s.regularize;
 }
 
 }  // namespace

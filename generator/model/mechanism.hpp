@@ -221,6 +221,7 @@ struct Mechanism {
     struct Run {
         std::optional<GiNaC::ex> start, duration, tolerance, step, max_step, sample, period;
         std::string method = "auto";
+        bool regularize = false;
     };
     Run run;
 

@@ -4,6 +4,7 @@
 #include "program/solve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace alembert {
@@ -13,8 +14,9 @@ namespace {
 class Elimination {
 public:
     Elimination(Program& program, const std::vector<int>& lower, std::vector<std::vector<int>> sides,
-                int preferred)
+                int preferred, const Witness& witness)
         : p_(program),
+          witness_(witness),
           preferred_(preferred),
           n_(static_cast<int>(sides[0].size())),
           b_(std::move(sides)),
@@ -51,9 +53,10 @@ private:
     /// a chain is eliminated from its tip.
     int next_pivot(const std::vector<int>& left) const {
         int best = -1, fewest = 0;
+        const std::vector<double> value = witness_ ? witness_(p_) : std::vector<double>();
         for (std::size_t place = 0; place < left.size(); ++place) {
             const int k = left[place];
-            if (zero(k, k)) continue;
+            if (zero(k, k) || vanishes(k, left, value)) continue;
             int neighbours = 0;
             for (const int i : left) neighbours += i != k && !zero(i, k) ? 1 : 0;
             const bool is_first = k < preferred_, best_is_first = best >= 0 && left[best] < preferred_;
@@ -62,6 +65,14 @@ private:
                 best = static_cast<int>(place), fewest = neighbours;
         }
         return best;
+    }
+
+    /// Whether the diagonal entry vanishes at the witness beside the others of its column.
+    bool vanishes(int k, const std::vector<int>& left, const std::vector<double>& value) const {
+        if (value.empty()) return false;
+        double largest = 0;
+        for (const int i : left) largest = std::max(largest, std::abs(value[rows_[i][k]]));
+        return std::abs(value[rows_[k][k]]) < 1e-9 * largest;
     }
 
     void eliminate(int k, const std::vector<int>& left) {
@@ -122,6 +133,7 @@ private:
     }
 
     Program& p_;
+    const Witness& witness_;
     int preferred_;
     int n_;
     std::vector<std::vector<int>> b_;     // right-hand sides, one after the other
@@ -133,14 +145,15 @@ private:
 }  // namespace
 
 std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
-                                                const std::vector<int>& f, int preferred) {
-    auto solutions = Elimination(program, lower, {f}, preferred).solve();
+                                                const std::vector<int>& f, int preferred, const Witness& witness) {
+    auto solutions = Elimination(program, lower, {f}, preferred, witness).solve();
     if (!solutions) return std::nullopt;
     return std::move(solutions->front());
 }
 
-std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, int size, int preferred) {
-    Elimination elimination(program, lower, {std::vector<int>(size, program.number(0))}, preferred);
+std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, int size, int preferred,
+                              const Witness& witness) {
+    Elimination elimination(program, lower, {std::vector<int>(size, program.number(0))}, preferred, witness);
     elimination.solve();
     std::vector<int> pivots = elimination.later_pivots();
     if (std::count(pivots.begin(), pivots.end(), -1) > 0) pivots.clear();
@@ -149,8 +162,8 @@ std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, i
 
 std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, const std::vector<int>& lower,
                                                              const std::vector<std::vector<int>>& sides,
-                                                             int preferred) {
-    return Elimination(program, lower, sides, preferred).solve();
+                                                             int preferred, const Witness& witness) {
+    return Elimination(program, lower, sides, preferred, witness).solve();
 }
 
 }  // namespace alembert

@@ -198,6 +198,8 @@ void add_motion(std::string& page, const Run& run) {
            shown_count(s.steps, to_say("step")), s.rejected, shown_count(s.evaluations, to_say("evaluation")),
            of_operations(run));
     if (!run.why_method.empty()) put(page, "{}: {}\n", s.method, run.why_method);
+    if (run.is_regularized)
+        say_on(page, "regularized: steps are those of a time of its own, short where the potential is deep\n");
     if (s.switched) put(page, "{}\n", described(*s.switched));
     constexpr std::size_t most_switches = 4;
     const std::size_t later = s.later_switches.size();
@@ -291,6 +293,7 @@ Json as_json(const Run& run) {
     if (!run.speeds.empty()) result["final"]["speeds"] = by_name(run.speeds, run.final_speeds);
     result["method"] = s.method;
     if (!run.why_method.empty()) result["method_why"] = run.why_method;
+    if (run.is_regularized) result["regularized"] = true;
     if (s.switched) result["switched"] = json_of(*s.switched);
     for (const Switch& later : s.later_switches) result["switched_later"].push_back(json_of(later));
     if (run.solver.jacobian_operations) result["jacobian_operations"] = *run.solver.jacobian_operations;

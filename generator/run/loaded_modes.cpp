@@ -171,6 +171,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         own.contact.switching->rates(t, state, sigma.data(), rate);
     };
     rhs.jacobian = nullptr;
+    rhs.energies = nullptr;
     rhs.series = {};
     rhs.dimension = dimension;
 }

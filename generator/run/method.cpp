@@ -13,6 +13,7 @@
 #include "program/cost.hpp"
 #include "program/recurrence.hpp"
 #include "run/canonical.hpp"
+#include "run/regularization.hpp"
 #include "run/separable.hpp"
 #include "run/sundials_methods.hpp"
 
@@ -55,6 +56,13 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
     const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
     const double step = wish(request.step, start.step), duration = wish(request.duration, start.duration);
     const double tolerance = wish(request.tolerance, start.tolerance);
+    if (asks_regularization(request, d.mechanism)) {
+        if (step > 0)
+            return {.method = inseparable(d) ? Method::gauss : Method::kahanli8,
+                    .why = say("a fixed step was asked for, in a time of its own")};
+        return {.method = tolerance > loose ? Method::dop853 : Method::verner98,
+                .why = say("the tolerance is {:g}, and the run is regularized", tolerance)};
+    }
     if (step > 0) {
         const double steps = duration / step;
         if (steps >= many_steps && !inseparable(d))

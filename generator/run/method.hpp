@@ -11,6 +11,7 @@
 ///
 /// | asked for | chosen |
 /// | --- | --- |
+/// | a regularized run | verner98; kahanli8 or gauss with a step |
 /// | a step, energy separable, 10 000 steps or more | kahanli8: its energy does not drift |
 /// | a step | rk4 |
 /// | a tolerance above 3e-5 | dop853 |

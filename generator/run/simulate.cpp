@@ -14,6 +14,7 @@
 #include "lower/quick_times.hpp"
 #include "run/held_state.hpp"
 #include "run/method.hpp"
+#include "run/regularization.hpp"
 #include "run/trust.hpp"
 #include "state/assemble.hpp"
 
@@ -70,6 +71,8 @@ public:
             sensitivities_.emplace(run_, program, start_, wishes_.sensitivity, wishes_.sensitivity_of);
         choice_ = method_for(wishes_, run_, program, start_);
         options_ = options_of(wishes_, choice_, start_);
+        options_.regularization = regularization_of(wishes_, run_, energy_, choice_, start_);
+        run_.is_regularized = options_.regularization != Regularization::none;
         prepare_contacts();
         run_.timings = {.derive = run_.seconds, .emit = process_seconds() - begin};
         angles_ = angles_of_frame(run_, choice_);
@@ -101,7 +104,7 @@ public:
             if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
         };
         integrate(modes);
-        if (watch.near_lock && take_quaternion(modes)) {
+        if (watch.near_lock && !run_.is_regularized && take_quaternion(modes)) {
             watch = fresh_watch();
             integrate(modes);
             run_.chart_frame = angles_->name(run_.scene).text;
@@ -166,6 +169,7 @@ private:
         initial_ = start_.q;
         initial_.insert(initial_.end(), first_.qdot.begin(), first_.qdot.end());
         if (!energy_.conserved) initial_.push_back(0);
+        if (run_.is_regularized) need_depth(modes({}).contact.rhs, start_.t, initial_);
         const auto making = [&] {
             return modes.compiled().seconds().derive + modes.compiled().seconds().emit +
                    modes.compiled().seconds().compile;

@@ -73,6 +73,7 @@ struct Run : Derived {
     /// The frame whose angles came near gimbal lock, and when a quaternion took their place (charts.hpp).
     std::string chart_frame = {};
     std::vector<ChartPass> chart_passes = {};
+    bool is_regularized = false;  ///< steps were those of a time of its own
     EnergyAccount energy = {};
     double constraint_drift = 0;  ///< the largest residual
     std::optional<ErrorEstimate> estimate = {};

@@ -15,6 +15,7 @@
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "run/method.hpp"
+#include "run/regularization.hpp"
 #include "run/rows.hpp"
 #include "run/solver_code.hpp"
 #include "state/assemble.hpp"
@@ -53,6 +54,9 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     s_.grid = std::move(grid);
     s_.along = std::move(along);
     const Mechanism& m = s_.mechanism;
+    if (asks_regularization(wishes, m))
+        throw ModelError(
+            say("sweep does not run regularized; simulate does, for one state at a time. Leave 'regularize' out"));
     if (!m.impulses.empty())
         s_.warn(
             say("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "

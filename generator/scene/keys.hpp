@@ -75,7 +75,7 @@ inline constexpr TableKeys table_keys[] = {
     {"polynomial", TableKeys::Shape::one, {"coefficients"}},
     {"simulation",
      TableKeys::Shape::one,
-     {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "period"}},
+     {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "regularize", "period"}},
     {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at", "near"}},
 };
 

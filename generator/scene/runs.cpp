@@ -88,6 +88,7 @@ void read_simulation(const Table& table, Scene& scene) {
                                                          table.what(key), escaped(value->text, 40)));
     }
     simulation.method = read_method(table);
+    simulation.regularize = table.flag("regularize");
 }
 
 namespace {

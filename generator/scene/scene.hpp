@@ -253,6 +253,7 @@ struct Simulation {
     Expression start, duration, tolerance, step, max_step, sample,
         period;  ///< null if missing, except that start is then 0
     std::optional<Name> method;
+    bool regularize = false;
 };
 
 struct Claim {

@@ -220,10 +220,12 @@ Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& posit
 
 void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant) {
     if (redundant.empty() || constraints_are_open(mechanism)) return;
-    Mechanism others = without_constraints(mechanism, redundant);
-    others.q_is_guess.assign(mechanism.q.size(), true);
-    others.qdot_is_guess.assign(mechanism.q.size(), true);
-    others.speeds.clear();
+    Mechanism all = mechanism, others = without_constraints(mechanism, redundant);
+    for (Mechanism* each : {&all, &others}) {
+        each->q_is_guess.assign(mechanism.q.size(), true);
+        each->qdot_is_guess.assign(mechanism.q.size(), true);
+        each->speeds.clear();
+    }
     const Program program = lower_constraints(mechanism), constraints = lower_constraints(others);
     const std::vector<int> velocity = program.nodes_of(Group::velocity);
     std::mt19937_64 random(2);
@@ -231,8 +233,11 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
     for (int k = 0; k < states; ++k) {
         Start start = start_of(others);
         for (double& q : start.q) q += away(random) * (1 + std::abs(q));
-        for (double& u : start.qdot) u += rate(random);
         try {
+            // A position may follow from the others on one branch of their positions only, and that is where all
+            // hold. The rates are those that the others allow.
+            assemble(start, all, program, {}, false);
+            for (double& u : start.qdot) u += rate(random);
             assemble(start, others, constraints, {});
         } catch (const std::runtime_error&) {
             continue;

@@ -37,9 +37,9 @@ std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vect
 /// The mechanism without these constraints; their multipliers are no unknowns of its equations.
 Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& positions);
 
-/// Checks constraints whose rows follow from the others: do the rates that they require follow too? Throws
-/// ModelError if not, as for x' = y*z' together with x' = y*z' + z: both require z = 0, which is a further
-/// constraint.
+/// Checks constraints whose rows follow from the others: do the rates that they require follow too, wherever all
+/// positions hold? Throws ModelError if not, as for x' = y*z' together with x' = y*z' + z: both require z = 0,
+/// which is a further constraint.
 void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant);
 
 }  // namespace alembert

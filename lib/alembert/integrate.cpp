@@ -20,6 +20,7 @@
 #include "alembert/gauss.hpp"
 #include "alembert/radau.hpp"
 #include "alembert/rattle.hpp"
+#include "alembert/regularized.hpp"
 #include "alembert/run.hpp"
 #include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
@@ -176,6 +177,11 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
                      const Events& events) {
     check_options(rhs, initial, options);
     const double start = thread_seconds();
+    if (options.regularization != Regularization::none) {
+        Trajectory result = integrate_regularized(rhs, initial, options, events);
+        result.statistics.seconds = thread_seconds() - start;
+        return result;
+    }
     Trajectory result =
         options.by ? options.by(rhs, initial, options, events)
                    : by_method[static_cast<std::size_t>(options.method)].run(rhs, initial, options, events);

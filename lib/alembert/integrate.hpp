@@ -57,6 +57,13 @@ namespace alembert {
 /// Called with the start, then with the end of each accepted step (or with the event that ends the run in it).
 using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
 
+/// Called with each accepted step before the next one; returns whether the run ends with it.
+using OnStretch = std::function<bool(const Stretch&)>;
+
+/// The time in which steps are counted: t, or one of its own that makes steps short where the potential is deep,
+/// in the form for any system or in that for constant masses and forces of positions (regularized.hpp).
+enum class Regularization { none, rescaled, canonical };
+
 struct Options;
 /// An integrator of another library for one system. It gets options that have been checked, and returns rows,
 /// events, statistics (with its name) and failures like `integrate`.
@@ -94,7 +101,9 @@ struct Options {
     OnStep on_step = {};  ///< may be empty
     /// Moves the end of each step onto the constraints after its error was found small enough; may be empty.
     std::function<void(double t, double* state)> project = {};
-    Integrator by = {};  ///< takes the place of `method`; may be empty
+    Integrator by = {};         ///< takes the place of `method`; may be empty
+    OnStretch on_stretch = {};  ///< may be empty
+    Regularization regularization = Regularization::none;
 };
 
 /// The check of options with which `integrate` begins.

@@ -209,6 +209,7 @@ Rhs Projection::guarded(Rhs rhs) {
     Rhs result = rhs;
     result.context = std::make_shared<const Guard>(Guard{std::move(rhs), this});
     result.call = careful;
+    result.energies = nullptr;
     if (result.jacobian != nullptr)
         result.jacobian = [](const void* context, double t, const double* state, double* values) {
             const Rhs& inner = static_cast<const Guard*>(context)->rhs;

@@ -28,6 +28,16 @@ void rate_and_power(const void* context, double t, const double* state, double* 
     rate[table.coordinates + table.speeds] = energy[3];
 }
 
+void energies_of(const void* context, double t, const double* state, double* kinetic_potential) {
+    const auto& solver = *static_cast<const Emitted*>(context);
+    const alembert_solver_table& table = solver.module.table();
+    thread_local std::vector<double> no_rate;  // only the power depends on it
+    no_rate.resize(static_cast<std::size_t>(table.coordinates + table.speeds));
+    double energy[4], jacobi = 0;
+    table.energy(t, state, no_rate.data(), solver.par.data(), energy, &jacobi);
+    std::copy_n(energy, 2, kinetic_potential);
+}
+
 /// With a quadrature the dimension is larger by one, and the row of the power belongs to it; without, that row is
 /// left out.
 template <int quadratures>
@@ -63,6 +73,7 @@ Rhs make_rhs(const Module& module, const std::vector<double>& values, Work work)
             .context = std::make_shared<const Emitted>(Emitted{module, prepared(module, values)}),
             .call = with_work ? rate_and_power : rate_of,
             .jacobian = nullptr};
+    rhs.energies = energies_of;
     if (module.derivatives() != nullptr) rhs.jacobian = with_work ? derivative_of<1> : derivative_of<0>;
     for (int i = 0; i < table.coordinates; ++i) rhs.names.emplace_back(table.coordinate_names[i]);
     for (int i = 0; i < table.speeds; ++i)

@@ -42,6 +42,11 @@ struct Rhs {
     Series series = {};       ///< of the motion, for the method taylor; may be missing
     std::shared_ptr<const Canonical> canonical =
         {};  ///< momenta and constraints, for the method rattle (canonical.hpp); may be missing
+    Call energies =
+        nullptr;  ///< writes T and V at a state, for regularized runs (regularized.hpp); may be missing
+    /// Writes the rates of the components that depend on velocities alone, q and the time of a regularized system,
+    /// and leaves the others; null for systems in t, where these are q' = v.
+    Call drift = nullptr;
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 

@@ -212,6 +212,7 @@ private:
     /// Records rows and events of the step that has just been finished; then its end becomes the new start.
     void accept() {
         ++result_.statistics.steps;
+        const bool is_last = options_.on_stretch && options_.on_stretch(stretch());
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
         for (std::size_t k = 0; k < crossings.size(); ++k) {
             if (!crossings[k].counts) continue;
@@ -233,6 +234,10 @@ private:
         step_.advance();
         tell(step_.time(), step_.state(), step_.rate());
         if (step_.time() == end_) return add_row(end_, step_.state());
+        if (is_last) {
+            result_.ending = Ending::stopped_by_event;
+            return add_row(step_.time(), step_.state());
+        }
         look_at_cost();
     }
 
@@ -296,14 +301,15 @@ private:
             {.index = crossing.index, .name = event_of(crossing).name, .time = crossing.time, .state = row_});
     }
 
-    std::vector<Crossing> look_for_events() {
-        return watch_.look(
-            {.start = step_.time(),
-             .end = step_.end_time(),
-             .end_state = step_.end_state(),
-             .end_rate = step_.end_rate(),
-             .interpolate = [this](double theta, double* state) { step_.interpolate(theta, state); }});
+    Stretch stretch() {
+        return {.start = step_.time(),
+                .end = step_.end_time(),
+                .end_state = step_.end_state(),
+                .end_rate = step_.end_rate(),
+                .interpolate = [this](double theta, double* state) { step_.interpolate(theta, state); }};
     }
+
+    std::vector<Crossing> look_for_events() { return watch_.look(stretch()); }
 
     /// The state there is in row_.
     void stop_at(double time) {

@@ -11,6 +11,10 @@
 /// there are quadratures: these need the rate at q₁, v₁, and are integrated by the trapezoidal rule, which keeps
 /// the substep symmetric.
 ///
+/// In a time of its own (regularized.hpp) q and t drift at rates that depend on v, and v is kicked at rates that
+/// depend on q. The state is (q, v, t), and a substep is drift, kick, drift, because that one stays on Kepler's
+/// ellipses.
+///
 /// The method has order 2 and is stable for the oscillator if hω < 2. The composition takes 17 such steps with
 /// lengths γ_i h and has order 8.
 ///
@@ -43,6 +47,10 @@ public:
 
     Composition(const Ends& ends, double /*tolerance*/)
         : n_(static_cast<std::size_t>(ends.controlled / 2)), state_(ends.y.size()) {
+        if (ends.rhs.drift != nullptr) {
+            drift_.resize(state_.size());
+            return;
+        }
         bool fits = ends.controlled % 2 == 0;
         for (std::size_t i = 0; fits && i < n_; ++i)
             fits = ends.rate[i] == ends.y[n_ + i] || !std::isfinite(ends.rate[i]);
@@ -57,6 +65,7 @@ public:
     bool increment(Ends& ends, double h, double* change, double* end_rate) {
         const std::size_t size = ends.y.size();
         std::fill_n(change, size, 0.0);
+        if (!drift_.empty()) return in_own_time(ends, h, change, end_rate);
         std::copy(ends.rate.begin(), ends.rate.end(), end_rate);
         double t = ends.t;
         for (const double length : lengths) {
@@ -79,17 +88,44 @@ public:
     }
 
 private:
+    /// The rates of kicks are written to `rate`.
+    bool in_own_time(Ends& ends, double h, double* change, double* rate) {
+        const auto drift = [&](double length) {
+            for (std::size_t i = 0; i < n_; ++i) change[i] += length * drift_[i];
+            change[2 * n_] += length * drift_[2 * n_];
+        };
+        drift_at(ends, change);
+        for (const double length : lengths) {
+            const double step = length * h;
+            drift(step / 2);
+            rate_at(ends, ends.t, change, rate);
+            for (std::size_t i = n_; i < 2 * n_; ++i) change[i] += step * rate[i];
+            drift_at(ends, change);
+            drift(step / 2);
+        }
+        return true;
+    }
+
     double velocity(const Ends& ends, const double* change, std::size_t i) const {
         return ends.y[n_ + i] + (change[n_ + i] + ends.rest[n_ + i]);
     }
 
     void rate_at(Ends& ends, double t, const double* change, double* rate) {
-        for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = ends.y[i] + (change[i] + ends.rest[i]);
+        reach(ends, change);
         ends.evaluate(t, state_.data(), rate);
     }
 
+    void drift_at(const Ends& ends, const double* change) {
+        reach(ends, change);
+        ends.rhs.drift(ends.rhs.context.get(), ends.t, state_.data(), drift_.data());
+    }
+
+    void reach(const Ends& ends, const double* change) {
+        for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = ends.y[i] + (change[i] + ends.rest[i]);
+    }
+
     std::size_t n_;
-    std::vector<double> state_;
+    std::vector<double> state_, drift_;  ///< drift_: rates of q and t; empty where q' = v
 };
 
 using Verlet = Composition<verlet_lengths>;

@@ -149,7 +149,8 @@ class Scene:
         self, duration: float | None = ..., tolerance: float | None = ..., *, method: str = ...,
         step: float | None = ..., sample: float | None = ..., max_step: float | None = ..., budget: int = ...,
         estimate: bool = ..., reactions: bool = ..., by: str = ..., fast_math: bool = ..., poincare: str = ...,
-        code: str = ..., sensitivity: Sequence[str] = ..., sensitivity_of: Sequence[str] = ...
+        code: str = ..., sensitivity: Sequence[str] = ..., sensitivity_of: Sequence[str] = ...,
+        regularize: bool = ...
     ) -> Run: ...
     def sweep(
         self, values: Mapping[str, ArrayLike], duration: float | None = ..., tolerance: float | None = ..., *,

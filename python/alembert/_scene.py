@@ -149,16 +149,18 @@ class Scene:
 
     def simulate(self, duration=None, tolerance=None, *, method="", step=None, sample=None, max_step=None,
                  budget=10_000_000, estimate=True, reactions=False, by="", fast_math=False, poincare="", code="",
-                 sensitivity=(), sensitivity_of=()):
+                 sensitivity=(), sensitivity_of=(), regularize=False):
         """Integrates the motion. What is not given is the scene's. With `poincare="theta1 = 0"` the result has the
         crossings of that section. `code` is "memory" or "compiled" where the choice is not left to the program. With
         `sensitivity=["theta1", "l1"]` the result has the derivatives of the state at the end by these:
         `run.sensitivity["values"][i][k]` is that of component `["of"][i]` by `["by"][k]`; `sensitivity_of` names the
-        components and outputs that are wanted, and where these are few, the adjoint equations give them."""
+        components and outputs that are wanted, and where these are few, the adjoint equations give them. With
+        `regularize=True` steps are short where the potential is deep."""
         given = run_numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
         run_numbers(budget=budget)
         return Run(_alembert.simulate(self.text, self.name, by, method, list(given.values()), int(budget), estimate,
-                                      reactions, fast_math, poincare, code, list(sensitivity), list(sensitivity_of)))
+                                      reactions, fast_math, poincare, code, list(sensitivity), list(sensitivity_of),
+                                      regularize))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
               budget=10_000_000, by="", threads=0):

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Finds constraints that only touch: wherever they all hold, their rows depend on each other, and what they hold
+/// beyond their rank they hold by their second derivatives.
+///
+///     if (const std::vector<int> touching = touching_constraints(mechanism); !touching.empty())
+///         // |AB| = 1, |BC| = 2 and |AC| = 3 keep B on the line AC, but no row holds B across it
+///
+/// With λᵀA = 0, a motion along v (A v = 0) changes Σ λ_i f_i by ½ vᵀQv with Q = Σ λ_i ∂²f_i/∂q². Where Q takes
+/// both signs, motions go on in several directions: a pose at which branches meet, as of a linkage that lies flat.
+/// Where Q has one sign, all motions that the constraints allow obey Q v = 0, which no row says: a load along such
+/// a direction has no finite reactions.
+///
+/// Source: R. Connelly & W. Whiteley, Second-order rigidity and prestress stability for tensegrity frameworks,
+/// SIAM J. Discrete Math. 9 (1996) 453-491 (Q is the stress matrix of distances).
+
+#include <vector>
+
+#include "model/mechanism.hpp"
+
+namespace alembert {
+
+/// Positions in Mechanism::constraints, ascending; empty if there are none. Judged at the initial state and at
+/// states around it that obey all constraints, which a search finds to the root of its precision only: rows count
+/// as dependent here if less than 1e-3 of one is not explained by the others, at all these states.
+std::vector<int> touching_constraints(const Mechanism& mechanism);
+
+/// Throws ModelError if there are some.
+void refuse_touching(const Mechanism& mechanism);
+
+}  // namespace alembert

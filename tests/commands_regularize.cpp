@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// `simulate --regularize`: near collisions against closed forms and published digits, and where it is refused.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+namespace commands_regularize {
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+Json simulated(const std::string& scene, std::vector<std::string> more) {
+    more.insert(more.begin(), {"simulate", scene, "--json"});
+    const auto result = run(more);
+    INFO(result.err);
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+const std::string comet = source_path("scenes/benchmark/comet.toml");
+
+/// The position after a hundred turns and 0.7 s of the scene's comet: u − e sin u = t + π, in 60 digits.
+constexpr double x_at_end = 1.938004086151728, y_at_end = 0.004898055236709;
+
+double error(const Json& run) {
+    const Json& q = run["final"]["coordinates"];
+    return std::max(std::abs(q["x"].get<double>() - x_at_end), std::abs(q["y"].get<double>() - y_at_end));
+}
+
+void check_refused(const std::string& scene, std::vector<std::string> options, const std::string& because) {
+    options.insert(options.begin(), {"simulate", scene, "--regularize"});
+    const auto result = run(options);
+    INFO(result.err);
+    CHECK(result.exit == 3);
+    CHECK(result.err.find(because) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("regularize: a comet with e = 0.9999 is where Kepler's equation says after a hundred turns") {
+    const Json in_t = simulated(comet, {}), own = simulated(comet, {"--regularize"}),
+               fixed = simulated(comet, {"--regularize", "--step", "0.1"});
+    MESSAGE("errors " << error(in_t) << " in t, " << error(own) << " and " << error(fixed) << " regularized");
+    CHECK(error(in_t) > 1e-8);
+    CHECK(error(own) < 3e-11);
+    CHECK(error(fixed) < 3e-10);
+    CHECK(own["method"] == "verner98");
+    CHECK(fixed["method"] == "kahanli8");
+    CHECK(own["regularized"] == true);
+    CHECK_FALSE(in_t.contains("regularized"));
+    for (const Json& each : {in_t, own}) CHECK(error(each) < each["error_estimate"]["value"].get<double>());
+}
+
+// Test Set for IVP Solvers, plei.F; to 16 digits here and in commands_hard.
+TEST_CASE("regularize: Pleiades in fixed steps, through its near collisions") {
+    const std::string pleiades = source_path("scenes/benchmark/pleiades.toml");
+    for (const auto& [method, bound] : {std::pair("kahanli8", 1e-12), std::pair("gauss", 1e-11)}) {
+        const Json plain = simulated(pleiades, {"--no-estimate", "--method", method, "--step", "0.001"}),
+                   own = simulated(pleiades,
+                                   {"--no-estimate", "--method", method, "--step", "0.001", "--regularize"});
+        const auto error = [](const Json& run) {
+            return std::abs(run["final"]["coordinates"]["x1"].get<double>() - 0.37061391439705129);
+        };
+        MESSAGE(std::string(method) << ": x1 off by " << error(plain) << " in t, " << error(own)
+                                    << " regularized");
+        CHECK(error(own) < bound);
+        CHECK(error(plain) > 100 * error(own));
+    }
+}
+
+TEST_CASE("regularize: the scene can ask for it, and a mass matrix that changes does not prevent it") {
+    const std::string polar = temporary("polar.toml", R"toml(
+[parameters]
+e = 0.999
+[coordinates]
+r = "1 + e"
+phi = { initial = 0, rate = "sqrt((1 - e)/(1 + e))/(1 + e)" }
+[[particle]]
+name = "comet"
+mass = 1
+position = ["r*cos(phi)", "r*sin(phi)"]
+[energy]
+potential = "-1/r"
+[outputs]
+x = "r*cos(phi)"
+[simulation]
+duration = "2*pi"
+tolerance = 1e-12
+regularize = true
+)toml");
+    const Json result = simulated(polar, {});
+    CHECK(result["regularized"] == true);
+    CHECK(std::abs(result["final"]["coordinates"]["r"].get<double>() - 1.999) < 1e-9);
+    CHECK(std::abs(result["final"]["coordinates"]["phi"].get<double>() - 2 * M_PI) < 1e-9);
+    const auto swept = run({"sweep", polar, "--vary", "e=0.1:0.2:2"});
+    CHECK(swept.exit == 3);
+    CHECK(swept.err.find("sweep does not run regularized") != std::string::npos);
+    CHECK(simulated(polar, {"--method", "gauss", "--step", "0.01"})["completed"] == true);
+}
+
+TEST_CASE("regularize: where it does not apply it says why") {
+    check_refused(comet, {"--method", "taylor"}, "does not run regularized");
+    check_refused(comet, {"--max-step", "0.1"}, "no longest step");
+    check_refused(source_path("scenes/textbook/cartesian_pendulum.toml"), {}, "there are constraints");
+    check_refused(source_path("scenes/textbook/bouncing_ball.toml"), {}, "contacts");
+    check_refused(source_path("scenes/textbook/pendulum_absorber.toml"), {}, "not conserved");
+    check_refused(
+        temporary("spring.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n"),
+        {}, "negative potential energy");
+    check_refused(temporary("bent.toml", R"toml(
+[coordinates]
+x = { initial = -1, rate = 0 }
+[energy]
+kinetic = "x'^2/2"
+potential = "-1/(1 + abs(x))"
+)toml"),
+                  {}, "held constant piece by piece");
+}
+
+}  // namespace commands_regularize
