@@ -143,7 +143,7 @@ for verb in '' $verbs; do
     wide=$(wc -L <"$work/help")
     case $verb in # those with the most options, and the list of verbs, need more
         emit) most_lines=26 ;;
-        simulate) most_lines=29 ;;
+        simulate) most_lines=30 ;;
         sweep | '') most_lines=31 ;;
         *) most_lines=24 ;;
     esac

@@ -226,7 +226,7 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
         each->qdot_is_guess.assign(mechanism.q.size(), true);
         each->speeds.clear();
     }
-    const Program program = lower_constraints(mechanism), constraints = lower_constraints(others);
+    const Program program = lower_constraints(all), constraints = lower_constraints(others);
     const std::vector<int> velocity = program.nodes_of(Group::velocity);
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> away(-0.3, 0.3), rate(-1, 1);
