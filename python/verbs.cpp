@@ -66,6 +66,7 @@ public:
     RunOptions run_options() const {
         return {.by = by(),
                 .method = text("method"),
+                .code = text("code"),
                 .duration = number("duration", -1),
                 .tolerance = number("tolerance", -1),
                 .step = number("step", -1),

@@ -66,7 +66,7 @@ TEST_CASE("sweep: motions with friction, contacts and impulses are those of simu
     }
 }
 
-TEST_CASE("sweep: motions in pieces depend neither on threads nor on processes' parts, and are resumed") {
+TEST_CASE("sweep: motions in pieces depend neither on threads nor on processes' parts") {
     const std::string scene = source_path("scenes/friction/braking_box.toml"), plain = temporary("plain.csv", ""),
                       parts = temporary("parts.csv", "");
     const std::vector<std::string> words{"sweep", scene, "--vary", "mu=0.1:0.9:12", "--vary", "x'=1:4:3"};

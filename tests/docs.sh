@@ -144,7 +144,7 @@ for verb in '' $verbs; do
     case $verb in # those with the most options, and the list of verbs, need more
         emit) most_lines=26 ;;
         simulate) most_lines=30 ;;
-        sweep | '') most_lines=31 ;;
+        sweep | '') most_lines=32 ;;
         *) most_lines=24 ;;
     esac
     if [ "$lines" -gt "$most_lines" ] || [ "$wide" -gt 80 ]; then

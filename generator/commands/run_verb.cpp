@@ -65,4 +65,10 @@ std::vector<std::string> shown_names(const std::string& list) {
     return names;
 }
 
+void add_code_option(Verb& verb, RunOptions& wishes) {
+    verb.add_option("--code", wishes.code, say("auto (default); memory: no compiler; compiled"))
+        .type_name(values::code)
+        .one_of({"auto", "memory", "compiled"});
+}
+
 }  // namespace alembert

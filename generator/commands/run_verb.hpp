@@ -16,6 +16,9 @@ struct RunVerb : SceneOptions {
 /// --duration, --tolerance, --method, --step, -o, --max-step, --budget, --fast-math, --by.
 void add_run_options(Verb& verb, RunVerb& options);
 
+/// --code: whether the functions are machine code in memory or compiled.
+void add_code_option(Verb& verb, RunOptions& wishes);
+
 /// Only --duration; --max-step and --budget.
 void add_duration_option(Verb& verb, RunOptions& wishes);
 void add_limits(Verb& verb, RunOptions& wishes);

@@ -72,9 +72,7 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
          .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
         run, [](Verb& verb, SimulateVerb& options) {
             add_run_options(verb, options);
-            verb.add_option("--code", options.wishes.code, say("auto (default); memory: no compiler; compiled"))
-                .type_name(values::code)
-                .one_of({"auto", "memory", "compiled"});
+            add_code_option(verb, options.wishes);
             verb.add_option("--sample", options.wishes.sample, say("time between rows of the table"))
                 .type_name(values::seconds)
                 .positive();

@@ -361,6 +361,7 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
                 .between(0, 2147483647)
                 .needs("--samples");
             add_run_options(verb, options);
+            add_code_option(verb, options.wishes);
             verb.add_option("--threads", options.threads, say("default: as many as there are cores"))
                 .type_name(values::count)
                 .between(1, 1024);

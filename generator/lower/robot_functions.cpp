@@ -214,8 +214,8 @@ FunctionProgram RobotFunctions::mass_inverse() const {
     for (const Mechanism::Constraint& c : m_.constraints)
         if (c.norm)
             throw ModelError(say(
-                "the mass matrix has no inverse, because the quaternion of '{}' has no inertia along itself; give "
-                "its joint 'angles', or leave 'mass_inverse' out",
+                "the mass matrix has no inverse, because the quaternion of '{}' has no inertia along itself; turn "
+                "it by angles instead, or leave 'mass_inverse' out",
                 c.name));
     const int n = m_.size();
     Program program = dynamics("mass").program;

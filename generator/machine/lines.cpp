@@ -9,6 +9,7 @@
 #include "alembert/code_functions.hpp"
 #include "alembert/packs.hpp"
 #include "emit/schedule.hpp"
+#include "machine/pack_sines.hpp"
 #include "program/interpret.hpp"
 #include "program/processor.hpp"
 
@@ -59,12 +60,6 @@ const void* function_of(Op op) {
 bool is_sine(const Node& node) {
     return node.op == Op::sin || node.op == Op::cos;
 }
-
-/// The polynomials P and Q of sines_for_code, from the lowest power.
-constexpr std::array sine_coefficients{0.1666666666666663,      -0.008333333333322118, 0.00019841269829589533,
-                                       -2.7557313621383334e-06, 2.505074776244275e-08, -1.5896230131492603e-10};
-constexpr std::array cosine_coefficients{0.041666666666666595,   -0.0013888888888873056, 2.4801587288851683e-05,
-                                         -2.755731417929107e-07, 2.0875700841213046e-09, -1.13585364822807e-11};
 
 /// A value, or its negative.
 struct Signed {
@@ -243,43 +238,9 @@ private:
         lines_.largest = lines_.largest < 0
                              ? add({.kind = Line::Kind::absolute, .of = {x, -1, -1}})
                              : add({.kind = Line::Kind::larger_size, .of = {lines_.largest, x, -1}});
-        return known->second = turned(x);
-    }
-
-    /// As sines_for_code (alembert/code_functions.hpp), step by step.
-    std::array<int, 2> turned(int x) {
-        const auto unary = [&](Line::Kind kind, int a, int bits = 0) {
-            return add({.kind = kind, .of = {a, -1, -1}, .place = bits});
-        };
-        const auto binary = [&](Line::Kind kind, int a, int b) { return add({.kind = kind, .of = {a, b, -1}}); };
-        const auto fused = [&](int a, int b, int c, bool minus = false) {
-            return add({.kind = Line::Kind::fused, .of = {a, b, c}, .minus_product = minus});
-        };
-        const int shift = number(0x1.8p52), shifted = fused(x, number(0x1.45f306dc9c883p-1), shift);
-        const int turns = binary(Line::Kind::subtract, shifted, shift);
-        int r = x;
-        for (const double part : {0x1.921fb54442d18p0, 0x1.1a62633145c06p-54, 0x1.c1cd129024e09p-107})
-            r = fused(turns, number(part), r, true);
-        const int z = binary(Line::Kind::multiply, r, r), zz = binary(Line::Kind::multiply, z, z);
-        const auto polynomial = [&](const std::array<double, 6>& c) {
-            std::array<int, 3> line{};
-            for (std::size_t k = 0; k < 3; ++k)
-                line[k] = fused(number(std::abs(c[2 * k + 1])), z, number(c[2 * k]), c[2 * k + 1] < 0);
-            return fused(zz, fused(zz, line[2], line[1]), line[0]);
-        };
-        const int P = polynomial(sine_coefficients), Q = polynomial(cosine_coefficients);
-        const int s = binary(Line::Kind::multiply, r, fused(z, P, number(1), true));
-        const int c = fused(zz, Q, fused(number(0.5), z, number(1), true));
-        // The lowest bit of the number of quarter turns says whether sine and cosine change places.
-        const int odd = unary(Line::Kind::shift_right, unary(Line::Kind::shift_left, shifted, 63), 63);
-        const auto signed_by = [&](int value, int quarters) {
-            return binary(Line::Kind::turn_sign, value, unary(Line::Kind::shift_left, quarters, 62));
-        };
-        const auto selected = [&](int even, int other) {
-            return add({.kind = Line::Kind::select, .of = {even, other, odd}});
-        };
-        const int next = binary(Line::Kind::add, shifted, number(1));
-        return {signed_by(selected(s, c), shifted), signed_by(selected(c, s), next)};
+        return known->second = sine_and_cosine_inside({.add = [this](const Line& line) { return add(line); },
+                                                       .number = [this](double v) { return number(v); }},
+                                                      x);
     }
 
     int leaf(const Home& home) {

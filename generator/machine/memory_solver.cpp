@@ -184,15 +184,19 @@ private:
     void write(const FunctionTask& task, Function& place) {
         if (!task.results.empty() || !task.copies.empty()) write(lines_of(p_, words_, ready_, task), place);
     }
-    /// The function, and before it the one that takes its place for large angles.
+    /// The function, and before it, if it has sines, the one that takes its place for large angles.
     template <typename Function>
     void write_packed(const FunctionTask& task, Function& place) {
         if (task.results.empty() && task.copies.empty()) return;
-        code_.align();
-        const std::size_t other = code_.size();
-        is_possible_ =
-            is_possible_ && write_function(code_, lines_of_packs(p_, words_, ready_, task, Sines::called));
-        write(lines_of_packs(p_, words_, ready_, task, Sines::inside), place, other);
+        const Lines inside = lines_of_packs(p_, words_, ready_, task, Sines::inside);
+        std::size_t other = 0;
+        if (inside.largest >= 0) {
+            code_.align();
+            other = code_.size();
+            is_possible_ =
+                is_possible_ && write_function(code_, lines_of_packs(p_, words_, ready_, task, Sines::called));
+        }
+        write(inside, place, other);
     }
     template <typename Function>
     void write(const Lines& lines, Function& place, std::size_t other = 0) {

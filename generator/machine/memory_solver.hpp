@@ -13,8 +13,8 @@
 /// operations in its own way. Every result is written as soon as it is known, so that the arrays of results must
 /// not overlap those that are given.
 ///
-/// Nothing is returned where the processor is not of the kind x86-64 with AVX2 and FMA, or where the system does
-/// not allow memory to be made executable.
+/// Nothing is returned where the processor is not of the kind x86-64 with AVX2 and FMA, where the system does not
+/// allow memory to be made executable, or where a function would need more than a megabyte of the stack.
 
 #include <functional>
 #include <optional>

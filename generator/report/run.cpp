@@ -235,7 +235,7 @@ void add_motion(std::string& page, const Run& run) {
 void add_sensitivity(std::string& page, const Sensitivity& s) {
     const std::string steps = shown_count(s.steps, to_say("step"));
     if (s.adjoint)
-        say_on(page, "\nderivatives at t = {:.15g} (adjoint equations, {} backwards)\n", s.time, steps);
+        say_on(page, "\nderivatives at t = {:.15g} (adjoint equations, {})\n", s.time, steps);
     else
         say_on(page, "\nderivatives at t = {:.15g} ({})\n", s.time, steps);
     std::vector<std::string> by;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/bounces.hpp"
 
-#include <ctime>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "alembert/process_time.hpp"
 #include "alembert/tolerances.hpp"
 #include "language/say.hpp"
 #include "run/loaded_modes.hpp"
@@ -14,12 +13,6 @@
 namespace alembert {
 
 namespace {
-
-double thread_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::vector<double> times_of(const PhasedMotion& motion, ContactEvent::Kind kind) {
     std::vector<double> list;

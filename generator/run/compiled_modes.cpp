@@ -28,6 +28,11 @@ std::optional<Differentiated> affordable_derivatives(const Program& program, Wor
     return result;
 }
 
+/// Processor time of this thread and of compilers that have ended.
+double own_seconds() {
+    return thread_seconds() + children_seconds();
+}
+
 /// Whether signs are not held constant: rattle calculates with momenta, and ida with constraints calls other
 /// functions than the right-hand side.
 bool takes_signs_as_they_are(const MethodChoice& method, const Derived& derived) {
@@ -46,7 +51,12 @@ Program with_jacobian(Program program, Method method, bool with_power) {
 
 CompiledModes::CompiledModes(const RunOptions& wishes, const Derived& derived, Work work,
                              const MethodChoice& method)
-    : wishes_(wishes), derived_(derived), work_(work), method_(method) {}
+    : wishes_(wishes),
+      derived_(derived),
+      work_(work),
+      method_(method),
+      may_go_over_(alembert::may_go_over(wishes) && !needs_series(method.method) &&
+                   !needs_canonical(method.method)) {}
 
 void CompiledModes::take_free(Program program) {
     free_ = std::move(program);
@@ -65,13 +75,13 @@ CompiledMode& CompiledModes::own(const CompiledMode& mode) {
 }
 
 bool CompiledModes::may_go_over(const CompiledMode& mode) const {
-    return !is_shared && mode.code.go_over && alembert::may_go_over(wishes_);
+    return may_go_over_ && !is_shared && mode.code.go_over;
 }
 
 void CompiledModes::go_over(const CompiledMode& asked) {
     CompiledMode& mode = own(asked);
     const auto go_over = std::exchange(mode.code.go_over, {});
-    const double begin = process_seconds();
+    const double begin = own_seconds();
     try {
         const SolverCode compiled = compiled_code(mode.run(), mode.program.name, wishes_);
         go_over(compiled.module);
@@ -79,14 +89,14 @@ void CompiledModes::go_over(const CompiledMode& asked) {
         mode.kind = CodeKind::both;
     } catch (const CompileError&) {
     }
-    seconds_.compile += process_seconds() - begin;
+    seconds_.compile += own_seconds() - begin;
 }
 
 const CompiledMode& CompiledModes::operator()(const std::vector<int>& closed, const State<double>& first) {
     const std::lock_guard lock(symbols);
-    std::unique_ptr<CompiledMode>& mode = made_[closed];
-    if (!mode) mode = made(closed, first);
-    return *mode;
+    auto mode = made_.find(closed);
+    if (mode == made_.end()) mode = made_.emplace(closed, made(closed, first)).first;
+    return *mode->second;
 }
 
 const Module* CompiledModes::jacobian_of(const CompiledMode& asked) {
@@ -94,24 +104,24 @@ const Module* CompiledModes::jacobian_of(const CompiledMode& asked) {
     CompiledMode& mode = own(asked);
     if (!mode.was_asked_for_jacobian) {
         mode.was_asked_for_jacobian = true;
-        double clock = process_seconds();
+        double clock = own_seconds();
         if (const auto derivatives = affordable_derivatives(mode.program, work_)) {
-            seconds_.emit += process_seconds() - clock;
-            clock = process_seconds();
+            seconds_.emit += own_seconds() - clock;
+            clock = own_seconds();
             mode.with_jacobian =
                 solver_code(derivatives->program, mode.program.name + "_jacobian", wishes_).module;
             mode.jacobian_operations = derivatives->operations.total();
-            seconds_.compile += process_seconds() - clock;
+            seconds_.compile += own_seconds() - clock;
         }
     }
     return mode.with_jacobian ? &*mode.with_jacobian : nullptr;
 }
 
 std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed, const State<double>& first) {
-    double clock = process_seconds();
+    double clock = own_seconds();
     const auto lap = [&clock] {
         const double before = clock;
-        clock = process_seconds();
+        clock = own_seconds();
         return clock - before;
     };
     const bool has_contacts = !derived_.mechanism.unilateral.empty();

@@ -9,7 +9,8 @@
 ///     const CompiledMode& lying = compiled({0}, first);
 ///
 /// Expressions and exact numbers serve one thread at a time: whoever touches them while motions run on other
-/// threads holds the lock `symbols`. What is called here takes it.
+/// threads holds the lock `symbols`. Making a mode or its Jacobian takes it; all else is for one thread, before
+/// the motions or after them.
 
 #include <map>
 #include <memory>
@@ -93,6 +94,7 @@ private:
     const Derived& derived_;
     Work work_;
     const MethodChoice& method_;
+    bool may_go_over_;  ///< not where the right-hand side is called by few or none
     std::optional<Program> free_;
     std::map<std::vector<int>, std::unique_ptr<CompiledMode>> made_;
     Seconds seconds_;

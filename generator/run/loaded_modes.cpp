@@ -83,9 +83,9 @@ void LoadedModes::forget() {
 }
 
 LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
-    std::unique_ptr<LoadedMode>& mode = loaded_[closed];
-    if (!mode) mode = bound(closed);
-    return *mode;
+    auto mode = loaded_.find(closed);
+    if (mode == loaded_.end()) mode = loaded_.emplace(closed, bound(closed)).first;
+    return *mode->second;
 }
 
 Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
@@ -104,7 +104,7 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
 
 /// Goes over to compiled code where that is predicted to pay.
 void LoadedModes::count_step(LoadedMode& mode) {
-    if (!compiled_.may_go_over(mode.compiled)) return;
+    if (mode.when_stiff || !compiled_.may_go_over(mode.compiled)) return;
     constexpr double evaluations = 16;  // of a usual step, between those of the explicit methods
     mode.effort += evaluations * effort_of_evaluation(mode.contact.rhs, uses_jacobian(compiled_.method().method));
     if (pays_to_compile(mode.compiled.run(), mode.effort)) compiled_.go_over(mode.compiled);
@@ -178,7 +178,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
 
 std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     const CompiledMode& made = compiled_(closed, first_);
-    if (loaded_.size() == 1) {
+    if (loaded_.empty()) {
         const std::lock_guard lock(compiled_.symbols);
         need_accelerations(made.derived, made.program, first_);
     }

@@ -214,7 +214,13 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, double tolerance
     const Trajectory motion = integrated(alone, state_, options);
     const AtEnd wanted = at_end(end, motion.final_state());
 
-    Sensitivity result{.time = end, .of = of_, .by = names_, .values = wanted.by_name, .adjoint = true};
+    Sensitivity result{.time = end,
+                       .of = of_,
+                       .by = names_,
+                       .values = wanted.by_name,
+                       .adjoint = true,
+                       .steps = counted.steps + motion.statistics.steps,
+                       .evaluations = counted.evaluations + motion.statistics.evaluations};
     std::vector<double> y(N);
     for (const std::vector<double>& row : wanted.by_state) {
         y.insert(y.end(), row.begin(), row.end());
@@ -227,8 +233,11 @@ std::optional<Sensitivity> Sensitivities::backwards(double end, double tolerance
             variation.backwards(from - s, now, rate, rows);
         });
         const double length = from - motion.times[k - 1];
-        const Trajectory piece =
-            integrated(back, y, {.duration = length, .tolerance = tolerance, .sample = length, .budget = budget});
+        const Trajectory piece = integrated(back, y,
+                                            {.duration = length,
+                                             .tolerance = tolerance,
+                                             .sample = length,
+                                             .budget = std::max(1L, budget - result.evaluations)});
         y.assign(piece.final_state().begin(), piece.final_state().end());
         result.steps += piece.statistics.steps;
         result.evaluations += piece.statistics.evaluations;

@@ -32,7 +32,7 @@ struct Sensitivity {
     std::vector<std::string> of, by;          ///< names of the quantities at the end, and of what is varied
     std::vector<std::vector<double>> values;  ///< [of][by], in the scene's units
     bool adjoint = false;                     ///< whether the adjoint equations gave them
-    long steps = 0, evaluations = 0;
+    long steps = 0, evaluations = 0;          ///< of all integrations, forwards and backwards
 };
 
 class Sensitivities {

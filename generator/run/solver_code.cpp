@@ -15,8 +15,8 @@ enum class CodeWish { automatic, memory, compiled };
 
 /// What `--code` says, or the variable of the environment.
 CodeWish code_wish(const RunOptions& wishes) {
-    const char* const variable = std::getenv("ALEMBERT_CODE");
-    const std::string word = !wishes.code.empty() ? wishes.code : variable != nullptr ? variable : "";
+    const char* const variable = wishes.code.empty() ? std::getenv("ALEMBERT_CODE") : nullptr;
+    const std::string word = variable != nullptr ? variable : wishes.code;
     if (word.empty() || word == "auto") return wishes.fast_math ? CodeWish::compiled : CodeWish::automatic;
     if (word == "compiled") return CodeWish::compiled;
     if (word != "memory") throw ModelError(say("unknown code '{}'; expected auto, memory or compiled", word));
@@ -41,11 +41,25 @@ CompileOptions compile_options(const RunOptions& wishes) {
     return {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}};
 }
 
+namespace {
+
+SolverCode compiled_text(const std::string& text, const std::string& name, const RunOptions& wishes) {
+    const Compiled compiled = compile(text, name, compile_options(wishes));
+    return {.module = load(compiled.object), .from_cache = compiled.from_cache};
+}
+
+std::optional<SolverCode> code_in_memory(const Program& program, bool with_packs) {
+    auto solver = memory_solver(program, with_packs);
+    if (!solver) return std::nullopt;
+    return SolverCode{.module = std::move(solver->module), .go_over = std::move(solver->go_over)};
+}
+
+}  // namespace
+
 SolverCode solver_code(const Program& program, const std::string& name, const RunOptions& wishes) {
     const CodeWish wish = code_wish(wishes);
     if (wish == CodeWish::compiled) return compiled_code(program, name, wishes);
-    if (auto solver = memory_solver(program))
-        return {.module = std::move(solver->module), .go_over = std::move(solver->go_over)};
+    if (auto code = code_in_memory(program, false)) return *std::move(code);
     if (wish == CodeWish::memory)
         throw CompileError(say(
             "machine code in memory needs a processor x86-64 with AVX2 and FMA, and a system that lets memory be "
@@ -54,15 +68,25 @@ SolverCode solver_code(const Program& program, const std::string& name, const Ru
 }
 
 SolverCode compiled_code(const Program& program, const std::string& name, const RunOptions& wishes) {
-    const Compiled compiled = compile(emit(program).text, name, compile_options(wishes));
-    return {.module = load(compiled.object), .from_cache = compiled.from_cache};
+    return compiled_text(emit(program).text, name, wishes);
 }
 
 SolverCode batch_code(const Program& program, const std::string& text, const RunOptions& wishes) {
-    if (code_wish(wishes) != CodeWish::compiled)
-        if (auto solver = memory_solver(program, true)) return {.module = std::move(solver->module)};
-    const Compiled compiled = compile(text, program.name, compile_options(wishes));
-    return {.module = load(compiled.object), .from_cache = compiled.from_cache};
+    const CodeWish wish = code_wish(wishes);
+    if (wish == CodeWish::compiled) return compiled_text(text, program.name, wishes);
+    if (auto code = code_in_memory(program, true)) return *std::move(code);
+    if (wish == CodeWish::memory) return solver_code(program, program.name, wishes);
+    try {
+        return compiled_text(text, program.name, wishes);
+    } catch (const CompileError&) {  // without a compiler, one system after the other
+        if (auto code = code_in_memory(program, false)) return *std::move(code);
+        throw;
+    }
+}
+
+std::string wished_code(const RunOptions& wishes) {
+    constexpr const char* names[] = {"auto", "memory", "compiled"};
+    return names[static_cast<int>(code_wish(wishes))];
 }
 
 bool pays_to_compile(const Program& program, double effort) {

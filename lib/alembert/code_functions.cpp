@@ -28,9 +28,9 @@ ALEMBERT_WIDE inline __m256d line(double a, double b, __m256d z) {
     return _mm256_fmadd_pd(all(b), z, all(a));
 }
 
-/// a + (b + c zz) zz
-ALEMBERT_WIDE inline __m256d joined(__m256d a, __m256d b, __m256d c, __m256d zz) {
-    return _mm256_fmadd_pd(zz, _mm256_fmadd_pd(zz, c, b), a);
+/// c₀ + c₁ z + … + c₅ z⁵
+ALEMBERT_WIDE inline __m256d polynomial(const double (&c)[6], __m256d z, __m256d zz) {
+    return _mm256_fmadd_pd(zz, _mm256_fmadd_pd(zz, line(c[4], c[5], z), line(c[2], c[3], z)), line(c[0], c[1], z));
 }
 
 /// The sign that the second bit of a number of quarter turns gives.
@@ -63,18 +63,14 @@ ALEMBERT_WIDE void sines_for_code(double* values, int count) {
         double *const angles = values + k, *const sines = angles + count, *const cosines = sines + count;
         const __m256d x = _mm256_set_pd(alone(angles[3]), alone(angles[2]), alone(angles[1]), alone(angles[0]));
         // Adding this number rounds to a whole number, in the last bits.
-        const __m256d shift = all(0x1.8p52), shifted = _mm256_fmadd_pd(x, all(0x1.45f306dc9c883p-1), shift);
+        const __m256d shift = all(rounding_shift), shifted = _mm256_fmadd_pd(x, all(quarters_per_radian), shift);
         const __m256d turns = _mm256_sub_pd(shifted, shift);
-        __m256d r = _mm256_fnmadd_pd(turns, all(0x1.921fb54442d18p0), x);
-        r = _mm256_fnmadd_pd(turns, all(0x1.1a62633145c06p-54), r);
-        r = _mm256_fnmadd_pd(turns, all(0x1.c1cd129024e09p-107), r);
+        __m256d r = _mm256_fnmadd_pd(turns, all(quarter_turn[0]), x);
+        r = _mm256_fnmadd_pd(turns, all(quarter_turn[1]), r);
+        r = _mm256_fnmadd_pd(turns, all(quarter_turn[2]), r);
         const __m256d z = _mm256_mul_pd(r, r), zz = _mm256_mul_pd(z, z);
-        const __m256d P = joined(line(0.1666666666666663, -0.008333333333322118, z),
-                                 line(0.00019841269829589533, -2.7557313621383334e-06, z),
-                                 line(2.505074776244275e-08, -1.5896230131492603e-10, z), zz);
-        const __m256d Q = joined(line(0.041666666666666595, -0.0013888888888873056, z),
-                                 line(2.4801587288851683e-05, -2.755731417929107e-07, z),
-                                 line(2.0875700841213046e-09, -1.13585364822807e-11, z), zz);
+        const __m256d P = polynomial(sine_coefficients, z, zz);
+        const __m256d Q = polynomial(cosine_coefficients, z, zz);
         const __m256d s = _mm256_mul_pd(r, _mm256_fnmadd_pd(z, P, all(1)));
         const __m256d c = _mm256_fmadd_pd(zz, Q, line(1, -0.5, z));
         // The lowest bit of the number of quarter turns says whether sine and cosine change places.
@@ -99,8 +95,8 @@ ALEMBERT_WIDEST inline __m512d line(double a, double b, __m512d z) {
     return _mm512_fmadd_pd(eight(b), z, eight(a));
 }
 
-ALEMBERT_WIDEST inline __m512d joined(__m512d a, __m512d b, __m512d c, __m512d zz) {
-    return _mm512_fmadd_pd(zz, _mm512_fmadd_pd(zz, c, b), a);
+ALEMBERT_WIDEST inline __m512d polynomial(const double (&c)[6], __m512d z, __m512d zz) {
+    return _mm512_fmadd_pd(zz, _mm512_fmadd_pd(zz, line(c[4], c[5], z), line(c[2], c[3], z)), line(c[0], c[1], z));
 }
 
 ALEMBERT_WIDEST inline __m512d sign_of(__m512i quarters) {
@@ -113,18 +109,15 @@ ALEMBERT_WIDEST void sines_of_packs_for_code(double* values, int count) {
     for (int k = 0; k < count; k += 8) {
         double *const angles = values + k, *const sines = angles + count, *const cosines = sines + count;
         const __m512d x = _mm512_load_pd(angles);
-        const __m512d shift = eight(0x1.8p52), shifted = _mm512_fmadd_pd(x, eight(0x1.45f306dc9c883p-1), shift);
+        const __m512d shift = eight(rounding_shift),
+                      shifted = _mm512_fmadd_pd(x, eight(quarters_per_radian), shift);
         const __m512d turns = _mm512_sub_pd(shifted, shift);
-        __m512d r = _mm512_fnmadd_pd(turns, eight(0x1.921fb54442d18p0), x);
-        r = _mm512_fnmadd_pd(turns, eight(0x1.1a62633145c06p-54), r);
-        r = _mm512_fnmadd_pd(turns, eight(0x1.c1cd129024e09p-107), r);
+        __m512d r = _mm512_fnmadd_pd(turns, eight(quarter_turn[0]), x);
+        r = _mm512_fnmadd_pd(turns, eight(quarter_turn[1]), r);
+        r = _mm512_fnmadd_pd(turns, eight(quarter_turn[2]), r);
         const __m512d z = _mm512_mul_pd(r, r), zz = _mm512_mul_pd(z, z);
-        const __m512d P = joined(line(0.1666666666666663, -0.008333333333322118, z),
-                                 line(0.00019841269829589533, -2.7557313621383334e-06, z),
-                                 line(2.505074776244275e-08, -1.5896230131492603e-10, z), zz);
-        const __m512d Q = joined(line(0.041666666666666595, -0.0013888888888873056, z),
-                                 line(2.4801587288851683e-05, -2.755731417929107e-07, z),
-                                 line(2.0875700841213046e-09, -1.13585364822807e-11, z), zz);
+        const __m512d P = polynomial(sine_coefficients, z, zz);
+        const __m512d Q = polynomial(cosine_coefficients, z, zz);
         const __m512d s = _mm512_mul_pd(r, _mm512_fnmadd_pd(z, P, eight(1)));
         const __m512d c = _mm512_fmadd_pd(zz, Q, line(1, -0.5, z));
         const __m512i quarters = _mm512_castpd_si512(shifted),

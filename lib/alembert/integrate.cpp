@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/integrate.hpp"
 
-#include <ctime>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +16,7 @@
 #include "alembert/dop853.hpp"
 #include "alembert/error.hpp"
 #include "alembert/gauss.hpp"
+#include "alembert/process_time.hpp"
 #include "alembert/radau.hpp"
 #include "alembert/rattle.hpp"
 #include "alembert/regularized.hpp"
@@ -32,12 +31,6 @@ namespace {
 
 constexpr double most_rows = 1e8;
 constexpr double most_steps = 1e15;  // more steps could not be distinguished in t
-
-double thread_seconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 void check(bool good, const std::string& message) {
     if (!good) throw std::invalid_argument(message);

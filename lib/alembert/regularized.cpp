@@ -145,6 +145,7 @@ private:
         inner.duration = far * (options_.step > 0 ? options_.step : options_.duration);
         inner.sample = inner.duration;
         inner.grid = {};
+        inner.quick_times = {};  // they are in t
         inner.when_stiff = {};
         inner.rhs_when_stiff = {};
         inner.by = {};

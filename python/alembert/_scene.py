@@ -163,7 +163,7 @@ class Scene:
                                       regularize))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
-              budget=10_000_000, by="", threads=0):
+              budget=10_000_000, by="", threads=0, code=""):
         """The ends of many motions: `values={"l1": numpy.linspace(1, 2, 100), "theta1": [0.1, 0.2]}` gives a Swept of
         shape (100, 2); with grid=False the lists have one length and are taken side by side."""
         import numpy
@@ -175,7 +175,7 @@ class Scene:
         if not grid and any(len(one) != len(lists[0]) for one in lists):
             raise ValueError("with grid=False every quantity needs as many values as the others")
         points = [x for point in (_itertools.product(*lists) if grid else zip(*lists)) for x in point]
-        given = {"names": list(values), "points": points, "method": method, "by": by, "threads": threads,
+        given = {"names": list(values), "points": points, "method": method, "by": by, "threads": threads, "code": code,
                  **run_numbers(duration=duration, tolerance=tolerance, step=step, max_step=max_step, budget=budget)}
         json, text, said, _, columns, table = _alembert.ask("sweep", self.text, self.name, _json.dumps(given))
         warn(said)
