@@ -158,6 +158,27 @@ x'' = -w^2*x
                    {Verdict::proved, Verdict::refuted});
 }
 
+// Words are separated by blanks of any kind, and by commas in a file, as names after "unknowns" are.
+TEST_CASE("check: the friction that sticks may stand behind a tab or a comma, and have a Greek name") {
+    std::string text = test::contents(test::source_path("scenes/friction/block_on_slope.toml"));
+    const std::string slope = "name = \"slope\"";
+    text.replace(text.find(slope), slope.size(), "name = \"σ\"");
+    text = text.substr(0, text.find("[[claim]]"));
+    const std::string claim = "friction_σ = -m*g*sin(alpha) - F\n";
+    for (const char* const at : {"sticking\tσ\n", "sticking \t σ\r\n", "sticking, σ\n", "  sticking\t\n"}) {
+        CAPTURE(at);
+        check_verdicts(checked(with_claims(parse_scene(text, "block.toml"), at + claim, "claims.txt")),
+                       {Verdict::proved});
+    }
+    for (const char* const at : {"sticking\\tσ", "sticking  σ", "sticking\\t"}) {
+        CAPTURE(at);
+        check_verdicts(checked(parse_scene(text + "[[claim]]\nequation = \"" + claim.substr(0, claim.size() - 1) +
+                                               "\"\nat = \"" + at + "\"\n",
+                                           "block.toml")),
+                       {Verdict::proved});
+    }
+}
+
 TEST_CASE("check: in a plane the force of what sticks has two components") {
     const Scene puck = friction_scene("puck_on_slope");
     check_verdicts(

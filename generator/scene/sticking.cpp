@@ -2,6 +2,7 @@
 #include "scene/sticking.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 namespace alembert {
@@ -51,7 +52,8 @@ Scene with_sticking(Scene scene, const std::vector<std::string>& frictions) {
 }
 
 bool is_sticking(const Claim& claim) {
-    return claim.at.starts_with(word) && (claim.at.size() == word.size() || claim.at[word.size()] == ' ');
+    if (!claim.at.starts_with(word)) return false;
+    return claim.at.size() == word.size() || std::isspace(static_cast<unsigned char>(claim.at[word.size()])) != 0;
 }
 
 std::vector<std::string> named_sticking(const Claim& claim) {

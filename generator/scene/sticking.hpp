@@ -26,7 +26,7 @@ std::vector<std::string> sticking_forces(const FrictionRule& friction);
 std::vector<std::string> taken_forces(const FrictionRule& friction, const NameSpaces& names);
 
 /// Whether a claim speaks of the motion while friction sticks: its `at` is "sticking", of all frictions, or
-/// "sticking" with the names of some after it.
+/// "sticking" with the names of some after it, between blanks of any kind.
 bool is_sticking(const Claim& claim);
 
 /// The frictions that stick according to such a claim, in the order of the scene.
