@@ -8,6 +8,8 @@
 
 #include "alembert/error.hpp"
 #include "checked.hpp"
+#include "derive/derive.hpp"
+#include "notation/text.hpp"
 
 namespace check_friction {
 
@@ -156,12 +158,109 @@ x'' = -w^2*x
                    {Verdict::proved, Verdict::refuted});
 }
 
+// Words are separated by blanks of any kind, and by commas in a file, as names after "unknowns" are.
+TEST_CASE("check: the friction that sticks may stand behind a tab or a comma, and have a Greek name") {
+    std::string text = test::contents(test::source_path("scenes/friction/block_on_slope.toml"));
+    const std::string slope = "name = \"slope\"";
+    text.replace(text.find(slope), slope.size(), "name = \"σ\"");
+    text = text.substr(0, text.find("[[claim]]"));
+    const std::string claim = "friction_σ = -m*g*sin(alpha) - F\n";
+    for (const char* const at : {"sticking\tσ\n", "sticking \t σ\r\n", "sticking, σ\n", "  sticking\t\n"}) {
+        CAPTURE(at);
+        check_verdicts(checked(with_claims(parse_scene(text, "block.toml"), at + claim, "claims.txt")),
+                       {Verdict::proved});
+    }
+    for (const char* const at : {"sticking\\tσ", "sticking  σ", "sticking\\t"}) {
+        CAPTURE(at);
+        check_verdicts(checked(parse_scene(text + "[[claim]]\nequation = \"" + claim.substr(0, claim.size() - 1) +
+                                               "\"\nat = \"" + at + "\"\n",
+                                           "block.toml")),
+                       {Verdict::proved});
+    }
+}
+
 TEST_CASE("check: in a plane the force of what sticks has two components") {
     const Scene puck = friction_scene("puck_on_slope");
     check_verdicts(
         checked(with_claims(puck, "sticking\nfriction_slope_1 = 0\nfriction_slope_2 = -m*g*sin(alpha)\n",
                             "claims.txt")),
         {Verdict::proved, Verdict::proved});
+}
+
+// With as many speeds as the blade leaves free there are too many of them while the runner sticks.
+TEST_CASE("derive: a sled in generalized speeds shows the equations while its runner sticks") {
+    const auto sled = [](const std::string& speeds, const std::string& slip) {
+        return parse_scene(R"toml(
+[parameters]
+m = 4
+J = 0.8
+g = 9.81
+mu = 0.1
+[coordinates]
+x = {}
+y = {}
+phi = 0.2
+)toml" + speeds + R"toml(
+[[frame]]
+name = "S"
+rotate = [["z", "phi"]]
+[[body]]
+name = "sled"
+mass = "m"
+inertia = "J"
+frame = "S"
+position = ["x", "y"]
+[[constraint]]
+name = "blade"
+nonholonomic = "y'*cos(phi) - x'*sin(phi)"
+[[friction]]
+name = "runner"
+coefficient = "mu"
+slip = ")toml" + slip + R"toml("
+normal = "m*g"
+)toml",
+                           "sled.toml");
+    };
+    const std::string along = "x'*cos(phi) + y'*sin(phi)",
+                      speeds = "[speeds]\nv = { form = \"" + along +
+                               "\", initial = 1.2 }\nw = { form = \"phi'\", initial = 0.3 }\n";
+    const auto held = [](const DerivedScene& d) {
+        std::vector<std::string> result;
+        REQUIRE(d.shown.frictions.size() == 1);
+        for (const ReadableEquation& e : d.shown.frictions[0].held)
+            result.push_back(text(e.lhs) + " = " + text(e.rhs));
+        return result;
+    };
+    const Scene in_speeds = sled(speeds, "v");
+    const std::vector<std::string> equations = held(derive(in_speeds));
+    CHECK(equations.size() == 3);
+    CHECK(equations == held(derive(sled("", along))));
+    std::string claims = "sticking\nv = 0\nx'' = 0\nw' = 0\nfriction_runner = 0\n";
+    for (const std::string& equation : equations) claims += equation + "\n";
+    check_verdicts(checked(with_claims(in_speeds, claims, "claims.txt")), std::vector(7, Verdict::proved));
+}
+
+TEST_CASE("derive: a parameter with the name of the force of what sticks stays a parameter") {
+    std::string block = test::contents(test::source_path("scenes/friction/block_on_slope.toml"));
+    for (const auto& [from, to] : {std::pair{"[inputs]", "friction_slope = 1.5\n[inputs]"},
+                                   {"s = \"F\"", "s = \"F + friction_slope\""},
+                                   {"sign(s')\"", "sign(s') + friction_slope\""}}) {
+        const std::size_t at = block.find(from);
+        REQUIRE(at != std::string::npos);
+        block.replace(at, std::string(from).size(), to);
+    }
+    const Scene scene = parse_scene(block, "block.toml");
+    check_verdicts(checked(scene), {Verdict::proved});
+    const DerivedScene d = derive(scene);
+    REQUIRE(d.shown.frictions.size() == 1);
+    CHECK(d.shown.frictions[0].held.empty());
+    try {
+        checked(with_claims(scene, "sticking\ns'' = 0\n", "claims.txt"));
+        FAIL("the force of what sticks has no name");
+    } catch (const SceneError& mistake) {
+        CHECK(std::string(mistake.what()).find("'friction_slope' is its force, and the scene has a parameter") !=
+              std::string::npos);
+    }
 }
 
 TEST_CASE("check: claims about sticking where nothing of this name can stick are mistakes") {

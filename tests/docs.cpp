@@ -282,6 +282,15 @@ TEST_CASE("docs: every scene of the repository obeys the schema, and scenes with
                       name);
 }
 
+TEST_CASE("docs: a claim about sticking obeys the schema, whatever letters and blanks its names have") {
+    const auto obeyed = [](const std::string& at) {
+        return obeys({{"claim", {{{"equation", "x = 0"}, {"at", at}}}}}, schema());
+    };
+    for (const char* const at : {"sticking", "sticking slope", "sticking  σ\tslope ", "rest"})
+        CHECK_MESSAGE(obeyed(at), at);
+    for (const char* const at : {"stickingslope", "sticks", " sticking"}) CHECK_MESSAGE(!obeyed(at), at);
+}
+
 TEST_CASE("docs: the reader takes the examples of the reference") {
     std::istringstream lines(text_of("docs/scene-language.md"));
     int examples = 0;

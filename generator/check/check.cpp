@@ -146,7 +146,7 @@ private:
             roots.push_back(root);
         }
         if (found.empty()) return left;
-        const std::vector<bool> holds = hold_in_numbers(states->motions, p, roots);
+        const std::vector<bool> holds = hold_in_numbers(told(), states->motions, p, roots);
         for (std::size_t i = 0; i < found.size(); ++i)
             if (holds[i]) {
                 prove(found[i].first, found[i].second);
@@ -285,11 +285,16 @@ private:
                 "is too high");
             return;
         }
-        const bool has_sides = depends_on_sides(p, root);
         const bool is_rubbed = !states.motions.rubbed().empty();
-        if (*zero && (is_rubbed ? hold_in_numbers(states.motions, p, {root})[0]
-                                : !has_sides || !fails_in_numbers(states.motions, p, root))) {
-            if (!states.motions.loose().empty() && !hold_in_numbers(states.motions, p, {root})[0]) {
+        const InNumbers seen = *zero ? seen_in_numbers(states.motions, p, root) : InNumbers::fails;
+        if (seen == InNumbers::unknown) {
+            c.reason = say(
+                "it holds in exact arithmetic, which knows no order and may turn the signs of roots and absolute "
+                "values, and too few states in numbers were found with which to compare it");
+            return;
+        }
+        if (seen == InNumbers::holds) {
+            if (!states.motions.loose().empty() && !hold_in_numbers(told(), states.motions, p, {root})[0]) {
                 c.reason =
                     say("it holds wherever the constraints are constant, and no state was found at which they are "
                         "zero and the equations have one solution");
@@ -321,15 +326,32 @@ private:
             return;
         }
         show(c, *shown);
-        explain(k, states);
+        if (!*zero || is_rubbed) explain(k, states);  // repairs are compared in the arithmetic that was wrong here
     }
 
     /// Whether signs decide: Legendre's symbol takes their place in exact arithmetic, and that of 3 is −1, so that
-    /// 3 times something positive counts as negative. Then numbers have a say too.
-    static bool depends_on_sides(const Program& p, int root) {
-        const std::vector<int> needed = p.needed(std::vector{root});
-        return std::any_of(needed.begin(), needed.end(),
-                           [&](int id) { return p[id].op == Op::sign || p[id].op == Op::abs; });
+    /// 3 times something positive counts as negative. A root is the one of two that counts as positive: that of 9
+    /// is −3.
+    static bool depends_on_sides(const Program& p, const std::vector<int>& roots) {
+        const std::vector<int> needed = p.needed(roots);
+        return std::any_of(needed.begin(), needed.end(), [&](int id) {
+            return p[id].op == Op::sign || p[id].op == Op::abs || p[id].op == Op::sqrt;
+        });
+    }
+
+    /// What numbers say of a claim that vanishes in exact arithmetic, if they are asked: where signs decide in the
+    /// claim, or in the equations, with which it can be compared if states are found.
+    InNumbers seen_in_numbers(const Motions& motions, const Program& p, int root) {
+        if (!motions.rubbed().empty())
+            return hold_in_numbers(told(), motions, p, {root})[0] ? InNumbers::holds : InNumbers::fails;
+        if (depends_on_sides(p, {root})) return in_numbers(told(), motions, p, root);
+        std::vector<int> entries = motions.entries().M;
+        for (const auto* part :
+             {&motions.entries().f, &motions.entries().A, &motions.entries().drift, &motions.entries().gamma})
+            entries.insert(entries.end(), part->begin(), part->end());
+        const bool fails = depends_on_sides(motions.program(), entries) &&
+                           in_numbers(told(), motions, p, root) == InNumbers::fails;
+        return fails ? InNumbers::fails : InNumbers::holds;
     }
 
     /// A claim that holds with other signs of the multipliers of friction, and in numbers, has the right ones.
@@ -339,7 +361,7 @@ private:
             ExactStates others(m_, law_, states.motions.where(), states.motions.halves(), halvings_in({k}),
                                Motions::Positions::solved, turned);
             if (vanishes_at(others, p, root, result_.claims[k].failure) == std::optional(true) &&
-                hold_in_numbers(states.motions, p, {root})[0])
+                hold_in_numbers(told(), states.motions, p, {root})[0])
                 return true;
         }
         return false;

@@ -15,6 +15,8 @@ using GiNaC::numeric;
 
 namespace {
 
+constexpr int enough_states = 3;
+
 bool is_small(const numeric& value) {
     return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
 }
@@ -92,34 +94,44 @@ Counterexample described(const Told& told, const RealState& state, const numeric
     return result;
 }
 
-/// Tests whether a state is on the sheet of roots on which claims are checked.
-class OnSheet {
+/// States on the sheet of roots on which claims are checked, at which some roots of a program will be evaluated.
+class StatesOnSheet {
 public:
-    explicit OnSheet(const Told& told) : nodes_(told.claims.lower(program_, told.positive)) {}
-    bool operator()(const RealState& state) const {
-        if (nodes_.empty()) return true;
-        const auto value = evaluate(program_, state, nodes_);
-        return value &&
-               std::all_of(value->begin(), value->end(), [](const numeric& x) { return x.is_positive(); });
+    StatesOnSheet(const Told& told, const Motions& motions, const Program& program, const std::vector<int>& roots)
+        : motions_(motions),
+          program_(program),
+          positive_(told.claims.lower(program_, told.positive)),
+          needed_(roots) {
+        needed_.insert(needed_.end(), positive_.begin(), positive_.end());
+    }
+
+    std::optional<RealState> operator()(unsigned seed) const {
+        std::optional<RealState> state = real_state(motions_, program_, needed_, seed);
+        if (!state || positive_.empty()) return state;
+        const auto value = evaluate(program_, *state, positive_);
+        const bool is_on_sheet =
+            value && std::all_of(value->begin(), value->end(), [](const numeric& x) { return x.is_positive(); });
+        return is_on_sheet ? state : std::nullopt;
     }
 
 private:
+    const Motions& motions_;
     Program program_;
-    std::vector<int> nodes_;
+    std::vector<int> positive_, needed_;
 };
 
 }  // namespace
 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& p,
                                              int root) {
-    const OnSheet is_on_sheet(told);
+    const StatesOnSheet states(told, motions, p, {root});
     // Operations in exact numbers, which take microseconds each. Nearly always one of the first few states will
     // do.
     constexpr int most_operations = 1'000'000;
     const auto tries = static_cast<unsigned>(std::clamp(most_operations / std::max(1, p.size()), 40, 1200));
     for (unsigned seed = 0; seed < tries; ++seed) {
-        const auto state = real_state(motions, p, {root}, seed);
-        if (!state || !is_on_sheet(*state)) continue;
+        const auto state = states(seed);
+        if (!state) continue;
         const auto value = evaluate(p, *state, {root});
         if (!value || is_small((*value)[0])) continue;
         Counterexample result = described(told, *state, (*value)[0]);
@@ -129,11 +141,13 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
     return std::nullopt;
 }
 
-std::vector<bool> hold_in_numbers(const Motions& motions, const Program& p, const std::vector<int>& roots) {
+std::vector<bool> hold_in_numbers(const Told& told, const Motions& motions, const Program& p,
+                                  const std::vector<int>& roots) {
+    const StatesOnSheet states(told, motions, p, roots);
     int found = 0;
     std::vector<bool> holds(roots.size(), true);
-    for (unsigned seed = first_float_seed; seed < first_float_seed + 60 && found < 3; ++seed) {
-        const auto state = real_state(motions, p, roots, seed);
+    for (unsigned seed = first_float_seed; seed < first_float_seed + 60 && found < enough_states; ++seed) {
+        const auto state = states(seed);
         if (!state) continue;
         for (std::size_t k = 0; k < roots.size(); ++k) {
             const auto value = evaluate(p, *state, {roots[k]});
@@ -141,20 +155,26 @@ std::vector<bool> hold_in_numbers(const Motions& motions, const Program& p, cons
         }
         ++found;
     }
-    if (found < 3) holds.assign(roots.size(), false);
+    if (found < enough_states) holds.assign(roots.size(), false);
     return holds;
 }
 
-bool fails_in_numbers(const Motions& motions, const Program& p, int root) {
+InNumbers in_numbers(const Told& told, const Motions& motions, const Program& p, int root) {
+    const StatesOnSheet states(told, motions, p, {root});
     int found = 0;
-    for (unsigned seed = 0; seed < 60 && found < 6; ++seed) {
-        const auto state = real_state(motions, p, {root}, seed);
-        const auto value = state ? evaluate(p, *state, {root}) : std::nullopt;
-        if (!value) continue;
-        if (!is_small((*value)[0])) return true;
-        ++found;
+    for (const unsigned first :
+         {0U, first_float_seed}) {  // fractions, which are exact, and floats if they are few
+        for (unsigned seed = first; seed < first + 60 && found < 2 * enough_states; ++seed) {
+            const auto state = states(seed);
+            if (!state) continue;
+            const auto value = evaluate(p, *state, {root});
+            if (!value) continue;
+            if (!is_small((*value)[0])) return InNumbers::fails;
+            ++found;
+        }
+        if (found >= enough_states) return InNumbers::holds;
     }
-    return false;
+    return InNumbers::unknown;
 }
 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,

@@ -52,11 +52,14 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
                                              const OpenClaim& of);
 
 /// An expression that vanishes for all values of the loose conditions (Motions::loose) also vanishes on them if it
-/// is continuous there. Which of the roots are zero at states on them at which they have values and the equations
-/// have a unique solution?
-std::vector<bool> hold_in_numbers(const Motions& motions, const Program& program, const std::vector<int>& roots);
+/// is continuous there. Which of the roots are zero at states on them, and on the sheet of the claims, at which
+/// they have values and the equations have a unique solution?
+std::vector<bool> hold_in_numbers(const Told& told, const Motions& motions, const Program& program,
+                                  const std::vector<int>& roots);
 
-/// Is the root different from zero at one of a few states?
-bool fails_in_numbers(const Motions& motions, const Program& program, int root);
+/// Is the root zero at a few states on the sheet of the claims? It is unknown if fewer than three are found at
+/// which it has a value.
+enum class InNumbers { holds, fails, unknown };
+InNumbers in_numbers(const Told& told, const Motions& motions, const Program& program, int root);
 
 }  // namespace alembert

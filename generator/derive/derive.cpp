@@ -45,9 +45,11 @@ std::vector<Statement> borne(const Derived& d) {
     return result;
 }
 
-/// The equations while this friction sticks; none if they are not readable.
-std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const std::string& friction) {
-    Scene stuck = with_sticking(scene, {friction});
+/// The equations while this friction sticks; none if they are not readable, or if its force has no name.
+std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const FrictionRule& friction) {
+    std::vector<Diagnostic> told;
+    if (!taken_forces(friction, declare(scene, told)).empty()) return {};
+    Scene stuck = with_sticking(scene, {friction.name.text});
     stuck.on_warning = [](const std::string&) {};  // they were told for the scene itself
     try {
         Derived d = derived(std::move(stuck), {.by = "routh", .on_sheets = true});
@@ -56,6 +58,8 @@ std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const
         return shown.definitions.empty() ? std::move(shown.equations) : std::vector<ReadableEquation>();
     } catch (const ModelError&) {
         return {};  // what sticks contradicts a constraint, for instance
+    } catch (const SceneError&) {
+        return {};  // the scene itself is right
     }
 }
 
@@ -74,7 +78,7 @@ DerivedScene derive(Scene scene, const ShowOptions& options) {
     for (Derivation::Rubs& friction : d.shown.frictions)
         for (const FrictionRule& rule : d.scene.frictions) {
             if (rule.name.text != friction.name) continue;
-            friction.held = equations_while_sticking(d.scene, friction.name);
+            friction.held = equations_while_sticking(d.scene, rule);
             friction.forces = sticking_forces(rule);
         }
     if (!options.reactions) return d;

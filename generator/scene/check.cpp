@@ -382,13 +382,11 @@ private:
         const std::vector<std::string> sticking = sticking_in(claim, scene_);
         for (const FrictionRule& friction : scene_.frictions) {
             if (std::find(sticking.begin(), sticking.end(), friction.name.text) == sticking.end()) continue;
-            for (const std::string& force : sticking_forces(friction)) {
-                if (const Declared* const declared = NameSpaces::find(names_.values, force))
-                    complain(claim.place,
-                             say("while friction '{}' sticks, {} is its force, and the scene has {} of this name",
-                                 friction.name.text, in_quotes(force), described(declared->kind)));
-                more.insert(force);
-            }
+            for (const std::string& force : taken_forces(friction, names_))
+                complain(claim.place,
+                         say("while friction '{}' sticks, {} is its force, and the scene has {} of this name",
+                             friction.name.text, in_quotes(force), described(names_.values.at(force).kind)));
+            for (const std::string& force : sticking_forces(friction)) more.insert(force);
         }
     }
 

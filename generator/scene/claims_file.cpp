@@ -99,7 +99,8 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
             continue;
         }
         if (!is_equation && first == "sticking") {
-            at = line.substr(static_cast<std::size_t>(words[0].offset));
+            at = first;
+            for (std::size_t k = 1; k < words.size(); ++k) at += ' ' + words[k].text;
             near.clear();
             continue;
         }

@@ -2,6 +2,7 @@
 #include "scene/sticking.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 namespace alembert {
@@ -21,6 +22,12 @@ std::vector<std::string> sticking_forces(const FrictionRule& f) {
     return f.across ? std::vector{force + "_1", force + "_2"} : std::vector{force};
 }
 
+std::vector<std::string> taken_forces(const FrictionRule& friction, const NameSpaces& names) {
+    std::vector<std::string> forces = sticking_forces(friction);
+    std::erase_if(forces, [&](const std::string& force) { return !NameSpaces::find(names.values, force); });
+    return forces;
+}
+
 Scene with_sticking(Scene scene, const std::vector<std::string>& frictions) {
     for (const FrictionRule& f : scene.frictions) {
         if (!contains(frictions, f.name.text)) continue;
@@ -38,11 +45,15 @@ Scene with_sticking(Scene scene, const std::vector<std::string>& frictions) {
     }
     std::erase_if(scene.frictions, [&](const FrictionRule& f) { return contains(frictions, f.name.text); });
     for (Coordinate& q : scene.coordinates) q.rate_is_guess = true;
+    for (Speed& u : scene.speeds)
+        scene.definitions.push_back({.name = std::move(u.name), .value = std::move(u.form)});
+    scene.speeds.clear();
     return scene;
 }
 
 bool is_sticking(const Claim& claim) {
-    return claim.at.starts_with(word) && (claim.at.size() == word.size() || claim.at[word.size()] == ' ');
+    if (!claim.at.starts_with(word)) return false;
+    return claim.at.size() == word.size() || std::isspace(static_cast<unsigned char>(claim.at[word.size()])) != 0;
 }
 
 std::vector<std::string> named_sticking(const Claim& claim) {

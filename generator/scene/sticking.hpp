@@ -9,19 +9,24 @@
 ///
 /// How large that force may become is not part of it.
 
-#include "scene/scene.hpp"
+#include "scene/names.hpp"
 
 namespace alembert {
 
 /// Without the frictions of these names, which the scene has, and with constraints in their places. Rates at the
-/// start are guesses, as they need not stick there.
+/// start are guesses, as they need not stick there. Generalized speeds become definitions: the number of speeds
+/// that a scene may have depends on its constraints.
 Scene with_sticking(Scene scene, const std::vector<std::string>& frictions);
 
 /// The names of the multipliers that take the place of a friction.
 std::vector<std::string> sticking_forces(const FrictionRule& friction);
 
+/// Those of them that stand for something else in the scene, whose names these are. Nothing can be said then of
+/// the motion while this friction sticks.
+std::vector<std::string> taken_forces(const FrictionRule& friction, const NameSpaces& names);
+
 /// Whether a claim speaks of the motion while friction sticks: its `at` is "sticking", of all frictions, or
-/// "sticking" with the names of some after it.
+/// "sticking" with the names of some after it, between blanks of any kind.
 bool is_sticking(const Claim& claim);
 
 /// The frictions that stick according to such a claim, in the order of the scene.
