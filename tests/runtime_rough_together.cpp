@@ -269,9 +269,9 @@ TEST_CASE("rough together: random impacts obey Moreau's law with cones, and gain
 
 TEST_CASE("rough together: an impact with more than one consistent result is told, and so is one without") {
     // A contact whose sliding lifts it strongly: with a large coefficient it sticks, or lifts off without sliding.
-    const auto choice = [](double mu, double coupling, int bound = 0) {
-        MatrixXd M = MatrixXd::Identity(3, 3);
-        M(0, 1) = M(1, 0) = coupling;
+    const auto choice = [](double mu, double coupling, double unit, int bound = 0) {
+        MatrixXd M = unit * MatrixXd::Identity(3, 3);
+        M(0, 1) = M(1, 0) = unit * coupling;
         std::vector<ConeRows> rows;
         rows.push_back({.normal = RowVectorXd{{1, 0, 0}},
                         .offset = 0,
@@ -283,10 +283,13 @@ TEST_CASE("rough together: an impact with more than one consistent result is tol
         if (bound > 0) A(0, 0) = 1;
         return choose_in_cones(M, M * VectorXd{{0.2, -1, 0}}, A, VectorXd::Ones(bound), rows);
     };
-    CHECK(choice(0.1, 0.5));
-    CHECK(choice(3, 0.9).failure.find("several choices") != std::string::npos);
-    // A constraint moves the contact into the floor at the speed 1.
-    CHECK(choice(0.1, 0.5, 1).failure.find("no choice") != std::string::npos);
+    for (const double unit : {1.0, 1e8, 1e-8}) {  // kg
+        CAPTURE(unit);
+        CHECK(choice(0.1, 0.5, unit));
+        CHECK(choice(3, 0.9, unit).failure.find("several choices") != std::string::npos);
+        // A constraint moves the contact into the floor at the speed 1.
+        CHECK(choice(0.1, 0.5, unit, 1).failure.find("no choice") != std::string::npos);
+    }
 }
 
 }  // namespace runtime_rough_together

@@ -12,7 +12,9 @@
 /// The modes and directions are found by projecting the impulse of one contact after the other onto its cone, and
 /// the equations of these modes are then solved by Newton's method. Where more impulses hold the contacts than are
 /// determined, those nearest to the projected ones are taken; the rates are the same for all. With other impulses
-/// to begin with the same rates must be found: if not, the result is ambiguous, and there is none.
+/// to begin with the same velocities of the contacts must be found: if not, the result is ambiguous, and there is
+/// none. Impulses are counted in units of the largest mass, so that the verdict is the same for every unit of
+/// mass.
 
 #include <Eigen/Dense>
 #include <string>
