@@ -273,15 +273,11 @@ ConeChoice choose_in_cones(const MatrixXd& M, const VectorXd& momentum, const Ma
         return failed(
             "the impulses of their impact together do not settle, so that it is not known which result it has; "
             "smaller coefficients of friction, or contacts that strike one after the other, may have one");
-    if (found.kind == Solution::Kind::inconsistent)
-        return failed("no choice of sticking and sliding is consistent in their impact together");
+    if (found.kind == Solution::Kind::inconsistent) return failed(no_choice_is_consistent);
     const VectorXd& p = found.p;
     const Solution other = solved(cones, cones.large());
     if (other.kind == Solution::Kind::found && !are_same(cones, p, other.p))
-        return failed(
-            "several choices of sticking and sliding are consistent in their impact together, and the motion "
-            "after "
-            "it depends on the order in which they strike");
+        return failed(several_choices_are_consistent);
     ConeChoice result{.failure = {},
                       .after = cones.after(p),
                       .normal = VectorXd(static_cast<Index>(contacts.size())),

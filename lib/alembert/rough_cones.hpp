@@ -39,6 +39,13 @@ struct ConeChoice {
     explicit operator bool() const { return failure.empty(); }
 };
 
+/// Why an impact of several contacts has no result, in whichever way it is looked for.
+inline constexpr const char* no_choice_is_consistent =
+    "no choice of sticking and sliding is consistent in their impact together";
+inline constexpr const char* several_choices_are_consistent =
+    "several choices of sticking and sliding are consistent in their impact together, and the motion after it "
+    "depends on the order in which they strike";
+
 /// M: n×n, definite on the rates that the bilateral rows leave free; `momentum` is M x⁻ + p.
 ConeChoice choose_in_cones(const Eigen::MatrixXd& M, const Eigen::VectorXd& momentum, const Eigen::MatrixXd& A,
                            const Eigen::VectorXd& b, const std::vector<ConeRows>& contacts);
