@@ -65,6 +65,8 @@ constexpr std::array patterns{
     to_say("simultaneous impacts with friction can be computed where each contact has one friction, without a "
            "restitution of its own"),
     to_say("no choice of sticking and sliding is consistent in their impact together"),
+    to_say("the impulses of their impact together do not settle, so that it is not known which result it has; "
+           "smaller coefficients of friction, or contacts that strike one after the other, may have one"),
     to_say(
         "several choices of sticking and sliding are consistent in their impact together, and the motion after it "
         "depends on the order in which they strike"),

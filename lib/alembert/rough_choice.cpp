@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/rough_choice.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "alembert/dense.hpp"
 
@@ -13,7 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double slack = 1e-9;  // of inequalities, relative to the sizes of their terms
+constexpr double slack = 1e-9;   // of inequalities, relative to the sizes of their terms
+constexpr double alike = 1e-14;  // the energy of a difference of rates, relative to theirs, that counts as none
 
 enum class RoughMode { open, sticks, slides_up, slides_down };
 
@@ -60,10 +63,14 @@ public:
         const LeastNorm found = least_norm(K, right);
         x_ = found.x.col(0);
         const double misfit = (K * x_ - right).cwiseAbs().maxCoeff();
-        return x_.allFinite() && found.rank == K.rows() &&
-               misfit <=
-                   slack * (right.cwiseAbs().maxCoeff() + K.cwiseAbs().maxCoeff() * x_.cwiseAbs().maxCoeff());
+        const bool fits = x_.allFinite() && misfit <= slack * (right.cwiseAbs().maxCoeff() +
+                                                               K.cwiseAbs().maxCoeff() * x_.cwiseAbs().maxCoeff());
+        has_many_ = fits && found.rank < K.rows();
+        return fits && !has_many_;
     }
+
+    /// Whether the last system had more than one solution.
+    bool has_many() const { return has_many_; }
 
     bool is_consistent(const std::vector<RoughMode>& modes) const {
         const VectorXd after = x_.head(n_), sizes = after.cwiseAbs();
@@ -95,11 +102,17 @@ public:
                           .normal = VectorXd(count),
                           .tangential = VectorXd(count),
                           .bilateral = x_.segment(n_, m_),
-                          .closed = {}};
+                          .closed = {},
+                          .moves = {}};
         for (std::size_t i = 0; i < modes.size(); ++i) {
             found.normal[static_cast<Index>(i)] = std::max(0.0, x_[pressing(i)]);
             found.tangential[static_cast<Index>(i)] = x_[pressing(i) + 1];
             found.closed.push_back(modes[i] != RoughMode::open);
+            const RoughRows& c = contacts_[i];
+            found.moves.push_back(
+                modes[i] != RoughMode::open && c.slip.size() > 0 &&
+                std::abs(c.slip.dot(found.after) + c.slip_offset) >
+                    slack * (c.slip.cwiseAbs().dot(found.after.cwiseAbs()) + std::abs(c.slip_offset)));
         }
         return found;
     }
@@ -112,6 +125,7 @@ private:
     Index n_, m_;
     MatrixXd K_;
     VectorXd right_, x_;
+    bool has_many_ = false;
 };
 
 /// The modes that a contact may have, those without sliding first.
@@ -122,12 +136,9 @@ std::vector<RoughMode> modes_of(const RoughRows& contact) {
     return {RoughMode::sticks, RoughMode::slides_up, RoughMode::slides_down, RoughMode::open};
 }
 
-}  // namespace
-
-RoughChoice choose_rough(const MatrixXd& M, const VectorXd& momentum, const MatrixXd& A, const VectorXd& b,
-                         const std::vector<RoughRows>& contacts) {
-    if (contacts.size() > most_rough_contacts) return {};
-    RoughTrial trial(M, momentum, A, b, contacts);
+/// Solves all choices of modes until `visit` returns false.
+void try_choices(RoughTrial& trial, const std::vector<RoughRows>& contacts,
+                 const std::function<bool(bool solved, const std::vector<RoughMode>&)>& visit) {
     std::vector<std::vector<RoughMode>> kinds;
     std::size_t count = 1;
     for (const RoughRows& contact : contacts) {
@@ -141,9 +152,44 @@ RoughChoice choose_rough(const MatrixXd& M, const VectorXd& momentum, const Matr
             modes.push_back(list[rest % list.size()]);
             rest /= list.size();
         }
-        if (trial.solves(modes) && trial.is_consistent(modes)) return trial.result(modes);
+        if (!visit(trial.solves(modes), modes)) return;
     }
-    return {};
+}
+
+}  // namespace
+
+RoughChoice choose_rough(const MatrixXd& M, const VectorXd& momentum, const MatrixXd& A, const VectorXd& b,
+                         const std::vector<RoughRows>& contacts) {
+    if (contacts.size() > most_rough_contacts) return {};
+    RoughTrial trial(M, momentum, A, b, contacts);
+    RoughChoice first;
+    try_choices(trial, contacts, [&](bool solved, const std::vector<RoughMode>& modes) {
+        if (solved && trial.is_consistent(modes)) first = trial.result(modes);
+        return !first.exists;
+    });
+    return first;
+}
+
+RoughChoices every_rough_choice(const MatrixXd& M, const VectorXd& momentum, const MatrixXd& A, const VectorXd& b,
+                                const std::vector<RoughRows>& contacts) {
+    RoughChoices all;
+    if (contacts.size() > most_rough_contacts) return all;
+    all.is_complete = true;
+    RoughTrial trial(M, momentum, A, b, contacts);
+    const auto energy = [&](const VectorXd& rates) { return rates.dot(M * rates); };
+    const double before = std::abs(momentum.dot(least_norm(M, momentum).x.col(0)));
+    try_choices(trial, contacts, [&](bool solved, const std::vector<RoughMode>& modes) {
+        all.is_complete = all.is_complete && !trial.has_many();
+        if (!solved || !trial.is_consistent(modes)) return true;
+        RoughChoice found = trial.result(modes);
+        if (std::all_of(all.different.begin(), all.different.end(), [&](const RoughChoice& other) {
+                return energy(found.after - other.after) >
+                       alike * (before + energy(found.after) + energy(other.after));
+            }))
+            all.different.push_back(std::move(found));
+        return true;
+    });
+    return all;
 }
 
 }  // namespace alembert

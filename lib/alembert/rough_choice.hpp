@@ -8,7 +8,7 @@
 /// Each contact is open (π = 0 and ξ ≥ 0), sticks (ξ = 0, η = 0, |τ| ≤ μₛ π) or slides (ξ = 0, τ = −μ π s with
 /// s η ≥ 0), where π ≥ 0, ξ = g x⁺ + c and η = w x⁺ + d (Moreau, Unilateral Contact and Dry Friction in Finite
 /// Freedom Dynamics, 1988; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 8). All
-/// choices of modes are tried. With M definite and small μ the consistent one is unique.
+/// choices of modes are tried. With M definite, small μ and μₛ = μ the rates of all consistent ones are the same.
 
 #include <Eigen/Dense>
 #include <string>
@@ -31,11 +31,22 @@ struct RoughChoice {
     Eigen::VectorXd normal, tangential;  ///< π and τ of each contact
     Eigen::VectorXd bilateral;           ///< Λ
     std::vector<bool> closed;            ///< which contacts are closed
+    std::vector<bool> moves;             ///< which have a sliding velocity that is not 0
 };
 
-/// M: n×n; `momentum` is M x⁻ + p; A: m×n. At most `most_rough_contacts`.
+/// The first consistent choice. M: n×n; `momentum` is M x⁻ + p; A: m×n. At most `most_rough_contacts`.
 RoughChoice choose_rough(const Eigen::MatrixXd& M, const Eigen::VectorXd& momentum, const Eigen::MatrixXd& A,
                          const Eigen::VectorXd& b, const std::vector<RoughRows>& contacts);
+
+/// The consistent choices whose rates differ. `is_complete` tells whether there are no others: it is false if the
+/// forces of a choice are not unique, or if there are too many contacts.
+struct RoughChoices {
+    std::vector<RoughChoice> different;
+    bool is_complete = false;
+};
+RoughChoices every_rough_choice(const Eigen::MatrixXd& M, const Eigen::VectorXd& momentum,
+                                const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
+                                const std::vector<RoughRows>& contacts);
 
 inline constexpr std::size_t most_rough_contacts = 5;  // for which 4⁵ choices are tried
 

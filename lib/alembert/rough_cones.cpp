@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/rough_cones.hpp"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -16,10 +17,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_sweeps = 100000;
-constexpr double settled = 1e-15;  // the change in a sweep, relative to the impulses, after which none follows
-constexpr double leeway = 1e-9;    // of inequalities, relative to the sizes of their terms
-constexpr double same = 1e-7;      // rates that differ by less, relative to the largest, are the same
+// The change in a sweep, relative to the impulses, after which Newton's method takes over. Where it finds nothing
+// consistent, the modes may have been read too early: then the next one.
+constexpr std::array settled{1e-10, 1e-12, 1e-14};
+constexpr double leeway = 1e-9;  // of inequalities, relative to the sizes of their terms
+constexpr double same =
+    1e-7;  // velocities that differ by less, relative to the sizes of their terms, are the same
 constexpr int most_newton = 30;
+constexpr double last_newton = 1e-15;  // its change, relative to the impulses, after which none follows
 
 enum class ConeMode { open, sticks, slides };
 
@@ -113,9 +118,10 @@ double rub(const Cones& cones, std::size_t i, double coefficient, VectorXd& p) {
     return change;
 }
 
-/// Projects until nothing changes; the radii of the cones are `coefficient` of each contact times π. Nothing if
-/// that does not settle.
-std::optional<VectorXd> projected(const Cones& cones, const std::vector<double>& coefficient, VectorXd p) {
+/// Projects until a sweep changes the impulses by less than `enough` of the largest; the radii of the cones are
+/// `coefficient` of each contact times π. Nothing if that does not settle.
+std::optional<VectorXd> projected(const Cones& cones, const std::vector<double>& coefficient, VectorXd p,
+                                  double enough) {
     for (std::size_t i = 0; i < cones.count(); ++i) rub(cones, i, coefficient[i], p);
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
         double change = 0;
@@ -124,7 +130,7 @@ std::optional<VectorXd> projected(const Cones& cones, const std::vector<double>&
             change = std::max(change, rub(cones, i, coefficient[i], p));
         }
         if (!p.allFinite()) return std::nullopt;
-        if (change <= settled * p.cwiseAbs().maxCoeff()) return p;
+        if (change <= enough * p.cwiseAbs().maxCoeff()) return p;
     }
     return std::nullopt;
 }
@@ -182,7 +188,7 @@ VectorXd polished(const Cones& cones, const std::vector<ConeMode>& modes, Vector
         for (std::size_t i = 0; i < cones.count(); ++i)
             if (modes[i] == ConeMode::open) change.segment(cones.at(i), 1 + cones.components(i)).setZero();
         p -= change;
-        if (!p.allFinite() || change.norm() <= settled * p.norm()) break;
+        if (!p.allFinite() || change.norm() <= last_newton * p.norm()) break;
     }
     return p;
 }
@@ -208,53 +214,78 @@ bool is_consistent(const Cones& cones, const std::vector<ConeMode>& modes, const
     return true;
 }
 
+struct Solution {
+    enum class Kind { found, inconsistent, unsettled } kind;
+    VectorXd p = {};
+};
+
 /// What slides under the static coefficient has the kinetic one; what then sticks stays so.
-std::optional<VectorXd> solved(const Cones& cones, const VectorXd& first) {
+Solution solved(const Cones& cones, const VectorXd& first) {
     std::vector<double> coefficient;
     for (std::size_t i = 0; i < cones.count(); ++i) coefficient.push_back(cones.contact(i).resting);
-    for (std::size_t round = 0; round <= cones.count(); ++round) {
-        const std::optional<VectorXd> p = projected(cones, coefficient, first);
-        if (!p) return std::nullopt;
-        const std::vector<ConeMode> modes = modes_of(cones, coefficient, *p);
+    VectorXd p = first;
+    for (std::size_t step = 0; step < settled.size();) {
+        const std::optional<VectorXd> next = projected(cones, coefficient, p, settled[step]);
+        if (!next) return {.kind = Solution::Kind::unsettled};
+        p = *next;
+        const std::vector<ConeMode> modes = modes_of(cones, coefficient, p);
         bool changed = false;
         for (std::size_t i = 0; i < cones.count(); ++i)
             if (modes[i] == ConeMode::slides && coefficient[i] != cones.contact(i).coefficient) {
                 coefficient[i] = cones.contact(i).coefficient;
                 changed = true;
             }
-        if (changed) continue;
-        const VectorXd exact = polished(cones, modes, *p);
-        if (!is_consistent(cones, modes, exact)) return std::nullopt;
-        return exact;
+        if (changed) {
+            p = first;
+            step = 0;
+            continue;
+        }
+        const VectorXd exact = polished(cones, modes, p);
+        if (is_consistent(cones, modes, exact)) return {.kind = Solution::Kind::found, .p = exact};
+        ++step;
     }
-    return std::nullopt;
+    return {.kind = Solution::Kind::inconsistent};
+}
+
+/// The power of two that is nearest to the largest mass. Impulses in units of it are as large as velocities.
+double unit_of(const MatrixXd& M) {
+    const double largest = M.diagonal().maxCoeff();
+    return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, std::ilogb(largest)) : 1;
+}
+
+/// Whether the contacts, and with them all rates, have the same velocities after either impulses.
+bool are_same(const Cones& cones, const VectorXd& p, const VectorXd& other) {
+    const VectorXd difference = (cones.velocities(other) - cones.velocities(p)).cwiseAbs();
+    return (difference.array() <= same * cones.sizes(p).array()).all();
 }
 
 }  // namespace
 
 ConeChoice choose_in_cones(const MatrixXd& M, const VectorXd& momentum, const MatrixXd& A, const VectorXd& b,
                            const std::vector<ConeRows>& contacts) {
-    const Cones cones(M, momentum, A, b, contacts);
-    const std::optional<VectorXd> p = solved(cones, VectorXd::Zero(cones.size()));
+    const double unit = unit_of(M);
+    const Cones cones(M / unit, momentum / unit, A, b, contacts);
+    const Solution found = solved(cones, VectorXd::Zero(cones.size()));
     const auto failed = [](const char* why) {
         return ConeChoice{.failure = why, .after = {}, .normal = {}, .tangential = {}, .bilateral = {}};
     };
-    if (!p) return failed("no choice of sticking and sliding is consistent in their impact together");
-    const std::optional<VectorXd> other = solved(cones, cones.large());
-    const VectorXd after = cones.after(*p);
-    if (other && (cones.after(*other) - after).norm() > same * std::max(after.norm(), (*p).norm()))
+    if (found.kind == Solution::Kind::unsettled)
         return failed(
-            "several choices of sticking and sliding are consistent in their impact together, and the motion "
-            "after "
-            "it depends on the order in which they strike");
+            "the impulses of their impact together do not settle, so that it is not known which result it has; "
+            "smaller coefficients of friction, or contacts that strike one after the other, may have one");
+    if (found.kind == Solution::Kind::inconsistent) return failed(no_choice_is_consistent);
+    const VectorXd& p = found.p;
+    const Solution other = solved(cones, cones.large());
+    if (other.kind == Solution::Kind::found && !are_same(cones, p, other.p))
+        return failed(several_choices_are_consistent);
     ConeChoice result{.failure = {},
-                      .after = after,
+                      .after = cones.after(p),
                       .normal = VectorXd(static_cast<Index>(contacts.size())),
                       .tangential = {},
-                      .bilateral = cones.solution(*p).tail(A.rows())};
+                      .bilateral = unit * cones.solution(p).tail(A.rows())};
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-        result.normal[static_cast<Index>(i)] = std::max(0.0, (*p)[cones.at(i)]);
-        result.tangential.push_back(p->segment(cones.at(i) + 1, cones.components(i)));
+        result.normal[static_cast<Index>(i)] = unit * std::max(0.0, p[cones.at(i)]);
+        result.tangential.push_back(unit * p.segment(cones.at(i) + 1, cones.components(i)));
     }
     return result;
 }

@@ -12,7 +12,9 @@
 /// The modes and directions are found by projecting the impulse of one contact after the other onto its cone, and
 /// the equations of these modes are then solved by Newton's method. Where more impulses hold the contacts than are
 /// determined, those nearest to the projected ones are taken; the rates are the same for all. With other impulses
-/// to begin with the same rates must be found: if not, the result is ambiguous, and there is none.
+/// to begin with the same velocities of the contacts must be found: if not, the result is ambiguous, and there is
+/// none. Impulses are counted in units of the largest mass, so that the verdict is the same for every unit of
+/// mass.
 
 #include <Eigen/Dense>
 #include <string>
@@ -36,6 +38,13 @@ struct ConeChoice {
     Eigen::VectorXd bilateral;                ///< Λ
     explicit operator bool() const { return failure.empty(); }
 };
+
+/// Why an impact of several contacts has no result, in whichever way it is looked for.
+inline constexpr const char* no_choice_is_consistent =
+    "no choice of sticking and sliding is consistent in their impact together";
+inline constexpr const char* several_choices_are_consistent =
+    "several choices of sticking and sliding are consistent in their impact together, and the motion after it "
+    "depends on the order in which they strike";
 
 /// M: n×n, definite on the rates that the bilateral rows leave free; `momentum` is M x⁻ + p.
 ConeChoice choose_in_cones(const Eigen::MatrixXd& M, const Eigen::VectorXd& momentum, const Eigen::MatrixXd& A,

@@ -70,38 +70,51 @@ struct Together {
     std::vector<VectorXd> tangential;
 };
 
-/// Where every contact slides along one direction, all choices of modes are tried.
-Together in_lines(const Situation& here, const VectorXd& momentum, const std::vector<ConeRows>& contacts) {
-    std::vector<RoughRows> rows;
-    for (const ConeRows& c : contacts)
-        rows.push_back({.normal = c.normal,
-                        .offset = c.offset,
-                        .slip = c.slip.rows() == 0 ? Eigen::RowVectorXd() : Eigen::RowVectorXd(c.slip.row(0)),
-                        .slip_offset = c.slip.rows() == 0 ? 0 : c.slip_offset[0],
-                        .coefficient = c.coefficient,
-                        .resting = c.resting});
-    const RoughChoice hit = choose_rough(here.M, momentum, here.bilateral.rows, here.bilateral.drift, rows);
-    if (!hit.exists)
-        return {.failure = "no choice of sticking and sliding is consistent in their impact together",
-                .after = {},
-                .normal = {},
-                .bilateral = {},
-                .tangential = {}};
-    Together result{
-        .failure = {}, .after = hit.after, .normal = hit.normal, .bilateral = hit.bilateral, .tangential = {}};
-    for (std::size_t i = 0; i < contacts.size(); ++i)
-        result.tangential.push_back(
-            VectorXd::Constant(contacts[i].slip.rows(), hit.tangential[static_cast<Index>(i)]));
-    return result;
-}
-
-Together in_planes(const Situation& here, const VectorXd& momentum, const std::vector<ConeRows>& contacts) {
+Together in_cones(const Situation& here, const VectorXd& momentum, const std::vector<ConeRows>& contacts) {
     ConeChoice hit = choose_in_cones(here.M, momentum, here.bilateral.rows, here.bilateral.drift, contacts);
     return {.failure = std::move(hit.failure),
             .after = std::move(hit.after),
             .normal = std::move(hit.normal),
             .bilateral = std::move(hit.bilateral),
             .tangential = std::move(hit.tangential)};
+}
+
+/// Where every contact slides along one direction, all choices of modes are tried. Contacts that slide although
+/// the static coefficient would hold them if it could have the kinetic one.
+Together in_lines(const Situation& here, const VectorXd& momentum, const std::vector<ConeRows>& contacts) {
+    if (contacts.size() > most_rough_contacts) return in_cones(here, momentum, contacts);
+    std::vector<RoughRows> rows;
+    for (const ConeRows& c : contacts)
+        rows.push_back({.normal = c.normal,
+                        .offset = c.offset,
+                        .slip = c.slip.rows() == 0 ? Eigen::RowVectorXd() : Eigen::RowVectorXd(c.slip.row(0)),
+                        .slip_offset = c.slip.rows() == 0 ? 0 : c.slip_offset[0],
+                        .coefficient = c.resting,
+                        .resting = c.resting});
+    RoughChoices all;
+    for (bool changed = true; changed;) {
+        all = every_rough_choice(here.M, momentum, here.bilateral.rows, here.bilateral.drift, rows);
+        changed = false;
+        for (std::size_t i = 0; i < rows.size() && all.different.size() == 1; ++i) {
+            if (!all.different[0].moves[i] || rows[i].coefficient == contacts[i].coefficient) continue;
+            rows[i].coefficient = rows[i].resting = contacts[i].coefficient;
+            changed = true;
+        }
+    }
+    // A choice whose impulses are not unique is not solved there.
+    if (all.different.empty() && !all.is_complete) return in_cones(here, momentum, contacts);
+    const auto failed = [](const char* why) {
+        return Together{.failure = why, .after = {}, .normal = {}, .bilateral = {}, .tangential = {}};
+    };
+    if (all.different.empty()) return failed(no_choice_is_consistent);
+    if (all.different.size() > 1) return failed(several_choices_are_consistent);
+    const RoughChoice& hit = all.different[0];
+    Together result{
+        .failure = {}, .after = hit.after, .normal = hit.normal, .bilateral = hit.bilateral, .tangential = {}};
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+        result.tangential.push_back(
+            VectorXd::Constant(contacts[i].slip.rows(), hit.tangential[static_cast<Index>(i)]));
+    return result;
 }
 
 RoughStrike together(const Situation& here, const VectorXd& before, const std::vector<int>& near,
@@ -136,7 +149,7 @@ RoughStrike together(const Situation& here, const VectorXd& before, const std::v
         rows.push_back(std::move(row));
     }
     const VectorXd momentum = here.M * before + kick;
-    const Together hit = in_a_plane ? in_planes(here, momentum, rows) : in_lines(here, momentum, rows);
+    const Together hit = in_a_plane ? in_cones(here, momentum, rows) : in_lines(here, momentum, rows);
     if (!hit.failure.empty()) return {.failure = hit.failure, .after = {}};
     const VectorXd after = gap_rates(here, hit.after), mean = (before + hit.after) / 2;
     RoughStrike result{
