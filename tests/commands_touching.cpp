@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "program.hpp"
 #include "scenes.hpp"
@@ -28,11 +29,18 @@ std::string particle(const std::string& name, double mass) {
     return fmt::format("[[particle]]\nname = \"P{0}\"\nmass = {1}\nposition = [\"x{0}\", \"y{0}\"]\n", name, mass);
 }
 
-/// Cranks of length 1 on pivots at x = 0, 1, 2, whose tips a, b, c are held together by distances.
-std::string cranks(double middle, bool third) {
+/// Cranks of length 1 on pivots at x = 0, 1, 2, whose tips a, b, c are held together by distances. All but the x
+/// of a are guesses if these are off.
+std::string cranks(double middle, bool third, double off = 0) {
     std::string scene = "gravity = [0, -9.81]\n[parameters]\nth = 0.5\n[coordinates]\n";
-    for (const auto& [p, x] : {std::pair("a", 0), std::pair("b", 1), std::pair("c", 2)})
-        scene += fmt::format("x{0} = \"{1} + sin(th)\"\ny{0} = \"-cos(th)\"\n", p, x);
+    const auto value = [&](const std::string& formula, double by) {
+        return off == 0 ? fmt::format("\"{}\"", formula)
+                        : fmt::format("{{ guess = \"{} + {}\", rate_guess = 0 }}", formula, by);
+    };
+    scene += fmt::format("xa = \"sin(th)\"\nya = {}\n", value("-cos(th)", off));
+    for (const auto& [p, x, way] : {std::tuple("b", 1, -1.0), std::tuple("c", 2, 0.7)})
+        scene += fmt::format("x{0} = {1}\ny{0} = {2}\n", p, value(fmt::format("{} + sin(th)", x), way * off),
+                             value("-cos(th)", -0.5 * way * off));
     scene += "[simulation]\nduration = 10\ntolerance = 1e-11\n";
     scene += particle("a", 1) + particle("b", middle) + particle("c", 1);
     for (const auto& [p, x] : {std::pair("a", 0), std::pair("b", 1), std::pair("c", 2)})
@@ -82,14 +90,15 @@ tolerance = 1e-12
 )toml");
     const double phi = pendulum["coordinates"]["phi"].get<double>();
     for (const double middle : {1.0, 0.0})
-        for (const bool third : {false, true}) {
-            const Json end = end_of(cranks(middle, third))["coordinates"];
-            INFO("middle " << middle << ", third distance " << third);
-            for (const auto& [p, x] : {std::pair("a", 0), std::pair("b", 1), std::pair("c", 2)}) {
-                CHECK(std::abs(end[fmt::format("x{}", p)].get<double>() - x - std::sin(phi)) < 1e-8);
-                CHECK(std::abs(end[fmt::format("y{}", p)].get<double>() + std::cos(phi)) < 1e-8);
+        for (const bool third : {false, true})
+            for (const double off : {0.0, 0.1}) {  // of guesses, with which the tips are on no line
+                INFO("middle " << middle << ", third distance " << third << ", guesses off by " << off);
+                const Json end = end_of(cranks(middle, third, off))["coordinates"];
+                for (const auto& [p, x] : {std::pair("a", 0), std::pair("b", 1), std::pair("c", 2)}) {
+                    CHECK(std::abs(end[fmt::format("x{}", p)].get<double>() - x - std::sin(phi)) < 1e-8);
+                    CHECK(std::abs(end[fmt::format("y{}", p)].get<double>() + std::cos(phi)) < 1e-8);
+                }
             }
-        }
 }
 
 // |ac| = |ab| + |bc| keeps b on the line ac, but not by its row: at every pose the three rows have rank 2.

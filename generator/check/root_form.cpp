@@ -55,7 +55,7 @@ bool is_positive_at_start(const ex& value, const Claims& claims, const Equations
         for (const auto* list : {&m.constraints, &m.redundant})
             for (const Mechanism::Constraint& c : *list) forced.push_back(c.multiplier);
         if (m.z->depends(value, forced)) {
-            const Program motion = lower(m, equations, energy_of(m));
+            const Program motion = lower(m, equations, energy_of(m), {.admissible = [&start] { return start; }});
             const std::vector<double> at = interpret(motion, state);
             for (const int id : motion.nodes_of(Group::acceleration)) state.qddot.push_back(at[id]);
             for (const int id : motion.nodes_of(Group::multiplier)) state.unknown.push_back(at[id]);

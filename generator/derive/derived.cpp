@@ -154,7 +154,7 @@ Choice lowered(const Derived& d, bool fold) {
     std::vector<Equations> all{d.equations};
     if (d.by.empty() && d.equations.speeds_are_rates() && !d.equations.tree && !obstacle_to_recursive(d.mechanism))
         all.push_back(recursive(d.mechanism));
-    return choose(d.mechanism, all, {.fold = fold});
+    return choose(d.mechanism, all, {.fold = fold, .admissible = [&d] { return admissible_start(d.mechanism); }});
 }
 
 std::optional<Differentiated> derivatives_of(const Derived& d, const Program& program, DerivativeWishes wishes,
@@ -165,7 +165,7 @@ std::optional<Differentiated> derivatives_of(const Derived& d, const Program& pr
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
     if (auto lock = gimbal_lock(d.scene, d.mechanism, state)) return lock;
-    LowerOptions options;
+    LowerOptions options{.admissible = [&d] { return admissible_start(d.mechanism); }};
     if (d.equations.M.rows() == 0) options.recursion = RecursionForm{.solve = RecursionForm::Solve::articulated};
     const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism), options);
     if (const auto combination = massless_combination(program, state))

@@ -15,7 +15,6 @@
 #include "lower/lowering.hpp"
 #include "lower/normal_forces.hpp"
 #include "lower/project.hpp"
-#include "lower/start.hpp"
 #include "program/solve.hpp"
 
 namespace alembert {
@@ -26,19 +25,13 @@ using GiNaC::is_a;
 
 namespace {
 
-/// The values at the initial state, if the constraints have to give pivots to coordinates without mass.
-Witness witness_of(const Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& mass) {
+/// A state for the pivots, if the constraints have to give some to coordinates without mass.
+Witness witness_of(const Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& mass,
+                   const std::function<Start()>& admissible) {
     bool is_massless = false;
     for (int i = 0; i < e.size(); ++i) is_massless = is_massless || program.is_zero(mass[i * (i + 1) / 2 + i]);
-    if (!is_massless || m.constraints.empty()) return {};
-    State<double> state = state_of(start_of(m), m, e);
-    state.qddot.assign(m.q.size(), 0.0);
-    return [state](const Program& p) {
-        for (int id = 0; id < p.size(); ++id)
-            if (p[id].op == Op::unspecified)
-                return std::vector<double>();  // a function that the scene leaves open
-        return interpret(p, state);
-    };
+    if (!is_massless || m.constraints.empty() || !admissible) return {};
+    return Witness(state_of(admissible(), m, e));
 }
 
 /// Defines q' = h(q,u,t) and q'' if the speeds are not the rates; u' are the nodes of `udot`.
@@ -277,7 +270,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     if (!has_matrix && !by_tree.acceleration)
         throw ModelError(say(
             "the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'"));
-    const Witness witness = has_matrix ? witness_of(program, m, equations, mass) : Witness();
+    const Witness witness = has_matrix ? witness_of(program, m, equations, mass, options.admissible) : Witness();
     // In a tree whose only constraints are e·e = 1 of its ball joints, the recursion gives all that is unknown.
     const std::optional<std::vector<int>> alone =
         by_tree.acceleration && !normal_forces.any() ? norms_alone(*equations.tree, m) : std::nullopt;

@@ -16,6 +16,7 @@
 
 #include "formalism/equations.hpp"
 #include "lower/recursion_form.hpp"
+#include "lower/start.hpp"
 #include "model/energy.hpp"
 #include "program/program.hpp"
 
@@ -27,6 +28,10 @@ struct LowerOptions {
     bool is_textbook = false;
     std::optional<RecursionForm> recursion =
         {};  ///< for equations with a tree: M, f and q'' by this recursion instead of by their expressions
+    /// Gives a state that obeys the constraints (state/assemble.hpp). It is asked for where coordinates have no
+    /// mass, so that the constraints give their pivots: none that vanishes there is taken. Without it pivots are
+    /// judged by their structure alone, and accelerations may divide by zero.
+    std::function<Start()> admissible = {};
 };
 
 /// Throws ModelError if something cannot be lowered (a name that has no value).

@@ -59,13 +59,13 @@ void add_multiple(Real& sum, const Rational& factor, const Real& x) {
     sum += real_of<Real>(factor) * x;
 }
 
-/// The values of the nodes `ids`, which are in ascending order and hold all arguments of each (Program::needed);
-/// the others stay empty. Divisions by zero and similar operations give infinities and NaN, never a trap.
+/// Computes the nodes `ids`, in ascending order, into `value`, which has room for all nodes and holds the
+/// arguments that are not among them. Divisions by zero and similar operations give infinities and NaN, never a
+/// trap.
 template <typename Real, typename Ids>
-std::vector<Real> interpret_nodes(const Program& program, const State<Real>& state, const Ids& ids) {
+void interpret_into(std::vector<Real>& value, const Program& program, const State<Real>& state, const Ids& ids) {
     using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log, std::pow,
         std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
-    std::vector<Real> value(program.size());
     for (const int id : ids) {
         const Node& node = program[id];
         const auto arg = [&](std::size_t k) -> const Real& { return value[node.args[k]]; };
@@ -182,6 +182,14 @@ std::vector<Real> interpret_nodes(const Program& program, const State<Real>& sta
                 program.refuse_unspecified(node);
         }
     }
+}
+
+/// The values of the nodes `ids`, which are in ascending order and hold all arguments of each (Program::needed);
+/// the others stay empty.
+template <typename Real, typename Ids>
+std::vector<Real> interpret_nodes(const Program& program, const State<Real>& state, const Ids& ids) {
+    std::vector<Real> value(program.size());
+    interpret_into(value, program, state, ids);
     return value;
 }
 

@@ -11,6 +11,8 @@ namespace alembert {
 
 namespace {
 
+constexpr double vanishing = 1e-7;  // of a pivot, relative to its column: far above what initial values may be off
+
 class Elimination {
 public:
     Elimination(Program& program, const std::vector<int>& lower, std::vector<std::vector<int>> sides,
@@ -53,7 +55,7 @@ private:
     /// a chain is eliminated from its tip.
     int next_pivot(const std::vector<int>& left) const {
         int best = -1, fewest = 0;
-        const std::vector<double> value = witness_ ? witness_(p_) : std::vector<double>();
+        const std::vector<double>& value = witness_.values(p_);
         for (std::size_t place = 0; place < left.size(); ++place) {
             const int k = left[place];
             if (zero(k, k) || vanishes(k, left, value)) continue;
@@ -72,7 +74,7 @@ private:
         if (value.empty()) return false;
         double largest = 0;
         for (const int i : left) largest = std::max(largest, std::abs(value[rows_[i][k]]));
-        return std::abs(value[rows_[k][k]]) < 1e-9 * largest;
+        return std::abs(value[rows_[k][k]]) < vanishing * largest;
     }
 
     void eliminate(int k, const std::vector<int>& left) {
@@ -143,6 +145,21 @@ private:
 };
 
 }  // namespace
+
+const std::vector<double>& Witness::values(const Program& program) const {
+    if (!state_) return values_;
+    std::vector<int> more;
+    for (int id = static_cast<int>(values_.size()); id < program.size(); ++id) {
+        if (program[id].op == Op::unspecified) {
+            values_.clear();
+            return values_;
+        }
+        more.push_back(id);
+    }
+    values_.resize(static_cast<std::size_t>(program.size()));
+    interpret_into(values_, program, *state_, more);
+    return values_;
+}
 
 std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
                                                 const std::vector<int>& f, int preferred, const Witness& witness) {

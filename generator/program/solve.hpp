@@ -3,24 +3,37 @@
 
 /// Solves M x = f by unrolled elimination in a program, using the sparsity of M.
 
-#include <functional>
 #include <optional>
 
+#include "program/interpret.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
 
-/// The values of all nodes at a state at which no pivot may vanish. Where coordinates have no mass, pivots follow
-/// from the constraints and may vanish at all states that obey them (a massless pin in the middle of a straight
-/// coupler, if the two halves of the coupler are taken first). Empty: pivots are judged by their structure alone.
-using Witness = std::function<std::vector<double>(const Program&)>;
+/// A state at which no pivot may vanish. Where coordinates have no mass, pivots follow from the constraints and
+/// may vanish at all states that obey them (a massless pin in the middle of a straight coupler, if the two halves
+/// of the coupler are taken first); the state has to obey them too. Without a state pivots are judged by their
+/// structure alone.
+class Witness {
+public:
+    Witness() = default;
+    explicit Witness(State<double> state) : state_(std::move(state)) {}
+
+    /// The values of all nodes of a program, always the same one, which may have grown since the last call: each
+    /// node is computed once. Empty without a state, or if a function is left open.
+    const std::vector<double>& values(const Program& program) const;
+
+private:
+    std::optional<State<double>> state_;
+    mutable std::vector<double> values_;
+};
 
 /// Solves the symmetric n×n system whose lower triangle is `lower` (row-major, row i has i + 1 entries) by LDLᵀ in
 /// an order that keeps the factor sparse (minimum degree: George & Liu, Computer Solution of Large Sparse Positive
 /// Definite Systems (1981), chapter 5). If no diagonal entry can be a pivot (an indefinite matrix from a given
 /// Lagrangian), the rest is eliminated with row exchanges. The result is empty if the matrix is structurally
 /// singular. Pivots that vanish only at some states give infinities there; with a witness, none that vanishes
-/// there (below 1e-9 of its column) is taken if there is another. The first `preferred` unknowns are eliminated
+/// there (below 1e-7 of its column) is taken if there is another. The first `preferred` unknowns are eliminated
 /// before the others if possible: with constraints these are the coordinates, whose pivots are positive at every
 /// state, so that A M⁻¹Aᵀ remains.
 std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,

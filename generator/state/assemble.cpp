@@ -209,4 +209,21 @@ std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, cons
     return Assembly(start, mechanism, program, held).go(rates_must_obey);
 }
 
+Start admissible_start(const Mechanism& m) {
+    const Program constraints = lower_constraints(m);
+    Mechanism movable = m;
+    movable.q_is_guess.assign(m.q.size(), true);
+    movable.qdot_is_guess.assign(m.q.size(), true);
+    for (const Mechanism* one : {&m, static_cast<const Mechanism*>(&movable)}) {
+        Start start = start_of(m);
+        try {
+            assemble(start, *one, constraints, {});
+            return start;
+        } catch (const std::runtime_error&) {
+            continue;
+        }
+    }
+    return start_of(m);
+}
+
 }  // namespace alembert

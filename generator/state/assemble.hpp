@@ -25,6 +25,10 @@ namespace alembert {
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, bool rates_must_obey = true);
 
+/// The initial state with its guesses adjusted. Where the given values break the constraints (a contact that
+/// closes later), all others move too. If no state is found that obeys them, the initial values as they stand.
+Start admissible_start(const Mechanism& mechanism);
+
 /// The sum of the sizes of the terms of a node, relative to which its value is judged.
 double size_of_terms(const Program& program, int node, const std::vector<double>& value);
 
