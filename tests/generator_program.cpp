@@ -214,4 +214,20 @@ TEST_CASE("energy: where the speeds are body rates, T is half the sum of moments
     CHECK(p.nodes_of(Group::jacobi) == p.nodes_of(Group::energy));
 }
 
+TEST_CASE("solve: row exchanges take a pivot that does not vanish at the witness") {
+    Program p;
+    const int b = p.variable({Variable::Kind::parameter, 0}), c = p.variable({Variable::Kind::parameter, 1}),
+              zero = p.number(0), one = p.number(1), two = p.number(2);
+    // [b 0 1; 0 c 0; 1 0 0] x = (1, 1, 2) has x = (2, 1/c, 1 - 2 b).
+    const Witness witness(State<double>{.parameters = {0, 4}, .q = {}, .qdot = {}, .qddot = {}});
+    const auto x = solve_symmetric(p, {b, zero, c, one, zero, zero}, {one, one, two}, 0, witness);
+    REQUIRE(x);
+    for (const double at : {0.0, 0.3}) {
+        const auto value = interpret(p, State<double>{.parameters = {at, 4}, .q = {}, .qdot = {}, .qddot = {}});
+        const double expected[] = {2, 0.25, 1 - 2 * at};
+        for (std::size_t i = 0; i < 3; ++i)
+            CHECK(std::abs(value[static_cast<std::size_t>((*x)[i])] - expected[i]) < 1e-15);
+    }
+}
+
 }  // namespace generator_program

@@ -100,7 +100,7 @@ private:
             const int inner = held({p_, p_[id].args[0]}).node(p_);
             return {p_, p_.sum(0, {{factor, inner}})};
         }
-        const auto [known, is_new] = placeholders_.try_emplace(id, -1);
+        const auto [known, is_new] = stand_ins_.try_emplace(id, -1);
         if (is_new) {
             known->second = p_.variable({Variable::Kind::unknown, next_unknown_++});
             result_.held.emplace(known->second, id);
@@ -201,7 +201,7 @@ private:
     std::vector<Wrench<Symbolic>> wrenches_;     // held
     std::vector<std::pair<Arrow, Arrow>> beta_;
     std::vector<Symbolic> rates_;  // w', held
-    std::map<int, int> placeholders_;
+    std::map<int, int> stand_ins_;
     int next_unknown_ = 0;
 };
 

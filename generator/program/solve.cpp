@@ -104,12 +104,24 @@ private:
         return solutions;
     }
 
+    /// The position from `first` on of the row for this column's pivot: the largest at the witness, or, without
+    /// one, the first that is not zero. The number of rows if there is none.
+    std::size_t exchange_row(const std::vector<int>& rows, std::size_t first, int column) const {
+        const std::vector<double>& value = witness_.values(p_);
+        std::size_t best = rows.size();
+        for (std::size_t r = first; r < rows.size(); ++r) {
+            if (zero(rows[r], column)) continue;
+            const auto size = [&](std::size_t row) { return std::abs(value[rows_[rows[row]][column]]); };
+            if (best == rows.size() || (!value.empty() && size(r) > size(best))) best = r;
+        }
+        return best;
+    }
+
     /// Gaussian elimination with row exchanges on the rows and columns in `left`.
     std::optional<std::vector<std::vector<int>>> with_exchanges(const std::vector<int>& left) {
         std::vector<int> rows = left;
         for (std::size_t c = 0; c < left.size(); ++c) {
-            std::size_t r = c;
-            while (r < rows.size() && zero(rows[r], left[c])) ++r;
+            const std::size_t r = exchange_row(rows, c, left[c]);
             if (r == rows.size()) return std::nullopt;
             std::swap(rows[c], rows[r]);
             const int inverse = p_.product(1, {{rows_[rows[c]][left[c]], -1}});
