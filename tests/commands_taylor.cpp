@@ -113,6 +113,20 @@ TEST_CASE("taylor: linkages and odd frames move as by Runge and Kutta") {
     }
 }
 
+// v' = −µ tanh(v/w) has sinh(v/w) = sinh(v₀/w) e^(−µt/w). While v is large, the coefficients of the series are
+// those of a constant force, whatever the order: nothing in them tells that the force will end.
+TEST_CASE("taylor: a steep change that the series cannot know of is not passed over") {
+    const std::string scene = temporary(
+        "steep.toml",
+        "[parameters]\nmu = 0.3\nw = 1e-3\n[coordinates]\nx = { initial = 0, rate = 1 }\n[energy]\nkinetic = "
+        "\"x'^2/2\"\n[forces]\nx = \"-mu*tanh(x'/w)\"\n[simulation]\nduration = 3.334\n");
+    const double v = 1e-3 * std::asinh(std::exp(1000 - std::numbers::ln2 - 0.3 * 3.334 / 1e-3));
+    for (const char* tolerance : {"1e-8", "1e-10", "1e-12"}) {
+        const Json motion = simulated(scene, {"--tolerance", tolerance});
+        CHECK(std::abs(rate(motion, "x") - v) < 10 * std::stod(tolerance));
+    }
+}
+
 TEST_CASE("taylor: the double pendulum at t = 10 agrees with 50 digits, as far as its error growth allows") {
     // 10⁷-fold growth of local errors of 1e-14.
     const Json chaotic = simulated(benchmark("double_pendulum_chaotic"), {"--tolerance", "1e-14"});

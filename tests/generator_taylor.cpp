@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Coefficients of emitted power series against routes that share nothing with their recurrences: closed forms by
-// Cauchy's integral over a circle in the complex plane, the interpreter along the polynomial, and the same file in
-// 34 digits.
+// Coefficients of power series, by emitted files and by machine code in memory, against routes that share nothing
+// with their recurrences: closed forms by Cauchy's integral over a circle in the complex plane, the interpreter
+// along the polynomial, and the same file in 34 digits.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -16,6 +16,8 @@
 #include "emit/taylor.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
+#include "machine/encoder.hpp"
+#include "machine/memory_series.hpp"
 #include "program/quad.hpp"
 #include "program/recurrence.hpp"
 #include "scenes.hpp"
@@ -50,6 +52,10 @@ struct Emitted {
     Mechanism mechanism;
     Program program;
     SeriesModule module;
+    SeriesModule in_memory;  ///< null where the processor has no such code
+    std::vector<SeriesModule> all() const {
+        return in_memory ? std::vector{module, in_memory} : std::vector{module};
+    }
 };
 
 Emitted emitted(const Scene& scene, bool quad) {
@@ -60,7 +66,10 @@ Emitted emitted(const Scene& scene, bool quad) {
     if (quad) flags.emplace_back("-DALEMBERT_QUAD");
     const Compiled compiled = compile(emit_taylor(program).text, program.name + "_taylor",
                                       {.compiler = {}, .extra_flags = flags, .fast_math = false, .cache = {}});
-    return {std::move(m), std::move(program), load_series(compiled.object)};
+    const std::optional<MemorySeries> memory = memory_series(program);
+    REQUIRE(memory.has_value() == machine::can_run());
+    return {std::move(m), std::move(program), load_series(compiled.object),
+            memory ? memory->module : SeriesModule()};
 }
 
 std::vector<double> series_of(const SeriesModule& module, double t, const std::vector<double>& state, int order) {
@@ -80,18 +89,20 @@ void check_function(const std::string& text, const std::function<Complex(Complex
     const Emitted one = emitted(scene, false);
     constexpr double t = 0.7;
     constexpr int order = 24;
-    const std::vector<double> out = series_of(one.module, t, {0, 0}, order);
     const std::vector<long double> expected = coefficients(f, t, radius, order - 1);
     long double largest = 0;
     for (int j = 0; j < 200; ++j)
         largest = std::max(
             largest, std::abs(f(Complex(t) + std::polar(radius, 2 * std::numbers::pi_v<long double> * j / 200))));
-    for (int k = 0; k + 2 <= order; ++k) {
-        CAPTURE(k);
-        // Cauchy's bound for a coefficient is largest/radius^k; recurrences of a few steps at each order keep
-        // 1e-13 of it.
-        const long double found = static_cast<long double>(out[2 * (k + 2)]) * (k + 1) * (k + 2);
-        CHECK(std::abs(found - expected[k]) * std::pow(radius, k) < 1e-13 * largest);
+    for (const SeriesModule& module : one.all()) {
+        const std::vector<double> out = series_of(module, t, {0, 0}, order);
+        for (int k = 0; k + 2 <= order; ++k) {
+            CAPTURE(k);
+            // Cauchy's bound for a coefficient is largest/radius^k; recurrences of a few steps at each order keep
+            // 1e-13 of it.
+            const long double found = static_cast<long double>(out[2 * (k + 2)]) * (k + 1) * (k + 2);
+            CHECK(std::abs(found - expected[k]) * std::pow(radius, k) < 1e-13 * largest);
+        }
     }
 }
 
@@ -105,8 +116,7 @@ const std::string g_text = "(0.3 + 0.2*sin(t) + 0.1*t)";
 // off by k c_k h^(k−1) there, with h as long as a step at tolerance 1e-14, where all terms are seen. The right
 // side comes from the interpreter. Allowed: rounding of 1e-12 of the largest rate, and the terms left out, (p + 1)
 // c h^p < (p + 1) 1e-14/h.
-void check_polynomial(const Scene& scene) {
-    const Emitted one = emitted(scene, false);
+void check_polynomial(const Emitted& one, const SeriesModule& module) {
     const Program& p = one.program;
     Start start = start_of(one.mechanism);
     assemble(start, one.mechanism, lower_constraints(one.mechanism), {});
@@ -117,7 +127,7 @@ void check_polynomial(const Scene& scene) {
     std::vector<double> y = state.q;
     y.insert(y.end(), state.qdot.begin(), state.qdot.end());
     constexpr int order = 18;
-    const std::vector<double> out = series_of(one.module, state.t, y, order);
+    const std::vector<double> out = series_of(module, state.t, y, order);
     const std::size_t width = y.size(), n = state.q.size();
     double h = 1;
     for (const int k : {order - 1, order})  // if every other coefficient is 0, the last one may be 0
@@ -151,6 +161,11 @@ void check_polynomial(const Scene& scene) {
     CAPTURE(h);
     CHECK(worst < 1e-12 * largest + left_out);
     CHECK(h > 1e-6);
+}
+
+void check_polynomial(const Scene& scene) {
+    const Emitted one = emitted(scene, false);
+    for (const SeriesModule& module : one.all()) check_polynomial(one, module);
 }
 
 }  // namespace
@@ -269,25 +284,51 @@ TEST_CASE("taylor: the file in doubles and the same file in 34 digits have the s
         std::vector<double> y = start.q;
         y.insert(y.end(), start.qdot.begin(), start.qdot.end());
         constexpr int order = 30;
-        const std::vector<double> out = series_of(one.module, start.t, y, order);
         const alembert_series_table& table = *one.module;
         std::vector<Quad> par(static_cast<std::size_t>(table.parameters + table.constants)),
-            state(y.begin(), y.end()), exact(out.size()), work(static_cast<std::size_t>(table.workspace_quad));
+            state(y.begin(), y.end()), exact((order + 1) * y.size()),
+            work(static_cast<std::size_t>(table.workspace_quad));
         std::copy_n(table.parameter_values, table.parameters, par.begin());
         table.prepare_quad(par.data());
         table.series_quad(Quad(start.t), state.data(), par.data(), order, exact.data(), work.data());
         const std::size_t width = y.size();
-        for (int k = 1; k <= order; ++k) {
-            double largest = 0, worst = 0;
-            for (std::size_t i = 0; i < width; ++i) {
-                const auto at = static_cast<std::size_t>(k) * width + i;
-                largest = std::max(largest, static_cast<double>(abs(exact[at])));
-                worst = std::max(worst, static_cast<double>(abs(exact[at] - Quad(out[at]))));
+        for (const SeriesModule& module : one.all()) {
+            const std::vector<double> out = series_of(module, start.t, y, order);
+            for (int k = 1; k <= order; ++k) {
+                double largest = 0, worst = 0;
+                for (std::size_t i = 0; i < width; ++i) {
+                    const auto at = static_cast<std::size_t>(k) * width + i;
+                    largest = std::max(largest, static_cast<double>(abs(exact[at])));
+                    worst = std::max(worst, static_cast<double>(abs(exact[at] - Quad(out[at]))));
+                }
+                CAPTURE(k);
+                CHECK(worst <= 1e-13 * k * largest);
             }
-            CAPTURE(k);
-            CHECK(worst <= 1e-13 * k * largest);
         }
     }
+}
+
+TEST_CASE("taylor: a series in memory goes over to the compiled one, at whatever parameters it is asked for") {
+    if (!machine::can_run()) return;
+    const Emitted one = emitted(read_scene(test::source_path("scenes/textbook/double_pendulum.toml")), false);
+    const MemorySeries own = *memory_series(one.program);
+    const std::vector<double> scene(one.module->parameter_values,
+                                    one.module->parameter_values + one.module->parameters);
+    std::vector<double> other = scene;
+    for (double& value : other) value *= 1.25;
+    constexpr int order = 12;
+    const auto at = [&](const SeriesModule& module, const std::vector<double>& parameters) {
+        const Series series = make_series(module, parameters);
+        std::vector<double> out(static_cast<std::size_t>((order + 1) * series.width)),
+            work(static_cast<std::size_t>(series.workspace));
+        const double state[] = {0.3, -0.7, 1.1, 0.2};
+        series(0, state, order, out.data(), work.data());
+        return out;
+    };
+    CHECK(at(own.module, scene) != at(own.module, other));
+    own.go_over(one.module);
+    for (const std::vector<double>& parameters : {scene, other, scene})
+        CHECK(at(own.module, parameters) == at(one.module, parameters));
 }
 
 TEST_CASE(

@@ -36,9 +36,10 @@ int divisor_of(const Recurrences& r, int id) {
     return x.kind == Kind::root ? id : -1;
 }
 
-SeriesLanes::SeriesLanes(const Recurrences& recurrences) : r_(recurrences) {
+SeriesLanes::SeriesLanes(const Recurrences& recurrences, bool with_packs)
+    : r_(recurrences), place_(recurrences.nodes.size()) {
     for (int id = 0; id < size(); ++id) products_.push_back(products_of(id));
-    find_packs();
+    if (with_packs) find_packs();
     find_lanes();
 }
 
@@ -197,7 +198,6 @@ std::vector<std::vector<int>> SeriesLanes::parts_of(const std::vector<int>& grou
 }
 
 void SeriesLanes::find_packs() {
-    place_.resize(r_.nodes.size());
     find_levels();
     std::map<std::pair<int, SeriesShape>, std::vector<int>> groups;
     for (int id = 0; id < size(); ++id)

@@ -63,8 +63,8 @@ int divisor_of(const Recurrences& recurrences, int id);
 
 class SeriesLanes {
 public:
-    /// The recurrences must outlive this object.
-    explicit SeriesLanes(const Recurrences& recurrences);
+    /// The recurrences must outlive this object. Without packs, all products are lanes.
+    explicit SeriesLanes(const Recurrences& recurrences, bool with_packs = true);
 
     const std::vector<SeriesProduct>& products(int id) const { return products_[id]; }
     const std::vector<SeriesPack>& packs() const { return packs_; }

@@ -248,8 +248,9 @@ void Encoder::number(Base to, std::int32_t value) {
 }
 
 void Encoder::pointer(Base to, const void* value) {
-    byte(0x48);
-    byte(0xb8 | static_cast<unsigned>(to));
+    const auto r = static_cast<unsigned>(to);
+    byte(0x48 | r >> 3);
+    byte(0xb8 | (r & 7));
     const auto at = reinterpret_cast<std::uintptr_t>(value);
     four(static_cast<std::uint32_t>(at));
     four(static_cast<std::uint32_t>(at >> 32));
@@ -259,6 +260,12 @@ void Encoder::call(const void* function) {
     pointer(Base::rax, function);
     byte(0xff);
     byte(0xd0);
+}
+
+void Encoder::jump(const void* function) {
+    pointer(Base::rax, function);
+    byte(0xff);
+    byte(0xe0);
 }
 
 Memory Encoder::constant(double value) {

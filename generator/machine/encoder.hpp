@@ -97,6 +97,7 @@ public:
     void number(Base to, std::int32_t value);
     void pointer(Base to, const void* value);
     void call(const void* function);
+    void jump(const void* function);
     /// Before code of others: it would wait for the upper parts of registers.
     void forget_upper_parts();
 

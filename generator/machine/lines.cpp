@@ -283,7 +283,7 @@ private:
             case Variable::Kind::acceleration:
                 return leaf({.kind = Home::Kind::argument, .argument = array("rate"), .place = n + i});
             case Variable::Kind::unknown:
-                break;
+                return leaf({.kind = Home::Kind::argument, .argument = array("given"), .place = i});
         }
         throw std::logic_error("a variable without a value");
     }

@@ -47,6 +47,9 @@ constexpr std::size_t most_edges = 40;  ///< the most products whose first and l
 /// The cost of an operation per order, and of eight products side by side per square of the order, in units of the
 /// time that a step takes besides its series. Measured on chains, planets and a governor.
 constexpr double operation_cost = 0.0008, product_cost = 0.0055;
+/// By machine code in memory, an order takes this and more for each operation; fitted to
+/// tests/bench/memory_code.sh.
+constexpr double order_in_memory = 0.05, operation_in_memory = 0.00125;
 
 // Compile times. The time of g++ grows with the square of a function's length from some thousand statements on.
 /// Statements; a longer function is written in parts and then takes 17 % longer to run.

@@ -115,6 +115,9 @@ std::string described(const Switch& s) {
         return say("{} again from t = {:.6g} on: the system is not stiff there", s.method, s.time);
     if (s.why == Switch::Why::dear)
         return say("{} again from t = {:.6g} on: its steps cost less there", s.method, s.time);
+    if (s.why == Switch::Why::stuck)
+        return say("{} from t = {:.6g} on: the steps of the method before became very short there", s.method,
+                   s.time);
     return say(
         "{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} "
         "s)",
@@ -122,12 +125,12 @@ std::string described(const Switch& s) {
 }
 
 Json json_of(const Switch& s) {
-    const char* const why = s.why == Switch::Why::stiff ? "stiff" : s.why == Switch::Why::mild ? "mild" : "dear";
+    constexpr const char* reasons[] = {"stiff", "mild", "dear", "stuck"};
     return {{"time", s.time},
             {"method", s.method},
             {"largest_eigenvalue", s.largest_eigenvalue},
             {"step", s.step},
-            {"why", why}};
+            {"why", reasons[static_cast<int>(s.why)]}};
 }
 
 Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {

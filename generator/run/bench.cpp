@@ -11,7 +11,6 @@
 
 #include "alembert/compile.hpp"
 #include "emit/emit.hpp"
-#include "emit/taylor.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
@@ -24,6 +23,7 @@
 #include "run/method.hpp"
 #include "run/peers.hpp"
 #include "run/separable.hpp"
+#include "run/solver_code.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -91,9 +91,7 @@ SeriesModule series_of(const Program& program, bool with_work, const RunOptions&
     if (!wishes.method.empty() && wishes.method != name(Method::taylor) && wishes.method != automatic_method)
         return nullptr;
     if (obstacle_to_recurrences(program, with_work)) return nullptr;
-    return load_series(compile(emit_taylor(program, with_work).text, program.name + "_taylor",
-                               {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}})
-                           .object);
+    return compiled_series(program, with_work, wishes);
 }
 
 /// Null if the scene has no such form, or if no method that needs it is measured.
@@ -264,6 +262,7 @@ private:
             const MethodChoice choice = method_for(wishes, result_, program, start_);
             options.method = choice.method;
             options.when_stiff = choice.when_stiff;
+            options.when_stuck = choice.when_stuck;
             Measured run = workbench.measure(options);
             run.chosen = std::exchange(run.method, std::string(automatic_method));
             result_.runs.push_back(std::move(run));

@@ -6,7 +6,6 @@
 
 #include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
-#include "emit/taylor.hpp"
 #include "model/friction.hpp"
 #include "program/differentiate.hpp"
 #include "run/canonical.hpp"
@@ -55,8 +54,7 @@ CompiledModes::CompiledModes(const RunOptions& wishes, const Derived& derived, W
       derived_(derived),
       work_(work),
       method_(method),
-      may_go_over_(alembert::may_go_over(wishes) && !needs_series(method.method) &&
-                   !needs_canonical(method.method)) {}
+      may_go_over_(alembert::may_go_over(wishes) && !needs_canonical(method.method)) {}
 
 void CompiledModes::take_free(Program program) {
     free_ = std::move(program);
@@ -75,17 +73,23 @@ CompiledMode& CompiledModes::own(const CompiledMode& mode) {
 }
 
 bool CompiledModes::may_go_over(const CompiledMode& mode) const {
-    return may_go_over_ && !is_shared && mode.code.go_over;
+    return may_go_over_ && !is_shared &&
+           (mode.series.module ? mode.series.go_over != nullptr : mode.code.go_over != nullptr);
 }
 
 void CompiledModes::go_over(const CompiledMode& asked) {
     CompiledMode& mode = own(asked);
-    const auto go_over = std::exchange(mode.code.go_over, {});
     const double begin = own_seconds();
     try {
-        const SolverCode compiled = compiled_code(mode.run(), mode.program.name, wishes_);
-        go_over(compiled.module);
-        mode.code.from_cache = compiled.from_cache;
+        if (mode.series.module) {
+            const auto go_over = std::exchange(mode.series.go_over, {});
+            go_over(compiled_series(mode.run(), work_ == Work::integrated, wishes_));
+        } else {
+            const auto go_over = std::exchange(mode.code.go_over, {});
+            const SolverCode compiled = compiled_code(mode.run(), mode.program.name, wishes_);
+            go_over(compiled.module);
+            mode.code.from_cache = compiled.from_cache;
+        }
         mode.kind = CodeKind::both;
     } catch (const CompileError&) {
     }
@@ -141,20 +145,16 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
     const Program& smooth = jumps ? jumps->program : program;
     std::optional<Differentiated> derivatives =
         uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;
-    std::optional<Source> series;
-    if (needs_series(method_.method)) series = emit_taylor(smooth, work_ == Work::integrated);
     std::optional<Program> form;
     if (needs_canonical(method_.method)) form = canonical_form(derived);
     seconds_.emit += lap();
     SolverCode code = solver_code(derivatives ? derivatives->program : smooth, program.name, wishes_);
-    SeriesModule series_module;
-    if (series)
-        series_module =
-            load_series(compile(series->text, program.name + "_taylor", compile_options(wishes_)).object);
+    CodeOfSeries series;
+    if (needs_series(method_.method)) series = series_code(smooth, work_ == Work::integrated, wishes_);
     std::optional<Module> canonical;
     if (form) canonical = solver_code(*form, program.name + "_canonical", wishes_).module;
     seconds_.compile += lap();
-    const CodeKind kind = !code.go_over ? CodeKind::compiled : series_module ? CodeKind::both : CodeKind::memory;
+    const CodeKind kind = code.go_over ? CodeKind::memory : CodeKind::compiled;
     std::optional<Program> running;
     if (derivatives)
         running = std::move(derivatives->program);
@@ -170,7 +170,7 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
         .running = std::move(running),
         .code = std::move(code),
         .kind = kind,
-        .series = series_module,
+        .series = std::move(series),
         .canonical = canonical,
         .jacobian_operations = derivatives ? std::optional(derivatives->operations.total()) : std::nullopt,
         .effort = effort});

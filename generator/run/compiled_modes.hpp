@@ -36,7 +36,7 @@ struct CompiledMode {
     SolverCode code;
     CodeKind kind = CodeKind::memory;
     Operations operations = {};                   ///< of one right-hand side
-    SeriesModule series = {};                     ///< for taylor
+    CodeOfSeries series = {};                     ///< for taylor
     std::optional<Module> canonical = {};         ///< for rattle
     std::optional<int> jacobian_operations = {};  ///< set if it is emitted
     double effort = 0;                            ///< of a right-hand side (effort_of)
@@ -66,7 +66,8 @@ public:
 
     /// Whether code in memory may be replaced by compiled code: not where several threads share it.
     bool may_go_over(const CompiledMode& mode) const;
-    /// Compiles the mode's code, which takes the place of that in memory. Without a compiler, that stays.
+    /// Compiles the mode's code, or its power series if that is what runs, which takes the place of that in
+    /// memory. Without a compiler, that stays.
     void go_over(const CompiledMode& mode);
 
     /// Uses a given program for the mode {}.
@@ -94,7 +95,7 @@ private:
     const Derived& derived_;
     Work work_;
     const MethodChoice& method_;
-    bool may_go_over_;  ///< not where the right-hand side is called by few or none
+    bool may_go_over_;  ///< not with momenta, where few call the right-hand side
     std::optional<Program> free_;
     std::map<std::vector<int>, std::unique_ptr<CompiledMode>> made_;
     Seconds seconds_;

@@ -5,6 +5,7 @@
 
 #include "alembert/canonical.hpp"
 #include "alembert/pace.hpp"
+#include "alembert/taylor.hpp"
 #include "language/say.hpp"
 #include "run/first_accelerations.hpp"
 #include "run/held_state.hpp"
@@ -106,8 +107,15 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
 void LoadedModes::count_step(LoadedMode& mode) {
     if (mode.when_stiff || !compiled_.may_go_over(mode.compiled)) return;
     constexpr double evaluations = 16;  // of a usual step, between those of the explicit methods
-    mode.effort += evaluations * effort_of_evaluation(mode.contact.rhs, uses_jacobian(compiled_.method().method));
-    if (pays_to_compile(mode.compiled.run(), mode.effort)) compiled_.go_over(mode.compiled);
+    constexpr int order = 20;           // of a usual series
+    const alembert_series_table* const series = mode.compiled.series.module.get();
+    mode.effort +=
+        series != nullptr
+            ? taylor_effort(series->order_cost, series->product_cost, order)
+            : evaluations * effort_of_evaluation(mode.contact.rhs, uses_jacobian(compiled_.method().method));
+    if (series != nullptr ? pays_to_compile(*series, mode.effort)
+                          : pays_to_compile(mode.compiled.run(), mode.effort))
+        compiled_.go_over(mode.compiled);
 }
 
 void LoadedMode::hold(const std::vector<double>& sigma) {
@@ -144,7 +152,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
             Rhs rhs = make_rhs(self->module, values, work);
             rhs.extra = self->contact.rhs.extra;
             rhs.effort = self->contact.rhs.effort;
-            if (with_series) rhs.series = make_series(self->compiled.series, values);
+            if (with_series) rhs.series = make_series(self->compiled.series.module, values);
             return self->derived.mechanism.constraints.empty() ? rhs : self->projection.guarded(std::move(rhs));
         });
     mode.side_sizes.assign(system.names.size(), 0);
@@ -209,7 +217,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
                    .contact = {.rhs = make_rhs(module, values, compiled_.work()),
                                .events = make_events(module, values, stops, directions)}});
     if (method.when_stiff) mode->contact.rhs.effort = made.effort;
-    if (made.series) mode->contact.rhs.series = make_series(made.series, values);
+    if (made.series.module) mode->contact.rhs.series = make_series(made.series.module, values);
     if (made.canonical) mode->contact.rhs.canonical = make_canonical(module, *made.canonical, start_.parameters);
     if (method.when_stiff)
         mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };

@@ -15,6 +15,7 @@
 #include "run/canonical.hpp"
 #include "run/regularization.hpp"
 #include "run/separable.hpp"
+#include "run/solver_code.hpp"
 #include "run/sundials_methods.hpp"
 
 namespace alembert {
@@ -23,17 +24,20 @@ namespace {
 
 constexpr double many_steps = 1e4;
 constexpr double most_products = 300;  // the most products of a series that compiles in about a second
-/// The tolerances below which another method is taken. At 3e-5 verner98 becomes faster than dop853
-/// (tests/bench/regret.sh); to compile a series pays below 1e-10, itself excluded however its decimals are
-/// rounded.
-constexpr double loose = 3e-5, strict = 0.99e-10;
-/// With constraints: dop853 passes through flat poses of linkages at which the others stop.
-constexpr double strict_with_constraints = 1e-12;
+/// At 3e-5 verner98 becomes faster than dop853 (tests/bench/regret.sh).
+constexpr double loose = 3e-5;
+
+/// The tolerances below which a series may be taken; whole powers of ten are well within or outside, however their
+/// decimals are rounded. With constraints, dop853 passes through flat poses of linkages at which others stop.
+struct Strict {
+    double free, constrained;
+};
+constexpr Strict in_memory{1.01e-8, 1.01e-8}, by_compiler{0.99e-10, 1e-12};
 
 /// The number of Cauchy products at each order; nothing if there is no series.
 std::optional<double> products_of_series(const Program& program, const Derived& d) {
     if (!d.mechanism.unilateral.empty()) return std::nullopt;
-    if (program.count(program.right_hand_side()).total() > 20 * most_products) return std::nullopt;
+    if (program.count(program.right_hand_side()).total() > 4 * most_products) return std::nullopt;
     if (obstacle_to_recurrences(program)) return std::nullopt;
     return recurrences(program).products();
 }
@@ -73,17 +77,20 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         return {.method = Method::rk4, .why = say("a fixed step was asked for")};
     }
     const bool constrained = !d.mechanism.constraints.empty();
-    const bool is_strict = tolerance < (constrained ? strict_with_constraints : strict);
+    const Strict& strict = needs_compiler_for_series(request) ? by_compiler : in_memory;
+    const bool is_strict = tolerance < (constrained ? strict.constrained : strict.free);
     if (is_strict)
         if (const auto products = products_of_series(program, d);
             products && *products <= most_products && is_series_faster(program, tolerance))
             return {.method = Method::taylor,
                     .when_stiff = Method::radau,
+                    .when_stuck = constrained ? std::optional(Method::dop853) : std::nullopt,
                     .why = say("the tolerance is {:g} and the motion has a power series ({:g} products at "
                                "each order); if the system turns out "
                                "stiff, radau goes on",
                                tolerance, *products)};
-    return {.method = tolerance > loose || (constrained && !is_strict) ? Method::dop853 : Method::verner98,
+    return {.method = tolerance > loose || (constrained && tolerance > by_compiler.constrained) ? Method::dop853
+                                                                                                : Method::verner98,
             .when_stiff = Method::radau,
             .why = say("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
 }
@@ -151,7 +158,8 @@ Options options_of(const RunOptions& wishes, const MethodChoice& choice, const S
             .longest_step = longest_step(wishes, start),
             .sample = wish(wishes.sample, start.sample),
             .budget = wishes.budget,
-            .when_stiff = choice.when_stiff};
+            .when_stiff = choice.when_stiff,
+            .when_stuck = choice.when_stuck};
 }
 
 }  // namespace alembert

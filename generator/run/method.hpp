@@ -15,14 +15,14 @@
 /// | a step, energy separable, 10 000 steps or more | kahanli8: its energy does not drift |
 /// | a step | rk4 |
 /// | a tolerance above 3e-5 | dop853 |
-/// | below 1e-10 (1e-12), with a power series that is not too long and predicted to be faster | taylor |
+/// | to 1e-8 and below, with a power series that is not too long and predicted to be faster | taylor |
 /// | any other, without constraints | verner98 |
 /// | any other, with constraints | dop853 to 1e-12, verner98 below |
 ///
-/// The number in brackets is for constraints: dop853 passes through flat poses of linkages where others stop. At
-/// 1e-10 and above no series is taken: its file takes 0.1 to 1 s to compile, and a run with the
-/// default budget of 10⁷ right-hand sides takes less. Methods that choose their steps watch for stiffness while
-/// they run (stiffness.hpp), change to radau, and come back.
+/// With constraints, dop853 passes through flat poses of linkages where others stop, and goes on where the steps
+/// of taylor become very short. Where the series has to be compiled, which takes longer than most runs, it is
+/// taken below 1e-10 alone, with constraints below 1e-12. Methods that choose their steps watch for stiffness
+/// while they run (stiffness.hpp), change to radau, and come back.
 
 #include "alembert/integrate.hpp"
 #include "derive/derived.hpp"
@@ -33,6 +33,7 @@ namespace alembert {
 struct MethodChoice {
     Method method = Method::dop853;
     std::optional<Method> when_stiff = {};
+    std::optional<Method> when_stuck = {};
     std::string why = {};       ///< empty if the method was given
     std::string sundials = {};  ///< a method of SUNDIALS that replaces `method` (sundials_methods.hpp)
 };

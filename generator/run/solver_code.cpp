@@ -4,8 +4,9 @@
 #include <cstdlib>
 
 #include "alembert/error.hpp"
-#include "emit/emit.hpp"
+#include "emit/taylor.hpp"
 #include "language/say.hpp"
+#include "machine/encoder.hpp"
 
 namespace alembert {
 
@@ -25,9 +26,16 @@ CodeWish code_wish(const RunOptions& wishes) {
     return CodeWish::memory;
 }
 
+constexpr double nanosecond = 1e-9;
+
 /// Seconds, fitted to g++ 12 on systems of 2 to 38 coordinates.
 double compiling(const Program& program) {
     return 0.07 + 0.27e-3 * program.size();
+}
+
+/// Likewise, of a series in memory.
+double compiling(const alembert_series_table& series) {
+    return 0.2 + 0.6 * series.order_cost;
 }
 
 }  // namespace
@@ -54,17 +62,46 @@ std::optional<SolverCode> code_in_memory(const Program& program, bool with_packs
     return SolverCode{.module = std::move(solver->module), .go_over = std::move(solver->go_over)};
 }
 
-}  // namespace
-
-SolverCode solver_code(const Program& program, const std::string& name, const RunOptions& wishes) {
+/// The code in memory, or, where there is none or it is not wanted, the compiled one.
+template <typename Code>
+Code code_as_wished(const RunOptions& wishes, const std::function<std::optional<Code>()>& in_memory,
+                    const std::function<Code()>& compiled) {
     const CodeWish wish = code_wish(wishes);
-    if (wish == CodeWish::compiled) return compiled_code(program, name, wishes);
-    if (auto code = code_in_memory(program, false)) return *std::move(code);
+    if (wish == CodeWish::compiled) return compiled();
+    if (auto code = in_memory()) return *std::move(code);
     if (wish == CodeWish::memory)
         throw CompileError(say(
             "machine code in memory needs a processor x86-64 with AVX2 and FMA, and a system that lets memory be "
             "executed; take --code compiled"));
-    return compiled_code(program, name, wishes);
+    return compiled();
+}
+
+}  // namespace
+
+SolverCode solver_code(const Program& program, const std::string& name, const RunOptions& wishes) {
+    return code_as_wished<SolverCode>(
+        wishes, [&] { return code_in_memory(program, false); },
+        [&] { return compiled_code(program, name, wishes); });
+}
+
+CodeOfSeries series_code(const Program& program, bool with_work, const RunOptions& wishes) {
+    return code_as_wished<CodeOfSeries>(
+        wishes,
+        [&]() -> std::optional<CodeOfSeries> {
+            auto series = memory_series(program, with_work);
+            if (!series) return std::nullopt;
+            return CodeOfSeries{.module = std::move(series->module), .go_over = std::move(series->go_over)};
+        },
+        [&] { return CodeOfSeries{.module = compiled_series(program, with_work, wishes)}; });
+}
+
+bool needs_compiler_for_series(const RunOptions& wishes) {
+    return code_wish(wishes) == CodeWish::compiled || !machine::can_run();
+}
+
+SeriesModule compiled_series(const Program& program, bool with_work, const RunOptions& wishes) {
+    return load_series(
+        compile(emit_taylor(program, with_work).text, program.name + "_taylor", compile_options(wishes)).object);
 }
 
 SolverCode compiled_code(const Program& program, const std::string& name, const RunOptions& wishes) {
@@ -90,8 +127,13 @@ std::string wished_code(const RunOptions& wishes) {
 }
 
 bool pays_to_compile(const Program& program, double effort) {
-    constexpr double gain = 0.1, nanosecond = 1e-9;
+    constexpr double gain = 0.1;
     return gain * nanosecond * effort > compiling(program);
+}
+
+bool pays_to_compile(const alembert_series_table& series, double effort) {
+    constexpr double gain = 0.3;
+    return gain * nanosecond * effort > compiling(series);
 }
 
 bool may_go_over(const RunOptions& wishes) {

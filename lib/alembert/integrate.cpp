@@ -124,16 +124,20 @@ constexpr bool tables_agree() {
 }
 static_assert(tables_agree());
 
-/// Integrates the rest of a run that was found to be stiff by turns of both methods, with rows on the same grid.
-/// The longer a run has come back in vain, the longer it does not look for stiffness.
+/// Integrates the rest of a run whose method was changed, with rows on the same grid: if it was found to be stiff,
+/// by turns of both methods. The longer a run has come back in vain, the longer it does not look for stiffness.
 void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Events& events) {
     constexpr long first_patience = 50;
     const double end = options.start + options.duration, interval = sample_interval(options);
     const Rhs implicit = options.rhs_when_stiff ? options.rhs_when_stiff() : rhs;
+    Method usual = options.method;
     long patience = first_patience;
     for (std::optional<Switch> next = whole.statistics.switched; next && whole.ending == Ending::completed;) {
-        const bool is_stiff = next->why == Switch::Why::stiff;
+        const bool is_stiff = next->why == Switch::Why::stiff, is_stuck = next->why == Switch::Why::stuck;
+        if (is_stuck) usual = *options.when_stuck;
         Options rest = options;
+        rest.method = usual;
+        if (usual == options.when_stuck) rest.when_stuck = {};
         rest.start = whole.times.back();
         rest.duration = end - rest.start;
         rest.step = 0;
@@ -144,9 +148,9 @@ void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Even
             rest.turns.effort_per_time = next->effort_per_time;
             rest.method = *options.when_stiff;
             rest.when_stiff = {};
-            rest.turns.back = options.method;
+            rest.turns.back = usual;
             rest.step = next->step;
-        } else {
+        } else if (!is_stuck) {
             rest.turns.patience = patience;
             patience *= 4;
         }

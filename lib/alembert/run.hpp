@@ -164,16 +164,25 @@ private:
             step_.attempt(reach < end_ ? step_.time() + h : end_);
             misfit = step_.misfit();
             const double noise = rounding(), allowed = std::max(tolerance_, noise);
-            if (misfit <= allowed && !finish()) misfit = HUGE_VAL;
+            if (misfit <= allowed && !(finish() && foresees_end())) misfit = HUGE_VAL;
             const bool good = misfit <= allowed;
             if (good)
                 accept();
             else
                 ++result_.statistics.rejected;
             if (step_.time() < end_) h = next_length(control, good, misfit / allowed * certainty(misfit, noise));
+            if (good && is_shrinking(h)) return change_to(*options_.when_stuck, Switch::Why::stuck, 0);
             if constexpr (!requires { step_.next_length(good, misfit); })
                 if (is_held && good) h = std::max(h, wish);  // a step that was shortened on request is no forecast
         }
+    }
+
+    /// Whether a power series would take a step so short that the method for this case should go on.
+    bool is_shrinking(double h) {
+        constexpr double small = 0.05;
+        if constexpr (!requires { step_.first_length(); }) return false;
+        longest_wish_ = std::max(longest_wish_, h);
+        return options_.when_stuck && step_.time() < end_ && h < small * longest_wish_;
     }
 
     /// An estimate that is smaller than its rounding says nothing of the error but that it is not larger. A step
@@ -207,6 +216,11 @@ private:
     bool finish() {
         if (options_.project) step_.correct(options_.project);
         return step_.finish();
+    }
+
+    bool foresees_end() const {
+        if constexpr (requires { step_.foresees_end(); }) return step_.foresees_end();
+        return true;
     }
 
     /// Records rows and events of the step that has just been finished; then its end becomes the new start.
@@ -378,6 +392,7 @@ private:
     }
 
     void fail_underflow(double misfit, double h) {
+        if (options_.when_stuck) return change_to(*options_.when_stuck, Switch::Why::stuck, 0);
         const int worst = step_.worst_component();
         const std::string where = fmt::format("step size underflow at t = {} (step {:.3g})", step_.time(), h);
         const std::string component = step_.rhs().describe(worst);
@@ -416,6 +431,7 @@ private:
     StiffnessWatch stiffness_;
     Pace pace_;
     long mild_steps_ = 0;        ///< the last steps with which the other method would be stable
+    double longest_wish_ = 0;    ///< of the lengths that a power series would have taken
     double earlier_length_ = 0;  ///< of the step before the last that was looked at
     Trajectory result_;
     std::vector<double> row_;

@@ -14,9 +14,11 @@
 /// tolerance⌉ and a = ½), so that the last terms are a times the tolerance and the omitted terms are smaller. Here
 /// a = 1/20, because the errors of the steps of a long run add up. The step length is proportional to
 /// tolerance^(1/p), and the time of a step is about 1 + c p + d p² (c and d come from the emitted file); p is
-/// chosen so that the time per length is least. If products of series take all the time, this is Jorba & Zou's
-/// order (§3.1), otherwise it is higher. The polynomial is kept, so that a state within the step only costs its
-/// evaluation. `error` is the last term.
+/// chosen so that the time per length is least. A series knows nothing of what changes fast further on, such as a
+/// pulse or the jump of a steep tanh: a step is repeated with half its length where the rate at its end is not
+/// that of the polynomial. If products of series take all the time, this is Jorba & Zou's order (§3.1), otherwise
+/// it is higher. The polynomial is kept, so that a state within the step only costs its evaluation. `error` is the
+/// last term.
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +61,7 @@ public:
           size_(ends.y.size()),
           coefficients_(static_cast<std::size_t>(order_ + 1) * size_),
           next_(coefficients_.size()),
+          slopes_(size_),
           work_(static_cast<std::size_t>(ends.rhs.series.workspace) + 8) {
         effort_ = taylor_effort(ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost, order_);
         void* start = work_.data();
@@ -77,7 +80,7 @@ public:
     bool increment(Ends& ends, double h, double* change, double*) {
         if (!expanded_) expand(ends, ends.t, ends.y, coefficients_);
         expanded_ = true;
-        add_up(h, change);
+        add_up<true>(h, change);
         double power = 1, square = h;
         for (int k = order_; k > 0; k /= 2, square *= square)
             if (k % 2 == 1) power *= square;
@@ -89,6 +92,21 @@ public:
     void evaluate_end(Ends& ends) {
         expand(ends, ends.end, ends.next, next_);
         std::copy_n(next_.data() + size_, size_, ends.end_rate.data());
+    }
+
+    /// Whether the rate at the end is that of the polynomial. The terms left out change it by about the tolerance
+    /// over the length of the step, and rounding by a small part of it.
+    bool foresees_end(const Ends& ends) const {
+        constexpr double terms = 30, rounded = 1e-3;
+        const double allowed = terms * std::exp(log_tolerance_) / taylor_share;
+        for (int i = 0; i < ends.controlled; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const double miss = std::abs(slopes_[k] - ends.h * ends.end_rate[k]);
+            if (miss > allowed * ends.scale(i) &&
+                miss > rounded * ends.h * std::max(std::abs(ends.rate[k]), std::abs(ends.end_rate[k])))
+                return false;
+        }
+        return true;
     }
 
     void advance(const Ends&) { std::swap(coefficients_, next_); }
@@ -105,8 +123,8 @@ public:
                    : ends.h * (std::isfinite(ratio) ? std::min(0.8, 0.9 * std::pow(ratio, -1.0 / order_)) : 0.5);
     }
 
-    void interpolate(const Ends& ends, double theta, double* out) const {
-        add_up(theta * ends.h, out);
+    void interpolate(const Ends& ends, double theta, double* out) {
+        add_up<false>(theta * ends.h, out);
         for (std::size_t i = 0; i < size_; ++i) out[i] = ends.y[i] + (out[i] + ends.rest[i]);
     }
 
@@ -119,21 +137,29 @@ private:
     const double* row(int k) const { return coefficients_.data() + static_cast<std::size_t>(k) * size_; }
 
     /// Σ_{k≥1} c_k h^k, two components at a time, each as four polynomials in h⁴, so that fewer operations wait
-    /// for each other.
-    void add_up(double h, double* change) const {
+    /// for each other; with slopes, also Σ k c_k h^k.
+    template <bool with_slopes>
+    void add_up(double h, double* change) {
         const double h2 = h * h, h4 = h2 * h2;
         const auto part = [&](std::size_t i, auto sum) {
+            auto slope = sum;
             constexpr std::size_t count = std::size(decltype(sum){}.values[0]);
             const int top = order_ / 4 * 4;
             for (int k = top; k >= 0; k -= 4)
                 for (int r = 0; r < 4; ++r)
                     for (std::size_t j = 0; j < count; ++j) {
                         const bool there = k + r <= order_ && k + r > 0;
-                        sum.values[r][j] = h4 * sum.values[r][j] + (there ? row(k + r)[i + j] : 0);
+                        const double term = there ? row(k + r)[i + j] : 0;
+                        sum.values[r][j] = h4 * sum.values[r][j] + term;
+                        if constexpr (with_slopes) slope.values[r][j] = h4 * slope.values[r][j] + (k + r) * term;
                     }
-            for (std::size_t j = 0; j < count; ++j)
-                change[i + j] =
-                    (sum.values[0][j] + h2 * sum.values[2][j]) + h * (sum.values[1][j] + h2 * sum.values[3][j]);
+            const auto total = [&](const auto& of, std::size_t j) {
+                return (of.values[0][j] + h2 * of.values[2][j]) + h * (of.values[1][j] + h2 * of.values[3][j]);
+            };
+            for (std::size_t j = 0; j < count; ++j) {
+                change[i + j] = total(sum, j);
+                if constexpr (with_slopes) slopes_[i + j] = total(slope, j);
+            }
         };
         std::size_t i = 0;
         for (; i + 2 <= size_; i += 2) part(i, Sums<2>());
@@ -172,7 +198,9 @@ private:
     double log_tolerance_, effort_ = 0;
     int order_;
     std::size_t size_;
-    std::vector<double> coefficients_, next_, work_;
+    std::vector<double> coefficients_, next_;
+    std::vector<double> slopes_;  ///< of the polynomial at the end of the step, times its length
+    std::vector<double> work_;
     double* aligned_ = nullptr;
     bool expanded_ = false;  ///< whether the series at the start of the run has been computed
 };

@@ -63,7 +63,8 @@ struct Switch {
     enum class Why {
         stiff,  ///< stability limits the steps
         mild,   ///< it would not limit the steps of the explicit method any more
-        dear    ///< the steps of the method for stiff systems cost more than those of the other did
+        dear,   ///< the steps of the method for stiff systems cost more than those of the other did
+        stuck   ///< the steps of the method became very short (Options::when_stuck)
     };
     double time = 0;
     std::string method;         ///< the method with which the run went on

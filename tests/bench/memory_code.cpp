@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // bench_memory_code SCENE...: for each scene the operations of a right-hand side, the time in which its solver is
 // written as machine code into memory, and the time of one right-hand side by this code and by the compiler's, at
-// the start, moved by a little; then the time for one of eight states side by side.
+// the start, moved by a little; then the time for one of eight states side by side, and for one power series of
+// order 20.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +11,13 @@
 
 #include "alembert/compile.hpp"
 #include "derive/derived.hpp"
-#include "emit/emit.hpp"
+#include "emit/taylor.hpp"
 #include "lower/lower.hpp"
 #include "lower/start.hpp"
+#include "machine/memory_series.hpp"
 #include "machine/memory_solver.hpp"
 #include "pack.hpp"
+#include "program/recurrence.hpp"
 
 namespace {
 
@@ -59,11 +62,27 @@ double of_packs(const Module& module, const std::vector<double>& state) {
     return nanoseconds(states, [&] { walk(); });
 }
 
+/// Each begins when the one before has ended.
+double of_series(const SeriesModule& module, std::vector<double> state) {
+    constexpr int order = 20;
+    const Series series = make_series(module);
+    const auto width = static_cast<std::size_t>(series.width);
+    std::vector<double> out((order + 1) * width), work(static_cast<std::size_t>(series.workspace) + 8);
+    void* start = work.data();
+    std::size_t room = work.size() * sizeof(double);
+    const auto aligned = static_cast<double*>(std::align(64, room - 64, start, room));
+    return nanoseconds(1, [&] {
+        series(0.1, state.data(), order, out.data(), aligned);
+        state[0] += 1e-30 * out[width];
+    });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    fmt::print("{:<28}{:>12}{:>12}{:>12}{:>12}{:>8}{:>14}{:>12}{:>8}\n", "", "operations", "written, ms",
-               "memory, ns", "g++, ns", "ratio", "of 8: memory", "g++, ns", "ratio");
+    fmt::print("{:<28}{:>12}{:>12}{:>12}{:>12}{:>8}{:>14}{:>12}{:>8}{:>17}{:>10}{:>10}{:>8}\n", "", "operations",
+               "written, ms", "memory, ns", "g++, ns", "ratio", "of 8: memory", "g++, ns", "ratio",
+               "series: written", "memory", "g++", "ratio");
     for (int i = 1; i < argc; ++i) {
         const Derived derived = alembert::derived(read_scene(argv[i]), {.use = Use::run});
         const Program program = lowered(derived).program;
@@ -91,6 +110,15 @@ int main(int argc, char** argv) {
         if (const auto packs = memory_solver(program, true)) {
             const double eight = of_packs(packs->module, state), by_compiler = of_packs(compiled, state);
             fmt::print("{:>14.2f}{:>12.2f}{:>8.2f}", eight, by_compiler, eight / by_compiler);
+        }
+        if (!obstacle_to_recurrences(program) && recurrences(program).products() < 300) {
+            const SeriesModule file =
+                load_series(compile(emit_taylor(program).text, program.name + "_taylor", {}).object);
+            const double begin = seconds();
+            const auto series = memory_series(program);
+            const double made = 1e3 * (seconds() - begin), own = of_series(series->module, state),
+                         by_compiler = of_series(file, state);
+            fmt::print("{:>17.2f}{:>10.1f}{:>10.1f}{:>8.2f}", made, own, by_compiler, own / by_compiler);
         }
         fmt::print("\n");
     }

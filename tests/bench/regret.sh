@@ -8,9 +8,8 @@
 # A NAME is that of a scene without its folder, or a pattern (--scenes "kepler pend*"); without it, all scenes (hours).
 # Errors below 1e-14, or below the digits of the reference, count as equal; runs without a right digit (an error above
 # 0.1) and motions that stay at rest (no error) do not count. Scenes with contacts, impacts or jumps, where bench follows
-# no choice, and those that have no reference of 9 digits are counted as left out. The file of a power series takes 0.1 to
-# 1 s to compile, so that auto takes none at 1e-10 and above: there a second summary compares it with the
-# methods that need none.
+# no choice, and those that have no reference of 9 digits are counted as left out. bench compiles the file of a power
+# series, which takes 0.1 to 1 s. A second summary compares auto at 1e-9 and above with the methods that need none.
 # --cold adds, at 1e-6, 1e-9 and 1e-12, the process time of the whole of `simulate` with nothing cached (compilers
 # included) over the least among auto, the fastest method of the table, dop853 and verner98.
 # BUILD: the folder of the build (build/release).

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "machine/memory_series.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "alembert/executable.hpp"
+#include "emit/names.hpp"
+#include "machine/registers.hpp"
+#include "machine/series_steps.hpp"
+#include "program/processor.hpp"
+
+namespace alembert {
+
+namespace {
+
+using namespace machine;
+
+/// A compiled series that has taken the place of that in memory. Its constants are others, and follow from the
+/// parameters when these change.
+struct Replacement {
+    explicit Replacement(const SeriesModule& compiled)
+        : module(compiled),
+          par(static_cast<std::size_t>(compiled->parameters + compiled->constants)),
+          room(static_cast<std::size_t>(compiled->workspace) + 8) {
+        void* start = room.data();
+        std::size_t bytes = room.size() * sizeof(double);
+        work = static_cast<double*>(std::align(64, bytes - 64, start, bytes));
+    }
+
+    void operator()(double t, const double* state, const double* parameters, int order, double* out) {
+        if (!is_prepared || !std::equal(par.begin(), par.begin() + module->parameters, parameters)) {
+            std::copy_n(parameters, module->parameters, par.begin());
+            module->prepare(par.data());
+            is_prepared = true;
+        }
+        module->series(t, state, par.data(), order, out, work);
+    }
+
+    SeriesModule module;
+    std::vector<double> par, room;
+    double* work = nullptr;
+    bool is_prepared = false;
+};
+
+/// All that the code needs at run time.
+struct Running {
+    SeriesCode code;
+    std::unique_ptr<Replacement> replacement;
+    std::string scene;
+    std::vector<double> values;
+    std::shared_ptr<const std::uint8_t> memory;
+    alembert_series_table table{};
+};
+
+void expand(double t, const double* state, const double* par, int order, double* out, double* work,
+            Running* self) {
+    if (!self->replacement)
+        expand_for_code(t, state, par, order, out, work, &self->code);
+    else
+        (*self->replacement)(t, state, par, order, out);
+}
+
+class SeriesBuilding {
+public:
+    SeriesBuilding(const Program& program, bool with_work)
+        : steps_(series_steps(recurrences(program, with_work))),
+          zero_words_(steps_.at_zero),
+          order_words_(steps_.at_order),
+          running_(std::make_shared<Running>()) {}
+
+    std::optional<MemorySeries> series() {
+        describe();
+        alembert_series_table& table = running_->table;
+        const Readiness zero(steps_.at_zero, nodes_of(steps_.first)),
+            order(steps_.at_order, nodes_of(steps_.next));
+        table.prepare = running_->code.fix = [](double*) {};
+        if (!zero_words_.constants().empty())
+            write(lines_of_constants(steps_.at_zero, zero_words_, zero), table.prepare);
+        if (!order_words_.constants().empty())
+            write(lines_of_constants(steps_.at_order, order_words_, order), running_->code.fix);
+        write(lines_of(steps_.at_zero, zero_words_, zero, steps_.first), running_->code.first);
+        write(lines_of(steps_.at_order, order_words_, order, steps_.next), running_->code.next);
+        write_entry();
+        if (!is_possible_) return std::nullopt;
+        running_->memory = executable(code_.finished());
+        if (!running_->memory) return std::nullopt;
+        for (const auto& [begin, put] : functions_) put(running_->memory.get() + begin);
+        return MemorySeries{.module = {running_, &running_->table},
+                            .go_over = [running = running_](const SeriesModule& compiled) {
+                                running->replacement = std::make_unique<Replacement>(compiled);
+                            }};
+    }
+
+private:
+    static std::vector<int> nodes_of(const FunctionTask& task) {
+        std::vector<int> nodes;
+        for (const FunctionResult& result : task.results) nodes.push_back(result.node);
+        return nodes;
+    }
+
+    void describe() {
+        const Program& p = steps_.at_zero;
+        const auto count = [](std::size_t size) { return static_cast<int>(size); };
+        Running& r = *running_;
+        r.code.places = steps_.places;
+        r.code.fixed = count(steps_.at_order.parameters.size() + order_words_.constants().size());
+        r.scene = ascii_identifier(p.name);
+        for (const Quantity& parameter : p.parameters) r.values.push_back(parameter.value);
+        alembert_series_table& t = r.table;
+        t.abi = series_abi_version;
+        t.coordinates = count(p.coordinates.size());
+        t.speeds = p.speeds.empty() ? t.coordinates : count(p.speeds.size());
+        t.extra = r.code.places.width - t.coordinates - t.speeds;
+        t.parameters = count(p.parameters.size());
+        t.constants = count(zero_words_.constants().size());
+        t.workspace = workspace_of(r.code);
+        const Operations operations = steps_.at_order.count(nodes_of(steps_.next));
+        t.order_cost =
+            processor::order_in_memory +
+            processor::operation_in_memory * (operations.total() + static_cast<int>(steps_.next.results.size()));
+        t.product_cost = processor::product_cost * steps_.products;
+        t.scene = r.scene.c_str();
+        t.parameter_values = r.values.data();
+    }
+
+    template <typename Function>
+    void write(const Lines& lines, Function& place) {
+        begin(place);
+        is_possible_ = is_possible_ && write_function(code_, lines);
+    }
+    template <typename Function>
+    void begin(Function& place) {
+        code_.align();
+        functions_.emplace_back(code_.size(), [&place](const std::uint8_t* at) {
+            place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
+        });
+    }
+
+    /// The table's function: `expand` with one more argument, in the register after those of the table's.
+    void write_entry() {
+        begin(running_->table.series);
+        code_.pointer(Base::r9, running_.get());
+        code_.jump(reinterpret_cast<const void*>(expand));
+    }
+
+    SeriesSteps steps_;
+    Vocabulary zero_words_, order_words_;
+    std::shared_ptr<Running> running_;
+    Encoder code_;
+    bool is_possible_ = true;
+    std::vector<std::pair<std::size_t, std::function<void(const std::uint8_t*)>>> functions_;
+};
+
+}  // namespace
+
+std::optional<MemorySeries> memory_series(const Program& program, bool with_work) {
+    if (!can_run()) return std::nullopt;
+    return SeriesBuilding(program, with_work).series();
+}
+
+}  // namespace alembert

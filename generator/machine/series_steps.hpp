@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A power series as two straight-line programs: what its order 0 takes, and what any further order takes.
+///
+///     const SeriesSteps steps = series_steps(recurrences(program));
+///     steps.first;            // from t, state and par: the values that stay fixed, and the rates at order 0
+///     steps.next;             // from the fixed values and what is given: coefficients of order k, t being k
+///
+/// The values that stay fixed are the parameters of `next`: what depends on them alone, such as the factors of
+/// the linear system, is computed once for all orders.
+
+#include "alembert/series_code.hpp"
+#include "emit/function.hpp"
+#include "program/recurrence.hpp"
+
+namespace alembert::machine {
+
+struct SeriesSteps {
+    Program at_zero, at_order;
+    FunctionTask first;  ///< (t, state, par, fixed, given): given gets the rates
+    FunctionTask next;   ///< (k, par, given, next, row, out): par are the fixed values
+    GivenPlaces places;
+    double products = 0;  ///< multiplications of eight lanes, divided by the square of the order
+};
+
+/// Throws ModelError if the mass matrix is singular at every state.
+SeriesSteps series_steps(const Recurrences& recurrences);
+
+}  // namespace alembert::machine

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Power series by machine code in memory (executable.hpp): what is the same for all of them, the orders one after
+/// the other and the sums of products over lower orders.
+///
+///     SeriesCode code{.first = …, .fix = …, .next = …, .places = …, .fixed = 3};
+///     expand_for_code(t, state, par, order, out, work, &code);      // work: workspace_of(code) numbers
+///
+/// `first` computes what stays fixed for all orders, `fix` adds what follows from that, and `next` computes the
+/// coefficients of order k from what it is given: sums of products, and numbers that it wrote at the order before.
+/// Row k, which it writes too, has the left factors of all products at order k, then the right ones.
+
+#include "alembert/series.hpp"
+
+namespace alembert {
+
+/// Where the numbers stand that an order is given. The order before writes the rates and the factors.
+struct GivenPlaces {
+    int lanes = 0;    ///< sums of products, filled up to a multiple of eight
+    int width = 0;    ///< components of the state
+    int factors = 0;  ///< different factors of products, if `next` adds the first and the last term of each sum
+                      ///< itself, so that no order waits until the row before has left for memory; else 0
+    int inverse() const { return lanes; }     ///< 1/k
+    int is_one() const { return lanes + 1; }  ///< whether k is 1
+    int rates() const { return lanes + 2; }
+    int before() const { return rates() + width; }  ///< factors of order k − 1
+    /// Factors of order 1: 0 at k = 1, half of them at k = 2, so that the only term there is counted once.
+    int ones() const { return before() + factors; }
+    int size() const { return ones() + factors; }
+};
+
+struct SeriesCode {
+    void (*first)(double t, const double* state, const double* par, double* fixed, double* given) = nullptr;
+    void (*fix)(double* fixed) = nullptr;
+    void (*next)(double k, const double* fixed, const double* given, double* next, double* row,
+                 double* out) = nullptr;
+    GivenPlaces places;
+    int fixed = 0;  ///< numbers that stay fixed
+};
+
+/// As alembert_series_table::series; `work` begins at a multiple of 64 bytes.
+void expand_for_code(double t, const double* state, const double* par, int order, double* out, double* work,
+                     const SeriesCode* code);
+int workspace_of(const SeriesCode& code);
+
+}  // namespace alembert
