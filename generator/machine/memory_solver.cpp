@@ -29,14 +29,6 @@ private:
     std::vector<const char*> list_;
 };
 
-std::vector<std::string> labels(const Program& p, std::initializer_list<Group> groups) {
-    std::vector<std::string> result;
-    for (const Group group : groups)
-        for (const Root& root : p.roots)
-            if (root.group == group) result.push_back(ascii_identifier(root.name));
-    return result;
-}
-
 /// All that the tables point to.
 struct Tables {
     explicit Tables(const Program& p, const Vocabulary& words)
@@ -45,8 +37,8 @@ struct Tables {
           coordinates(words.q()),
           speeds(words.u()),
           parameters(words.par()),
-          outputs(labels(p, {Group::output, Group::speed})),
-          events(labels(p, {Group::event})) {
+          outputs(root_names(p, {Group::output, Group::speed})),
+          events(root_names(p, {Group::event})) {
         for (const Quantity& parameter : p.parameters) values.push_back(parameter.value);
     }
 
