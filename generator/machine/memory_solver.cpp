@@ -56,8 +56,12 @@ struct Tables {
 
 class Building {
 public:
-    explicit Building(const Program& program, int lanes = 1)
-        : p_(program), words_(program), ready_(program, roots_of(program)), lanes_(lanes), code_(lanes) {}
+    Building(const Program& program, int lanes, int registers)
+        : p_(program),
+          words_(program),
+          ready_(program, roots_of(program)),
+          lanes_(lanes),
+          code_(lanes, registers) {}
 
     std::optional<MemorySolver> solver(std::shared_ptr<const alembert_pack_table> packs) {
         const auto tables = std::make_shared<Tables>(p_, words_);
@@ -219,7 +223,7 @@ private:
     const Program& p_;
     Vocabulary words_;
     Readiness ready_;
-    int lanes_ = 1;
+    int lanes_;
     Encoder code_;
     bool is_possible_ = true;
     std::vector<std::pair<std::size_t, std::function<void(const std::uint8_t*)>>> functions_;
@@ -227,13 +231,14 @@ private:
 
 }  // namespace
 
-std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs) {
+std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs, std::optional<int> registers) {
     if (!can_run() || (with_packs && !can_run(lanes))) return std::nullopt;
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
     std::shared_ptr<const alembert_pack_table> packs;
-    if (with_packs && !(packs = Building(program, lanes).packs())) return std::nullopt;
-    return Building(program).solver(std::move(packs));
+    const int allowed = registers.value_or(Encoder::registers_of_processor());
+    if (with_packs && !(packs = Building(program, lanes, allowed).packs())) return std::nullopt;
+    return Building(program, 1, allowed).solver(std::move(packs));
 }
 
 }  // namespace alembert
