@@ -10,6 +10,7 @@
 
 #include "agree/agree.hpp"
 #include "emit/emit.hpp"
+#include "formalism/articulated_tree.hpp"
 #include "formalism/joint_tree.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/recursive.hpp"
