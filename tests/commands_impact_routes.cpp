@@ -119,7 +119,7 @@ TEST_CASE("impact: its equations hold as claims, and so do those in textbook sce
         const alembert::Scene scene = alembert::read_scene(file);
         std::vector<std::string> claims;
         for (const alembert::Claim& claim : scene.claims)
-            if (claim.at == "impact") claims.push_back(claim.equation.lhs.text + " = " + claim.equation.rhs.text);
+            if (claim.at == alembert::Claim::At::impact) claims.push_back(claim.equation.lhs.text + " = " + claim.equation.rhs.text);
         if (!claims.empty()) check(scene.text, claims);
     }
     CHECK(held >= 12);

@@ -374,7 +374,7 @@ private:
         if (known.empty())
             complain(claim.place, say("a claim speaks of the motion while friction sticks, and the scene has no "
                                       "[[friction]]"));
-        for (const std::string& name : named_sticking(claim))
+        for (const std::string& name : claim.sticking)
             if (std::find(known.begin(), known.end(), name) == known.end())
                 complain(claim.place, say("a claim speaks of the motion while {} sticks, and no friction has this "
                                           "name{}",
@@ -400,7 +400,7 @@ private:
                                              described(declared->kind)));
                 more.insert(name.text);
             }
-        if (is_sticking(claim)) check_sticking(claim, more);
+        if (claim.at == Claim::At::sticking) check_sticking(claim, more);
         for (const auto& [name, value] : claim.near) {
             const bool is_rate = name.text.ends_with('\'');
             const std::string of = is_rate ? name.text.substr(0, name.text.size() - 1) : name.text;
@@ -413,7 +413,7 @@ private:
                                          in_quotes(of), described(declared->kind)));
             quantities_.check(value, {.subject = say("a state that a claim is held near")});
         }
-        if (claim.at == "solution" && claim.equation.lhs.tree) {
+        if (claim.at == Claim::At::solution && claim.equation.lhs.tree) {
             const Tree& left = *claim.equation.lhs.tree;
             const Declared* const declared =
                 left.kind == Tree::Kind::name ? NameSpaces::find(names_.values, left.text) : nullptr;
@@ -432,7 +432,7 @@ private:
             return;
         }
         const Legal anything{.subject = say("a claim"),
-                             .order = claim.at == "motion" || is_sticking(claim) ? 3 : 2,
+                             .order = claim.at == Claim::At::motion || claim.at == Claim::At::sticking ? 3 : 2,
                              .input_order = 2,
                              .time = true,
                              .advice = {},
