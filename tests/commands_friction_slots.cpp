@@ -5,11 +5,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 
 #include "contacts.hpp"
+#include "edits.hpp"
 #include "files.hpp"
 
 namespace commands_friction_slots {
@@ -59,13 +59,7 @@ std::vector<Solved> consistent(double theta, double rate) {
 }
 
 std::string with(const std::vector<std::pair<std::string, std::string>>& edits, const std::string& more = "") {
-    std::string scene = contents(trammel);
-    for (const auto& [from, to] : edits) {
-        const std::size_t at = scene.find(from);
-        REQUIRE(at != std::string::npos);
-        scene.replace(at, from.size(), to);
-    }
-    return temporary("trammel_changed.toml", scene + more);
+    return temporary("trammel_changed.toml", edited(contents(trammel), edits) + more);
 }
 
 }  // namespace

@@ -11,14 +11,16 @@
 #include <string>
 #include <vector>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_shares {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -98,13 +100,6 @@ on = "big"
 contact = ["r*sin(theta)", "-r*cos(theta)"]
 )toml",
                        theta);
-}
-
-Json json_of(const std::vector<std::string>& words) {
-    const auto result = run(words);
-    INFO(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
 }
 
 }  // namespace

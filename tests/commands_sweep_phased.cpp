@@ -8,7 +8,9 @@
 #include <iterator>
 
 #include "contacts.hpp"
+#include "edits.hpp"
 #include "files.hpp"
+#include "json.hpp"
 
 namespace commands_sweep_phased {
 
@@ -18,19 +20,7 @@ namespace {
 
 /// The scene with some text replaced.
 std::string changed(const std::string& file, const std::string& from, const std::string& to) {
-    std::string scene = alembert::test::contents(source_path(file));
-    const std::size_t at = scene.find(from);
-    REQUIRE(at != std::string::npos);
-    return temporary("changed.toml", scene.replace(at, from.size(), to));
-}
-
-Json swept(std::vector<std::string> words, int exit = 0) {
-    words.insert(words.begin(), "sweep");
-    words.push_back("--json");
-    const auto result = run(words);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == exit);
-    return Json::parse(result.out);
+    return temporary("changed.toml", edited(contents(source_path(file)), {{from, to}}));
 }
 
 /// Are a motion of a sweep and one of `simulate` the same, to the last bit?

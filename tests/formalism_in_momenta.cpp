@@ -7,22 +7,22 @@
 #include <set>
 #include <string>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace formalism_in_momenta {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
 Json derived(const std::string& scene, const std::string& by) {
-    const auto result = run({"derive", scene, "--by", by, "--json"});
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return json_of({"derive", scene, "--by", by});
 }
 
 bool are_proved(const std::string& scene, const Json& equations) {
