@@ -290,6 +290,7 @@ private:
 
     void check_frictions() {
         std::unordered_map<std::string, Place> known;
+        std::unordered_map<std::string, const FrictionRule*> forces;
         const Legal rates{.subject = say("a sliding velocity"), .order = 1, .input_order = 1, .time = true};
         for (const FrictionRule& rule : scene_.frictions) {
             for (const auto& [value, subject] : {std::pair{&rule.coefficient, say("a coefficient of friction")},
@@ -304,6 +305,23 @@ private:
             if (!is_new)
                 complain(rule.name.place, say("the name {} is taken: a friction has it on line {}",
                                               in_quotes(rule.name.text), first->second.line));
+            else
+                check_forces(rule, forces);
+        }
+    }
+
+    /// While they stick, frictions `a` in a plane and `a_1` would have a force of one name.
+    void check_forces(const FrictionRule& rule, std::unordered_map<std::string, const FrictionRule*>& forces) {
+        for (const std::string& force : sticking_forces(rule)) {
+            const auto [first, is_new] = forces.emplace(force, &rule);
+            if (is_new) continue;
+            complain(
+                rule.name.place,
+                say("while friction {} sticks, its force is called {}, and so is one of friction {} on line {}; "
+                    "give one of the two another name",
+                    in_quotes(rule.name.text), in_quotes(force), in_quotes(first->second->name.text),
+                    first->second->name.place.line));
+            return;
         }
     }
 
