@@ -10,6 +10,7 @@
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/roberson_wittenburg.hpp"
+#include "formalism/routh.hpp"
 #include "formalism/schiehlen.hpp"
 #include "joint_scenes.hpp"
 #include "mechanisms.hpp"
