@@ -90,7 +90,8 @@ TEST_CASE("commands: eval's least multipliers are those of Moore and Penrose") {
 }
 
 TEST_CASE("commands: derive prints all multipliers and what makes them least, and check proves both") {
-    for (const std::string& scene : {temporary("plate.toml", redundant_plate), temporary("ring.toml", ring("0.5"))}) {
+    for (const std::string& scene :
+         {temporary("plate.toml", redundant_plate), temporary("ring.toml", ring("0.5"))}) {
         const Json shown = json_of({"derive", scene, "--json"}), at = json_of({"eval", scene, "--json"});
         CHECK(shown["multipliers"].size() == at["multipliers"].size());
         REQUIRE(shown["shares"].size() == 1);
