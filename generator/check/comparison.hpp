@@ -26,8 +26,8 @@ struct Comparison {
     Claims& claims;
     std::vector<ClaimForm> forms = {};        ///< of the claims of the scene
     std::vector<CheckedClaim> verdicts = {};  ///< likewise
-    std::vector<GiNaC::ex> positive =
-        {};  ///< on the sheet of the scene and its claims, not of repairs that are tried
+    /// What is positive on the sheet of the scene and its claims, not of repairs that are tried.
+    std::vector<GiNaC::ex> positive = {};
 
     // For the claims that are compared now:
     Claim::At at = Claim::At::motion;         ///< motion, rest or impact
