@@ -7,14 +7,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_accuracy {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -68,11 +70,6 @@ TEST_CASE(
     "commands: a tree of many bodies runs by the recursion at once, accelerates as by Lagrange, and is shown by "
     "Lagrange") {
     const std::string scene = source_path("scenes/benchmark/trees/pend16.toml");
-    const auto json_of = [&](const std::vector<std::string>& args) {
-        const auto result = run(args);
-        REQUIRE(result.exit == 0);
-        return Json::parse(result.out);
-    };
     const Json own = json_of({"eval", scene, "--json"}),
                lagrange = json_of({"eval", scene, "--json", "--by", "lagrange"});
     double largest = 0;

@@ -4,15 +4,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_audit {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -144,11 +146,7 @@ nonholonomic = "dot(vel(disc) + cross(omega(D), pos(disc, C)), ez(N))"
 }
 
 TEST_CASE("commands: audit tells poses at which coordinates fail from those at which the mechanism does") {
-    const auto poses = [](const std::string& file) {
-        const auto result = run({"audit", file, "--json"});
-        REQUIRE(result.exit == 0);
-        return Json::parse(result.out)["singular_poses"];
-    };
+    const auto poses = [](const std::string& file) { return json_of({"audit", file})["singular_poses"]; };
     const Json polar = poses(temporary("polar.toml", R"toml(
 [coordinates]
 r = 1

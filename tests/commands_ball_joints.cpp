@@ -8,23 +8,18 @@
 #include <nlohmann/json.hpp>
 
 #include "files.hpp"
+#include "json.hpp"
 #include "program.hpp"
 
 namespace commands_ball_joints {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
-
-Json json_of(const std::vector<std::string>& args) {
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
-}
 
 std::string body(const std::string& name, double mass) {
     return fmt::format("[[body]]\nname = \"{}\"\nmass = {}\ninertia = {{ xx = {}, yy = {}, zz = {}, yz = {} }}\n",
@@ -114,9 +109,7 @@ std::string spherical_legs(bool by_quaternion) {
 
 /// The end, and E's drift, by a method.
 Json end_of(const std::string& scene, const std::vector<std::string>& options) {
-    std::vector<std::string> args{"simulate", scene, "--json", "--duration", "1.5", "--no-estimate"};
-    args.insert(args.end(), options.begin(), options.end());
-    return json_of(args);
+    return json_of({"simulate", scene, "--duration", "1.5", "--no-estimate"}, options);
 }
 
 double difference(const Json& a, const Json& b) {

@@ -10,25 +10,20 @@
 #include <set>
 #include <sstream>
 
+#include "json.hpp"
 #include "machine/encoder.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_bench {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
-
-Json result_of(const std::vector<std::string>& arguments) {
-    const auto result = run(arguments);
-    INFO(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
-}
 
 std::string scene(const std::string& name) {
     return source_path("scenes/benchmark/" + name + ".toml");
@@ -40,7 +35,7 @@ TEST_CASE(
     "bench: the reference of Kepler's comet agrees with Kepler's equation in all the digits that it claims") {
     const std::string svg = temporary("kepler.svg", ""), csv = temporary("kepler.csv", "");
     const Json result =
-        result_of({"bench", scene("kepler"), "--json", "--method", "dop853", "--svg", svg, "--csv", csv});
+        json_of({"bench", scene("kepler"), "--json", "--method", "dop853", "--svg", svg, "--csv", csv});
     const Json& reference = result["reference"];
     CHECK(reference["digits"].get<int>() >= 18);
     // The leading 20 digits as text: a double would lose the last four.
@@ -69,7 +64,7 @@ TEST_CASE(
 }
 
 TEST_CASE("bench: auto is measured too, with the method that it has chosen at each tolerance") {
-    const Json result = result_of({"bench", scene("kepler"), "--json", "--duration", "0.01", "--method", "auto"});
+    const Json result = json_of({"bench", scene("kepler"), "--json", "--duration", "0.01", "--method", "auto"});
     REQUIRE(result["runs"].size() == 12);
     for (const Json& one : result["runs"]) {
         CHECK(one["method"] == "auto");
@@ -86,18 +81,18 @@ TEST_CASE("bench: methods for separable systems are left out where the system is
         for (const Json& one : result["runs"]) names.insert(one["method"].get<std::string>());
         return names;
     };
-    const auto coupled = methods(result_of(
-        {"bench", scene("double_pendulum_regular"), "--json", "--duration", "0.1", "--budget", "20000"}));
+    const auto coupled = methods(
+        json_of({"bench", scene("double_pendulum_regular"), "--json", "--duration", "0.1", "--budget", "20000"}));
     CHECK(!coupled.contains("kahanli8"));
     CHECK(coupled.contains("gauss"));
     CHECK(coupled.contains("radau"));
-    CHECK(methods(result_of({"bench", scene("kepler"), "--json", "--duration", "0.01", "--method", "kahanli8"}))
+    CHECK(methods(json_of({"bench", scene("kepler"), "--json", "--duration", "0.01", "--method", "kahanli8"}))
               .contains("kahanli8"));
 }
 
 TEST_CASE("bench: constraints are kept, and their error is reported") {
     const Json result =
-        result_of({"bench", scene("cartesian_pendulum"), "--json", "--duration", "10", "--method", "dop853"});
+        json_of({"bench", scene("cartesian_pendulum"), "--json", "--duration", "10", "--method", "dop853"});
     const Json& end = result["reference"]["text"]["coordinates"];
     // Exact by elliptic functions: the mass at t = 10.
     CHECK(end["x"].get<std::string>().substr(0, 19) == "-0.2750874625761168");
@@ -110,7 +105,7 @@ TEST_CASE("simulate: the second run of a step beyond the duration takes half of 
     const std::string one =
         temporary("one.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n");
     const Json result =
-        result_of({"simulate", one, "--json", "--duration", "5", "--method", "rk4", "--step", "100"});
+        json_of({"simulate", one, "--json", "--duration", "5", "--method", "rk4", "--step", "100"});
     const double error = std::abs(result["final"]["coordinates"]["x"].get<double>() - std::cos(5));
     CHECK(error > 1);
     CHECK(result["error_estimate"]["value"].get<double>() > error / 30);
@@ -152,7 +147,7 @@ TEST_CASE("simulate: the estimated error is within a factor of 30 of the true on
     for (const auto& [name, x, method] : {std::tuple{"kepler", -0.13516647736782103, "dop853"},
                                           std::tuple{"kepler", -0.13516647736782103, "verner98"}}) {
         const Json result =
-            result_of({"simulate", scene(name), "--json", "--tolerance", "1e-9", "--method", method});
+            json_of({"simulate", scene(name), "--json", "--tolerance", "1e-9", "--method", method});
         const Json& end = result["final"];
         const double error = std::max({std::abs(end["coordinates"]["x"].get<double>() - x),
                                        std::abs(end["coordinates"]["y"].get<double>() + 0.073200184472628027),
@@ -164,26 +159,26 @@ TEST_CASE("simulate: the estimated error is within a factor of 30 of the true on
         CHECK(estimate > error / 30);
         CHECK(estimate < error * 30);
     }
-    const Json without = result_of({"simulate", scene("kepler"), "--json", "--no-estimate"});
+    const Json without = json_of({"simulate", scene("kepler"), "--json", "--no-estimate"});
     CHECK(!without.contains("error_estimate"));
 }
 
 // Measured: errors grow 10^6 to 10^7 fold in 10 s, 10^13 in 20 s: an exponent of 1.4 to 1.6.
 TEST_CASE("simulate: chaos is reported with its exponent, and the first line of a result without digits says so") {
     const std::string chaotic = scene("double_pendulum_chaotic");
-    const Json good = result_of({"simulate", chaotic, "--json"});
+    const Json good = json_of({"simulate", chaotic, "--json"});
     CHECK(good["error_estimate"]["trustworthy"] == true);
     const auto bad = run({"simulate", chaotic, "--duration", "40", "--tolerance", "1e-9"});
     CHECK(bad.exit == 0);
     CHECK(bad.out.starts_with("NOT TRUSTWORTHY"));
-    const Json same = result_of({"simulate", chaotic, "--json", "--duration", "40", "--tolerance", "1e-9"});
+    const Json same = json_of({"simulate", chaotic, "--json", "--duration", "40", "--tolerance", "1e-9"});
     const Json& estimate = same["error_estimate"];
     REQUIRE(estimate.contains("lyapunov_exponent"));
     CHECK(estimate["lyapunov_exponent"].get<double>() > 0.7);
     CHECK(estimate["lyapunov_exponent"].get<double>() < 3);
     CHECK(estimate["no_digit_after"].get<double>() > 5);
     CHECK(estimate["no_digit_after"].get<double>() < 30);
-    const Json regular = result_of({"simulate", scene("double_pendulum_regular"), "--json"});
+    const Json regular = json_of({"simulate", scene("double_pendulum_regular"), "--json"});
     CHECK(!regular["error_estimate"].contains("lyapunov_exponent"));
     CHECK(regular["error_estimate"]["value"].get<double>() < 1e-10);
 }
@@ -195,8 +190,8 @@ TEST_CASE(
     const std::string chaotic = scene("double_pendulum_chaotic");
     const auto rows = [&](const std::string& tolerance) {
         const std::string file = temporary("chaos" + tolerance + ".csv", "");
-        const Json result = result_of({"simulate", chaotic, "--json", "--duration", "40", "--sample", "0.1",
-                                       "--tolerance", tolerance, "-o", file});
+        const Json result = json_of({"simulate", chaotic, "--json", "--duration", "40", "--sample", "0.1",
+                                     "--tolerance", tolerance, "-o", file});
         std::ifstream in(file);
         std::vector<std::array<double, 3>> list;
         std::string line;
@@ -231,8 +226,8 @@ TEST_CASE("simulate: the estimated error is within a factor of 10 of the true on
                              "double_pendulum_regular", "four_bars_2"}) {
         CAPTURE(name);
         const Json result =
-            result_of({"simulate", scene(name), "--json", "--tolerance", "1e-8", "--method", "dop853"});
-        const Json better = result_of(
+            json_of({"simulate", scene(name), "--json", "--tolerance", "1e-8", "--method", "dop853"});
+        const Json better = json_of(
             {"simulate", scene(name), "--json", "--no-estimate", "--tolerance", "1e-11", "--method", "verner98"});
         double error = 0;
         for (const char* group : {"coordinates", "rates"})
@@ -250,7 +245,7 @@ TEST_CASE("simulate: the estimated error is within a factor of 10 of the true on
 // The ball first touches the floor at sqrt(2h/g), and the bounces end at sqrt(2h/g)(1 + e)/(1 - e); `error`
 // compares these times with those of a strict run.
 TEST_CASE("bench: the error of a bouncing ball includes the times of its contacts") {
-    const Json result = result_of({"bench", scene("bouncing_ball"), "--json", "--method", "dop853"});
+    const Json result = json_of({"bench", scene("bouncing_ball"), "--json", "--method", "dop853"});
     CHECK(result["reference"]["digits"].get<int>() >= 10);
     REQUIRE(result["runs"].size() == 11);
     CHECK(result["runs"].front()["error"].get<double>() < 1e-2);

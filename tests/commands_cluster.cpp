@@ -47,9 +47,39 @@ tolerance = 1e-12
 )toml");
 }
 
+/// A block on a spring that dry friction holds again and again, while a force swings: its motion is in pieces.
+std::string scene_in_pieces() {
+    return temporary("pieces.toml", R"toml(
+[parameters]
+n = 1
+mu = 0.3
+[coordinates]
+x = 1
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[[spring]]
+along = "x"
+stiffness = 1
+[[force]]
+at = "P"
+vector = ["sin(t)", 0]
+[[friction]]
+name = "floor"
+coefficient = "mu"
+slip = "x'"
+normal = 2
+[simulation]
+duration = "n"
+tolerance = 1e-12
+)toml");
+}
+
 /// The script gets the scene as $1 and the options of the sweep as words after it. It works in a new folder.
-Run in_folder(const std::string& script, const std::vector<std::string>& options) {
-    std::vector<std::string> words{temporary_folder("cluster"), scene()};
+Run in_folder(const std::string& script, const std::vector<std::string>& options,
+              const std::string& of = scene()) {
+    std::vector<std::string> words{temporary_folder("cluster"), of};
     words.insert(words.end(), options.begin(), options.end());
     return run_shell(R"sh(cd "$1"; shift
         export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
@@ -62,15 +92,8 @@ Run in_folder(const std::string& script, const std::vector<std::string>& options
 
 const std::vector<std::string> some{"--vary", "theta=0.1:2:40", "--vary", "n=1:60:30"};
 
-bool has_mpi() {
-    return !alembert::find_program("mpirun").empty() &&
-           std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-mpi.so");
-}
-
-}  // namespace
-
-TEST_CASE("sweep: what a signal interrupted goes on with --resume, and the table is that of a quiet sweep") {
-    const Run result = in_folder(R"sh(
+/// What is left of a sweep that a signal ends, and what goes on from there.
+const std::string interrupted = R"sh(
         quiet "$@"
         "$ALEMBERT" sweep "$@" -o t.csv --chunk 8 >out 2>err & program=$!
         begun
@@ -79,11 +102,24 @@ TEST_CASE("sweep: what a signal interrupted goes on with --resume, and the table
         printf 'cut short' >>t.csv.unfinished
         "$ALEMBERT" sweep "$@" -o t.csv --resume --tolerance 1e-9 2>&1 | grep -o 'belongs to another sweep'
         "$ALEMBERT" sweep "$@" -o t.csv --resume --threads 1 --json >again.json || cat again.json
-        cmp t.csv quiet.csv && ls)sh",
-                                 some);
-    CHECK(result.out ==
-          "exit 143\ninterrupted at some of 1200 motions are kept in t.csv.unfinished, and the same command with "
-          "--resume goes on\nbelongs to another sweep\nagain.json\nerr\nout\nquiet.csv\nt.csv\n");
+        cmp t.csv quiet.csv && ls)sh";
+const std::string as_quiet =
+    "exit 143\ninterrupted at some of 1200 motions are kept in t.csv.unfinished, and the same command with "
+    "--resume "
+    "goes on\nbelongs to another sweep\nagain.json\nerr\nout\nquiet.csv\nt.csv\n";
+
+bool has_mpi() {
+    return !alembert::find_program("mpirun").empty() &&
+           std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-mpi.so");
+}
+
+}  // namespace
+
+TEST_CASE("sweep: what a signal interrupted goes on with --resume, and the table is that of a quiet sweep") {
+    CHECK(in_folder(interrupted, some).out == as_quiet);
+    // Each motion has several pieces with and without friction that holds.
+    CHECK(in_folder(interrupted, {"--vary", "mu=0.2:0.6:40", "--vary", "n=1:60:30"}, scene_in_pieces()).out ==
+          as_quiet);
     const std::string folder = temporary_folder("cluster");
     CHECK(run({"sweep", scene(), "--vary", "n=1:2:3", "--resume"}).err.find("--resume needs -o FILE") !=
           std::string::npos);

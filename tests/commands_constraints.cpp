@@ -7,15 +7,17 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_constraints {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 // v' = a w², w' = −m a v w/(J + m a²): v = c tanh(l t + b), w = c √(m/(J + m a²)) sech(l t + b); angle and
 // position by quadrature in 32 digits. The local errors are 1e-11 in about sixty steps of an attracting motion.
@@ -261,11 +263,7 @@ TEST_CASE("commands: kahanli8 integrates a separable system and refuses the othe
     };
     const std::string free = scene("x'^2/2 + y'^2", "");
     const auto end = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words{"simulate", free, "--json", "--duration", "20"};
-        words.insert(words.end(), more.begin(), more.end());
-        const auto result = run(words);
-        REQUIRE(result.exit == 0);
-        return Json::parse(result.out)["final"]["coordinates"];
+        return json_of({"simulate", free, "--duration", "20"}, more)["final"]["coordinates"];
     };
     const Json exact = end({"--tolerance", "1e-13"});
     for (const std::vector<std::string>& words :

@@ -10,13 +10,15 @@
 #include <utility>
 #include <vector>
 
+#include "json.hpp"
 #include "program.hpp"
 
 namespace commands_energy {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -103,9 +105,7 @@ double energy_at(const std::string& scene, const Json& state) {
         words.push_back(fmt::format("{}={:.17g}", name, value.get<double>()));
     for (const auto& [name, value] : state["rates"].items())
         words.push_back(fmt::format("{}'={:.17g}", name, value.get<double>()));
-    const auto result = run(words);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out)["energy"];
+    return json_of(words)["energy"];
 }
 
 }  // namespace

@@ -7,15 +7,17 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_equilibrium {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -23,12 +25,8 @@ std::string textbook(const std::string& name) {
     return source_path("scenes/textbook/" + name + ".toml");
 }
 
-Json found(const std::string& scene, std::vector<std::string> more = {}) {
-    more.insert(more.begin(), {"equilibrium", scene, "--json"});
-    const auto result = run(more);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+Json found(const std::string& scene, const std::vector<std::string>& more = {}) {
+    return json_of({"equilibrium", scene}, more);
 }
 
 std::vector<double> values(const Json& result, const std::string& name) {

@@ -11,12 +11,12 @@
 
 #include "files.hpp"
 #include "fmu_master.hpp"
+#include "json.hpp"
 #include "shell.hpp"
 
 namespace commands_fmu {
 
 using namespace alembert::test;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -39,10 +39,7 @@ const Unit& cart(int version) {
 }
 
 Json simulated(const std::string& scene, double end) {
-    const auto result =
-        run({"simulate", scene, "--duration", fmt::format("{}", end), "--tolerance", "1e-12", "--json"});
-    REQUIRE_MESSAGE(result.exit == 0, result.err);
-    return Json::parse(result.out)["final"];
+    return json_of({"simulate", scene, "--duration", fmt::format("{}", end), "--tolerance", "1e-12"})["final"];
 }
 
 /// The largest difference of coordinates and rates, relative to max(1, |x|).

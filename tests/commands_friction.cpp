@@ -11,7 +11,9 @@
 #include <sstream>
 
 #include "contacts.hpp"
+#include "edits.hpp"
 #include "files.hpp"
+#include "json.hpp"
 
 namespace commands_friction {
 
@@ -27,13 +29,7 @@ std::string scene_of(const std::string& name) {
 
 /// The scene with some text replaced.
 std::string changed(const std::string& name, const std::vector<std::pair<std::string, std::string>>& edits) {
-    std::string scene = alembert::test::contents(scene_of(name));
-    for (const auto& [from, to] : edits) {
-        const std::size_t at = scene.find(from);
-        REQUIRE(at != std::string::npos);
-        scene.replace(at, from.size(), to);
-    }
-    return temporary(name + "_changed.toml", scene);
+    return temporary(name + "_changed.toml", edited(contents(scene_of(name)), edits));
 }
 
 /// The allowed error: rounding of the time, and the effect of the tolerance of 1e-12 in these scenes.
@@ -369,13 +365,9 @@ TEST_CASE("friction: verbs and methods that do not support it say so") {
 TEST_CASE("friction: eval finds the contacts that stick, and the forces that hold them") {
     // A block at rest on a slope, pulled by 5 N: it holds while 5 + m g sin alpha is below mu_s m g cos alpha.
     const auto at_rest = [](const char* force) {
-        const auto result =
-            run({"eval",
-                 changed("block_on_slope", {{"rate = \"-v0\"", "rate = 0"},
-                                            {"value = \"c*t\"", std::string("value = \"") + force + "\""}}),
-                 "--json"});
-        REQUIRE(result.exit == 0);
-        return Json::parse(result.out);
+        return json_of(
+            {"eval", changed("block_on_slope", {{"rate = \"-v0\"", "rate = 0"},
+                                                {"value = \"c*t\"", std::string("value = \"") + force + "\""}})});
     };
     const Json holds = at_rest("3"), slips = at_rest("5");
     CHECK(holds["friction"]["slope"] == "stick");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contacts.hpp"
+#include "edits.hpp"
 #include "files.hpp"
 
 namespace commands_friction_plane {
@@ -22,10 +23,7 @@ std::string scene_of(const std::string& name) {
 }
 
 std::string changed(const std::string& name, const std::string& from, const std::string& to) {
-    std::string scene = alembert::test::contents(scene_of(name));
-    const std::size_t at = scene.find(from);
-    REQUIRE(at != std::string::npos);
-    return temporary(name + "_changed.toml", scene.replace(at, from.size(), to));
+    return temporary(name + "_changed.toml", edited(contents(scene_of(name)), {{from, to}}));
 }
 
 doctest::Approx near(double value) {
@@ -152,13 +150,11 @@ TEST_CASE("friction in a plane: a ball that lands with spin slides or grips as i
     const double r = 0.028575, speed = std::sqrt(2 * g), u = 2 + r * 25, v = r * 40, slip = std::hypot(u, v);
     for (const double mu : {0.05, 0.2}) {
         CAPTURE(mu);
-        std::string scene = alembert::test::contents(scene_of("billiard_ball_struck"));
-        for (const auto& [from, to] :
-             {std::pair<std::string, std::string>{"{ value = 0.2, unit = \"1\" }", fmt::format("{}", mu)},
-              {"initial = \"r\"", "initial = \"r + 1\""},
-              {"gap = \"z - r\"", "gap = \"z - r\"\nrestitution = 0.5"},
-              {"duration = 1.5", "duration = 0.6"}})
-            scene.replace(scene.find(from), from.size(), to);
+        const std::string scene = edited(contents(scene_of("billiard_ball_struck")),
+                                         {{"{ value = 0.2, unit = \"1\" }", fmt::format("{}", mu)},
+                                          {"initial = \"r\"", "initial = \"r + 1\""},
+                                          {"gap = \"z - r\"", "gap = \"z - r\"\nrestitution = 0.5"},
+                                          {"duration = 1.5", "duration = 0.6"}});
         const Json motion = simulated(temporary("landing_ball.toml", scene));
         REQUIRE(of_kind(motion, "impact").size() == 1);
         const double change = std::min(mu * 1.5 * speed, 2.0 / 7 * slip);
@@ -211,10 +207,9 @@ TEST_CASE("friction in a plane: a plate on three feet that slides and turns come
     using Texts = std::pair<std::string, std::string>;
     for (const Texts& one : {Texts{"1.8", "0.425"}, Texts{"2.4", "0.8"}}) {
         CAPTURE(one.first);
-        std::string scene = contents(scene_of("falling_tripod"));
-        for (const Texts& change : {Texts{"vx = { value = 0.0", "vx = { value = " + one.first},
-                                    Texts{"mu = { value = 0.2", "mu = { value = " + one.second}})
-            scene.replace(scene.find(change.first), change.first.size(), change.second);
+        const std::string scene =
+            edited(contents(scene_of("falling_tripod")), {{"vx = { value = 0.0", "vx = { value = " + one.first},
+                                                          {"mu = { value = 0.2", "mu = { value = " + one.second}});
         const Json motion = simulated(temporary("plate.toml", scene), {"--duration", "1.2", "--no-estimate"});
         CHECK(of_kind(motion, "stick").size() >= 3);
         for (const char* const q : {"x", "y", "z", "psi", "a", "b"}) CHECK(std::abs(rate(motion, q)) < 1e-13);
@@ -316,14 +311,9 @@ TEST_CASE(
 // word.
 TEST_CASE("friction: a box whose front foot sticks turns about it as a pendulum, past where sliding would jam") {
     const double m = 8, J = 0.6, b = 0.3, h = 0.5, I = J + m * (b * b + h * h);
-    const std::string scene = temporary("tipping.toml", [] {
-        std::string text = contents(scene_of("braking_box"));
-        for (const auto& [from, to] :
-             {std::pair<std::string, std::string>{"mu = { value = 0.4", "mu = { value = 0.83"},
-              {"v0 = { value = 2.0", "v0 = { value = 2.5"}})
-            text.replace(text.find(from), from.size(), to);
-        return text;
-    }());
+    const std::string scene = temporary(
+        "tipping.toml", edited(contents(scene_of("braking_box")), {{"mu = { value = 0.4", "mu = { value = 0.83"},
+                                                                   {"v0 = { value = 2.0", "v0 = { value = 2.5"}}));
     const std::string file = temporary("tipping.csv", "");
     const Json motion = simulated(scene, {"-o", file});
     const auto sticks = of_kind(motion, "stick", "front_sole");

@@ -9,35 +9,31 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "edits.hpp"
 #include "files.hpp"
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_gimbal {
 
 using alembert::test::contents;
+using alembert::test::edited;
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
 std::string changed(const std::string& name, const std::vector<std::pair<std::string, std::string>>& edits) {
-    std::string scene = alembert::test::contents(source_path("scenes/textbook/" + name + ".toml"));
-    for (const auto& [from, to] : edits) {
-        const std::size_t at = scene.find(from);
-        REQUIRE(at != std::string::npos);
-        scene.replace(at, from.size(), to);
-    }
-    return temporary(name + "_changed.toml", scene);
+    return temporary(name + "_changed.toml",
+                     edited(contents(source_path("scenes/textbook/" + name + ".toml")), edits));
 }
 
 Json simulated(const std::string& scene) {
-    const auto result = run({"simulate", scene, "--json", "--duration", "25", "--tolerance", "1e-13"});
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return json_of({"simulate", scene, "--duration", "25", "--tolerance", "1e-13"});
 }
 
 Eigen::Matrix3d turned(const Json& motion) {

@@ -14,15 +14,20 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "edits.hpp"
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_hard {
 
+using alembert::test::contents;
+using alembert::test::edited;
+using alembert::test::Json;
 using alembert::test::run;
+using alembert::test::simulated;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -32,18 +37,7 @@ std::string path_of(const std::string& name) {
 
 /// The scene with one line replaced.
 std::string changed(const std::string& name, const std::string& line, const std::string& by) {
-    std::string scene = alembert::test::contents(path_of(name));
-    const std::size_t at = scene.find(line);
-    REQUIRE(at != std::string::npos);
-    return temporary(name + ".toml", scene.replace(at, line.size(), by));
-}
-
-Json simulated(const std::string& path, std::vector<std::string> more) {
-    more.insert(more.begin(), {"simulate", path, "--json"});
-    const auto result = run(more);
-    INFO(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return temporary(name + ".toml", edited(contents(path_of(name)), {{line, by}}));
 }
 
 using Values = std::map<std::string, double>;

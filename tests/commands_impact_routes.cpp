@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "impact_scenes.hpp"
+#include "json.hpp"
 #include "scenes.hpp"
 
 namespace commands_impact_routes {
@@ -38,10 +39,8 @@ TEST_CASE("impact: it is the limit of a large short force") {
     const Json limit = impact_of(filled(text, {{"tau", 1}}) + "[[impulse]]\nat = \"P\"\nvector = [\"S\", 0]\n");
     const auto after = [&](double tau) {
         const std::string scene = filled(text, {{"tau", tau}}) + "[[force]]\nat = \"P\"\nvector = [\"F\", 0]\n";
-        const auto result = run({"simulate", temporary("pulse.toml", scene), "--json", "--tolerance", "1e-12",
-                                 "--duration", fmt::format("{}", tau)});
-        REQUIRE(result.exit == 0);
-        return Json::parse(result.out)["final"]["rates"];
+        return json_of({"simulate", temporary("pulse.toml", scene), "--tolerance", "1e-12", "--duration",
+                        fmt::format("{}", tau)})["final"]["rates"];
     };
     const Json coarse = after(4e-3), fine = after(2e-3);
     for (const char* name : {"x", "y", "theta"}) {
@@ -119,7 +118,8 @@ TEST_CASE("impact: its equations hold as claims, and so do those in textbook sce
         const alembert::Scene scene = alembert::read_scene(file);
         std::vector<std::string> claims;
         for (const alembert::Claim& claim : scene.claims)
-            if (claim.at == "impact") claims.push_back(claim.equation.lhs.text + " = " + claim.equation.rhs.text);
+            if (claim.at == alembert::Claim::At::impact)
+                claims.push_back(claim.equation.lhs.text + " = " + claim.equation.rhs.text);
         if (!claims.empty()) check(scene.text, claims);
     }
     CHECK(held >= 12);

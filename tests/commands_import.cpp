@@ -1,222 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Robots as scenes: accelerations by the recursion on the imported tree are compared with a Newton-Euler recursion
-// in this file, which reads the numbers of the URDF itself, goes link by link (fixed ones too) along the axes of
-// the world, and uses neither merged bodies nor scenes.
+// Robots as scenes: accelerations by the recursion on the imported tree are compared with those of
+// robot_model.hpp, which knows the URDF alone.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
 #include <sstream>
 
-#include "program.hpp"
-#include "scenes.hpp"
+#include "files.hpp"
+#include "json.hpp"
+#include "robot_model.hpp"
 
 namespace commands_import {
 
 using alembert::test::contents;
+using alembert::test::Json;
+using alembert::test::json_of;
+using alembert::test::RobotHinge;
+using alembert::test::RobotModel;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
-using V3 = Eigen::Vector3d;
-using M3 = Eigen::Matrix3d;
 
 namespace {
-
-V3 three(const std::string& text) {
-    std::istringstream in(text);
-    V3 v = V3::Zero();
-    in >> v[0] >> v[1] >> v[2];
-    return v;
-}
-
-M3 about(const V3& axis, double angle) {
-    return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-}
-M3 of_rpy(const V3& a) {
-    return about(V3::UnitZ(), a[2]) * about(V3::UnitY(), a[1]) * about(V3::UnitX(), a[0]);
-}
-
-struct Body {
-    double mass = 0;
-    V3 centre = V3::Zero(), centre_rpy = V3::Zero();
-    M3 inertia = M3::Zero();
-};
-/// A simple joint with its child; a floating joint is six of them.
-struct Hinge {
-    std::string name, type, parent, child, leader;
-    V3 xyz = V3::Zero(), rpy = V3::Zero(), axis = V3::UnitX();
-    double damping = 0, factor = 1, offset = 0;
-};
-
-struct Model {
-    std::map<std::string, Body> bodies;
-    std::vector<Hinge> hinges;  ///< parents first
-
-    explicit Model(const std::string& file) {
-        const std::string text = std::regex_replace(contents(file), std::regex("<!--[^]*?-->"), "");
-        const std::regex tag("<(/?)(\\w+)([^>]*?)(/?)>"), attribute("(\\w+)=\"([^\"]*)\"");
-        std::vector<Hinge> list;
-        std::string link;
-        bool in_joint = false, in_inertial = false;
-        int depth = 0;
-        for (std::sregex_iterator it(text.begin(), text.end(), tag), end; it != end; ++it) {
-            const std::string name = (*it)[2], inside = (*it)[3];
-            const bool closes = (*it)[1].length() > 0, alone = (*it)[4].length() > 0;
-            if (closes) --depth;
-            if (closes && name == "inertial") in_inertial = false;
-            if (closes && depth == 1) link.clear(), in_joint = false;
-            if (closes) continue;
-            std::map<std::string, std::string> a;
-            for (std::sregex_iterator k(inside.begin(), inside.end(), attribute); k != end; ++k)
-                a[(*k)[1]] = (*k)[2];
-            const auto number = [&](const char* key, double otherwise) {
-                return a.count(key) ? std::stod(a[key]) : otherwise;
-            };
-            if (depth == 1 && name == "link") bodies[link = a["name"]];
-            if (depth == 1 && name == "joint") {
-                in_joint = !alone;
-                list.push_back({});
-                list.back().name = a["name"];
-                list.back().type = a["type"];
-            }
-            if (!link.empty() && name == "inertial") in_inertial = true;
-            if (in_inertial && name == "origin")
-                bodies[link].centre = three(a["xyz"]), bodies[link].centre_rpy = three(a["rpy"]);
-            if (in_inertial && name == "mass") bodies[link].mass = number("value", 0);
-            if (in_inertial && name == "inertia")
-                bodies[link].inertia << number("ixx", 0), number("ixy", 0), number("ixz", 0), number("ixy", 0),
-                    number("iyy", 0), number("iyz", 0), number("ixz", 0), number("iyz", 0), number("izz", 0);
-            if (in_joint && depth == 2) {
-                Hinge& joint = list.back();
-                if (name == "parent") joint.parent = a["link"];
-                if (name == "child") joint.child = a["link"];
-                if (name == "origin") joint.xyz = three(a["xyz"]), joint.rpy = three(a["rpy"]);
-                if (name == "axis") joint.axis = three(a["xyz"]).normalized();
-                if (name == "dynamics") joint.damping = number("damping", 0);
-                if (name == "mimic")
-                    joint.leader = a["joint"], joint.factor = number("multiplier", 1),
-                    joint.offset = number("offset", 0);
-            }
-            if (!alone) ++depth;
-            if (alone && depth == 1) link.clear();
-        }
-        std::map<std::string, bool> placed;
-        for (const auto& [name, body] : bodies)
-            if (std::none_of(list.begin(), list.end(), [&, n = name](const Hinge& h) { return h.child == n; }))
-                placed[name] = true;
-        REQUIRE(placed.size() == 1);
-        while (!list.empty()) {
-            const auto next =
-                std::find_if(list.begin(), list.end(), [&](const Hinge& h) { return placed.count(h.parent) > 0; });
-            REQUIRE(next != list.end());
-            placed[next->child] = true;
-            if (next->type == "floating")
-                add_floating(*next);
-            else
-                hinges.push_back(*next);
-            list.erase(next);
-        }
-    }
-
-    void add_floating(const Hinge& joint) {
-        const std::vector<std::string> suffix{"x", "y", "z", "yaw", "pitch", "roll"};
-        const std::vector<V3> axis{V3::UnitX(), V3::UnitY(), V3::UnitZ(), V3::UnitZ(), V3::UnitY(), V3::UnitX()};
-        for (std::size_t k = 0; k < 6; ++k) {
-            Hinge one;
-            one.name = joint.name + "_" + suffix[k];
-            one.type = k < 3 ? "prismatic" : "revolute";
-            one.parent = k == 0 ? joint.parent : joint.child + "/" + suffix[k - 1];
-            one.child = k == 5 ? joint.child : joint.child + "/" + suffix[k];
-            if (k == 0) one.xyz = joint.xyz, one.rpy = joint.rpy;
-            one.axis = axis[k];
-            bodies[one.child];
-            hinges.push_back(one);
-        }
-    }
-
-    const Hinge& named(const std::string& name) const {
-        return *std::find_if(hinges.begin(), hinges.end(), [&](const Hinge& h) { return h.name == name; });
-    }
-
-    using Values = std::map<std::string, double>;
-    /// Position (or rate, with no offsets) of a joint that may follow another.
-    double value(const Hinge& h, const Values& of, bool with_offset) const {
-        if (h.leader.empty()) return of.count(h.name) ? of.at(h.name) : 0;
-        return h.factor * value(named(h.leader), of, with_offset) + (with_offset ? h.offset : 0);
-    }
-
-    /// Σ over all joints that follow it, of the loads that these accelerations need.
-    Values loads(const Values& q, const Values& u, const Values& a, double g, bool damped) const {
-        struct Motion {
-            M3 R = M3::Identity();
-            V3 p = V3::Zero(), w = V3::Zero(), e = V3::Zero(), acc = V3::Zero();
-        };
-        std::map<std::string, Motion> at;
-        struct Wrench {
-            V3 n, f, c;
-        };
-        std::map<std::string, Wrench> needed;
-        std::map<std::string, V3> axis, pivot;
-        for (const Hinge& h : hinges) {
-            const Motion up = at[h.parent];
-            Motion m;
-            const M3 R0 = up.R * of_rpy(h.rpy);
-            const V3 z = R0 * h.axis;
-            const double s = value(h, q, true), sd = value(h, u, false), sdd = value(h, a, false);
-            m.R = R0;
-            m.p = up.p + up.R * h.xyz;
-            m.w = up.w;
-            m.e = up.e;
-            if (h.type == "prismatic") m.p += s * z;
-            const V3 r = m.p - up.p;
-            m.acc = up.acc + up.e.cross(r) + up.w.cross(up.w.cross(r));
-            if (h.type == "prismatic") {
-                m.acc += 2 * up.w.cross(V3(sd * z)) + sdd * z;
-            } else if (h.type != "fixed") {
-                m.R = R0 * about(h.axis, s);
-                m.w += sd * z;
-                m.e += sdd * z + up.w.cross(V3(sd * z));
-            }
-            at[h.child] = m;
-            axis[h.name] = z;
-            pivot[h.name] = m.p;
-            const Body& b = bodies.at(h.child);
-            const V3 c = m.R * b.centre;
-            const M3 turn = m.R * of_rpy(b.centre_rpy), I = turn * b.inertia * turn.transpose();
-            const V3 ac = m.acc + m.e.cross(c) + m.w.cross(m.w.cross(c));
-            needed[h.child] = {I * m.e + m.w.cross(I * m.w), b.mass * (ac + V3(0, 0, g)), m.p + c};
-        }
-        Values result;
-        for (const Hinge& h : hinges) {
-            if (h.type == "fixed") continue;
-            double load = damped ? h.damping * value(h, u, false) : 0;
-            for (const Hinge& other : hinges) {
-                const Hinge* below = &other;
-                while (below->name != h.name) {
-                    const auto up = std::find_if(hinges.begin(), hinges.end(),
-                                                 [&](const Hinge& k) { return k.child == below->parent; });
-                    if (up == hinges.end()) break;
-                    below = &*up;
-                }
-                if (below->name != h.name) continue;
-                const Wrench& w = needed[other.child];
-                load += h.type == "prismatic" ? axis[h.name].dot(w.f)
-                                              : axis[h.name].dot(w.n + (w.c - pivot[h.name]).cross(w.f));
-            }
-            double factor = 1;
-            const Hinge* leader = &h;
-            for (; !leader->leader.empty(); leader = &named(leader->leader)) factor *= leader->factor;
-            if (leader->type != "fixed") result[leader->name] += factor * load;
-        }
-        return result;
-    }
-};
 
 std::string plain(std::string name) {
     for (char& c : name)
@@ -239,11 +47,11 @@ void compare(const std::string& robot, const std::vector<std::string>& still, st
     const auto imported = run(args);
     CAPTURE(imported.err);
     REQUIRE(imported.exit == 0);
-    const Model model(file);
+    const RobotModel model(file);
     Random random;
     for (int trial = 0; trial < 4; ++trial) {
-        Model::Values q, u, none;
-        for (const Hinge& h : model.hinges) {
+        RobotModel::Values q, u, none;
+        for (const RobotHinge& h : model.hinges) {
             if (!h.leader.empty() || h.type == "fixed" ||
                 std::find(still.begin(), still.end(), h.name) != still.end())
                 continue;
@@ -254,7 +62,7 @@ void compare(const std::string& robot, const std::vector<std::string>& still, st
         const auto n = static_cast<Eigen::Index>(q.size());
         Eigen::MatrixXd M(n, n);
         Eigen::VectorXd f(n);
-        const auto column = [&](const Model::Values& loads) {
+        const auto column = [&](const RobotModel::Values& loads) {
             Eigen::VectorXd v(n);
             Eigen::Index k = 0;
             for (const auto& [name, value] : q) v[k++] = loads.at(name);
@@ -322,9 +130,9 @@ TEST_CASE("import: each joint gets a drive, whose torque accelerates all as the 
     const auto imported = run({"import", file, "-o", scene, "--drives", "--json"});
     REQUIRE(imported.exit == 0);
     CHECK(Json::parse(imported.out)["drives"].size() == 6);
-    const Model model(file);
-    Model::Values q, none;
-    for (const Hinge& h : model.hinges)
+    const RobotModel model(file);
+    RobotModel::Values q, none;
+    for (const RobotHinge& h : model.hinges)
         if (h.type != "fixed") q[h.name] = 0.3 + 0.1 * static_cast<double>(q.size());
     const auto accelerations = [&](const std::string& text) {
         std::vector<std::string> eval{"eval", temporary("one.toml", text), "--json"};
@@ -332,10 +140,7 @@ TEST_CASE("import: each joint gets a drive, whose torque accelerates all as the 
             eval.emplace_back("--at");
             eval.push_back(fmt::format("{}={}", name, value));
         }
-        const auto result = run(eval);
-        CAPTURE(result.err);
-        REQUIRE(result.exit == 0);
-        return Json::parse(result.out)["accelerations"];
+        return json_of(eval)["accelerations"];
     };
     std::string driven = contents(scene);
     const Json free = accelerations(driven);
@@ -353,7 +158,7 @@ TEST_CASE("import: each joint gets a drive, whose torque accelerates all as the 
     Eigen::VectorXd change(6);
     k = 0;
     for (const auto& [name, value] : q) {
-        const Model::Values loads = model.loads(q, none, {{name, 1.0}}, 0, false);
+        const RobotModel::Values loads = model.loads(q, none, {{name, 1.0}}, 0, false);
         Eigen::Index row = 0;
         for (const auto& [other, ignored] : q) M(row++, k) = loads.at(other);
         change[k++] = pushed[name].get<double>() - free[name].get<double>();

@@ -6,26 +6,23 @@
 
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_import_formats {
 
 using alembert::test::contents;
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
 Json imported(const std::string& file, const std::string& scene, std::vector<std::string> options = {}) {
-    std::vector<std::string> args{"import", file, "-o", scene, "--json"};
-    args.insert(args.end(), options.begin(), options.end());
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return json_of({"import", file, "-o", scene}, options);
 }
 
 Json accelerations(const std::string& scene, const std::vector<std::string>& at) {
@@ -34,10 +31,7 @@ Json accelerations(const std::string& scene, const std::vector<std::string>& at)
         args.emplace_back("--at");
         args.push_back(value);
     }
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out)["accelerations"];
+    return json_of(args)["accelerations"];
 }
 
 void check_same(const Json& one, const Json& other) {

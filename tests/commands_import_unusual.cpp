@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "json.hpp"
 #include "program.hpp"
 
 namespace commands_import_unusual {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -45,9 +47,7 @@ std::string file_of(const Parts& p) {
 double acceleration(const std::string& urdf) {
     const std::string scene = temporary("unusual.toml", "");
     REQUIRE(run({"import", urdf, "-o", scene}).exit == 0);
-    const auto result = run({"eval", scene, "--json", "--at", "j=0.4"});
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out)["accelerations"]["j"];
+    return json_of({"eval", scene, "--at", "j=0.4"})["accelerations"]["j"];
 }
 
 }  // namespace

@@ -8,15 +8,17 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_inertia {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -57,12 +59,7 @@ axes = "F"
 }
 
 Json inertia(const std::string& scene, std::vector<std::string> more) {
-    std::vector<std::string> args{"inertia", scene, "--json"};
-    args.insert(args.end(), more.begin(), more.end());
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return json_of({"inertia", scene}, more);
 }
 
 Eigen::Matrix3d tensor_of(const Json& found) {

@@ -10,26 +10,21 @@
 
 #include <Eigen/Dense>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_linearize {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
 const std::string bicycle = source_path("scenes/gallery/bicycle.toml");
-
-Json json_of(const std::vector<std::string>& args) {
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
-}
 
 Eigen::MatrixXd matrix(const Json& rows) {
     Eigen::MatrixXd result(rows.size(), rows.empty() ? 0 : rows[0].size());

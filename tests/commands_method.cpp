@@ -5,16 +5,18 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "machine/encoder.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_method {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -40,12 +42,8 @@ x = "-1e5*x' - 1e5*(x - sin(t))"
 duration = 20
 )toml";
 
-Json simulated(const std::string& scene, std::vector<std::string> more) {
-    more.insert(more.begin(), {"simulate", scene, "--json", "--no-estimate"});
-    const auto result = run(more);
-    INFO(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+Json simulated(const std::string& scene, const std::vector<std::string>& more) {
+    return json_of({"simulate", scene, "--no-estimate"}, more);
 }
 
 void check_choice(const std::vector<std::string>& options, const std::string& method, const std::string& because) {

@@ -12,15 +12,17 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_mujoco {
 
 using alembert::test::contents;
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -226,12 +228,7 @@ void check_against(const InScene& expected, const std::string& scene, double wit
 }
 
 Json imported(const std::string& file, const std::string& scene, std::vector<std::string> options) {
-    std::vector<std::string> args{"import", file, "-o", scene, "--json", "--quaternion"};
-    args.insert(args.end(), options.begin(), options.end());
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return json_of({"import", file, "-o", scene, "--quaternion"}, options);
 }
 
 void set_randomly(Loaded& mj, std::mt19937_64& random) {

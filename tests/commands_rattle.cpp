@@ -9,24 +9,22 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_rattle {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
-Json simulated(const std::string& scene, std::vector<std::string> more) {
-    more.insert(more.begin(), {"simulate", scene, "--json", "--no-estimate"});
-    const auto result = run(more);
-    INFO(scene << " " << result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+Json simulated(const std::string& scene, const std::vector<std::string>& more) {
+    return json_of({"simulate", scene, "--no-estimate"}, more);
 }
 
 std::string textbook(const std::string& name) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reactions of joints in linkages: the same wherever the loop is closed.
+#include "edits.hpp"
 #include "inverse_and_reactions.hpp"
 
 namespace commands_reactions_loops {
@@ -21,12 +22,6 @@ void check_same_reactions(const Json& one, const Json& other, double tolerance) 
 }
 
 /// The same text with what is between `from` and `to` replaced.
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
-
 std::string closed_elsewhere(const std::string& text, const std::string& opened, const std::string& coordinates) {
     // The joint `opened` closed the loop and now gets coordinates. It becomes a joint of the tree because it
     // stands before the joint that closes the loop now.
@@ -40,7 +35,7 @@ std::string moved_to_the_end(const std::string& text, const std::string& joint, 
     const std::size_t at = text.rfind("[[joint]]", text.find("name = \"" + joint + "\""));
     const std::size_t end = text.find("\n\n", at);
     const std::string block = text.substr(at, end - at);
-    return text.substr(0, at) + text.substr(end) + "\n" + replaced(block, "\n" + coordinates, "") + "\n";
+    return text.substr(0, at) + text.substr(end) + "\n" + edited(block, {{"\n" + coordinates, ""}}) + "\n";
 }
 
 using Q4 = std::array<double, 4>;
@@ -102,9 +97,9 @@ TEST_CASE("reactions: at a hinge that closes a spatial linkage they are those of
     std::string other = closed_elsewhere(text, "socket", coordinates);
     const std::size_t old = other.find("coordinates = { e0"), end = other.find('\n', old);
     other = other.substr(0, old) + ball + " }" + other.substr(end);
-    other = replaced(moved_to_the_end(other, "foot",
-                                      "coordinates = { beta = { guess = 1.3, rate_guess = 0, unit = \"rad\" } }"),
-                     "spread", "# spread");
+    other = edited(moved_to_the_end(other, "foot",
+                                    "coordinates = { beta = { guess = 1.3, rate_guess = 0, unit = \"rad\" } }"),
+                   {{"spread", "# spread"}});
     const Json two = json_of({"eval", temporary("two.toml", other), "--reactions"});
     CHECK(std::abs(two["accelerations"]["alpha"].get<double>() - one["accelerations"]["alpha"].get<double>()) <
           1e-9);
@@ -165,8 +160,8 @@ coordinates = { psi = { guess = -1, rate_guess = 0 } }
         fmt::format("coordinates = {{ chi = {{ guess = {:.17g}, rate_guess = 0 }} }}\n", 0.2 - 0.7 - psi);
     const Json two =
         json_of({"eval",
-                 temporary("two.toml",
-                           replaced(bodies, "guess = -1", fmt::format("guess = {:.17g}", psi)) + pin + chi + rail),
+                 temporary("two.toml", edited(bodies, {{"guess = -1", fmt::format("guess = {:.17g}", psi)}}) +
+                                           pin + chi + rail),
                  "--reactions"});
     check_same_reactions(one["joint_reactions"], two["joint_reactions"], 1e-9);
     // Newton and Euler for the slider, which does not turn: its two joints along N, moments about its mass centre.

@@ -7,25 +7,19 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_regularize {
 
+using alembert::test::Json;
 using alembert::test::run;
+using alembert::test::simulated;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
-
-Json simulated(const std::string& scene, std::vector<std::string> more) {
-    more.insert(more.begin(), {"simulate", scene, "--json"});
-    const auto result = run(more);
-    INFO(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
-}
 
 const std::string comet = source_path("scenes/benchmark/comet.toml");
 

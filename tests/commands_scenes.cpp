@@ -10,15 +10,17 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_scenes {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -27,16 +29,11 @@ std::string scene(const std::string& name) {
 }
 
 Json simulated(const std::string& name, const std::string& duration) {
-    const auto result = run({"simulate", scene(name), "--json", "--tolerance", "1e-13", "--duration", duration});
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return json_of({"simulate", scene(name), "--tolerance", "1e-13", "--duration", duration});
 }
 
-Json evaluated(const std::string& name, std::vector<std::string> at = {}) {
-    at.insert(at.begin(), {"eval", scene(name), "--json"});
-    const auto result = run(at);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+Json evaluated(const std::string& name, const std::vector<std::string>& at = {}) {
+    return json_of({"eval", scene(name)}, at);
 }
 
 double distance(const Json& found, const std::map<std::string, double>& expected) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "derive/derived.hpp"
+#include "edits.hpp"
 #include "program.hpp"
 #include "run/reference.hpp"
 #include "run/simulate.hpp"
@@ -19,6 +20,7 @@ namespace commands_sensitivity {
 
 using namespace alembert;
 using alembert::test::contents;
+using alembert::test::edited;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -62,12 +64,6 @@ std::vector<Quad> end_of(const std::string& text) {
     return all;
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
-
 /// A value in a scene's text: "NUMBER" stands for it in the line.
 struct Varied {
     std::string name, line, number;
@@ -75,7 +71,8 @@ struct Varied {
 };
 
 std::string with_value(const std::string& text, const Varied& v, double value) {
-    return replaced(text, replaced(v.line, "NUMBER", v.number), replaced(v.line, "NUMBER", Json(value).dump()));
+    return edited(text,
+                  {{edited(v.line, {{"NUMBER", v.number}}), edited(v.line, {{"NUMBER", Json(value).dump()}})}});
 }
 
 /// The derivative of a list of numbers that follows from a value, by differences of fourth order. The motions have
@@ -150,7 +147,7 @@ TEST_CASE("simulate --sensitivity: the derivatives of the end are those of diffe
 TEST_CASE(
     "simulate --sensitivity: with constraints guesses follow, and the derivatives are those of differences") {
     const std::string crank =
-        replaced(contents(source_path("scenes/textbook/slider_crank.toml")), "duration = 3", "duration = 0.7");
+        edited(contents(source_path("scenes/textbook/slider_crank.toml")), {{"duration = 3", "duration = 0.7"}});
     check_derivatives(crank, {{"r", "r  = { value = NUMBER", "0.15"},
                               {"l", "l  = { value = NUMBER", "0.4"},
                               {"m2", "m2 = { value = NUMBER", "0.8"},
@@ -159,20 +156,20 @@ TEST_CASE(
 }
 
 TEST_CASE("simulate --sensitivity: speeds, rolling without slipping and quaternions, against differences") {
-    const std::string sleigh = replaced(contents(source_path("scenes/textbook/chaplygin_sleigh_in_speeds.toml")),
-                                        "duration = 10", "duration = 3");
+    const std::string sleigh = edited(contents(source_path("scenes/textbook/chaplygin_sleigh_in_speeds.toml")),
+                                      {{"duration = 10", "duration = 3"}});
     check_derivatives(sleigh, {{"a", "a = { value = NUMBER", "0.5"},
                                {"phi", "phi = { initial = NUMBER", "0"},
                                {"w", "form = \"phi'\", initial = NUMBER", "2.0"}});
-    const std::string body = replaced(contents(source_path("scenes/textbook/free_body_quaternion.toml")),
-                                      "duration = 50", "duration = 4");
+    const std::string body = edited(contents(source_path("scenes/textbook/free_body_quaternion.toml")),
+                                    {{"duration = 50", "duration = 4"}});
     check_derivatives(body, {{"B", "B = { value = NUMBER", "2.0"}, {"w1", "ex(F))\", initial = NUMBER", "0.01"}});
 }
 
 TEST_CASE(
     "simulate --sensitivity-of: the adjoint equations give the derivatives of differences, for outputs too") {
     const std::string text =
-        replaced(contents(source_path("scenes/textbook/slider_crank.toml")), "duration = 3", "duration = 0.7") +
+        edited(contents(source_path("scenes/textbook/slider_crank.toml")), {{"duration = 3", "duration = 0.7"}}) +
         "\n[outputs]\nformula = \"r*alpha'^2 + l*x\"\npush = \"m3*x''\"\n";
     const std::vector<Varied> all{
         {"r", "r  = { value = NUMBER", "0.15"}, {"l", "l  = { value = NUMBER", "0.4"},

@@ -11,47 +11,20 @@
 #include <string>
 #include <vector>
 
+#include "json.hpp"
 #include "program.hpp"
+#include "redundant_plate.hpp"
 #include "scenes.hpp"
 
 namespace commands_shares {
 
+using alembert::test::Json;
+using alembert::test::json_of;
+using alembert::test::redundant_plate;
 using alembert::test::run;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
-
-/// A plate on three rows, of which the third follows from the others.
-const std::string plate = R"toml(
-[parameters]
-R = 0.5
-[coordinates]
-x = { initial = 0, rate = -0.5 }
-y = 0
-phi = { initial = 0.2, rate = 1 }
-[[frame]]
-name = "D"
-rotate = [["z", "phi"]]
-[[body]]
-name = "disc"
-mass = 2
-frame = "D"
-position = ["x", "y"]
-inertia = 0.25
-[[constraint]]
-name = "rail"
-nonholonomic = "x' + R*phi'"
-[[constraint]]
-name = "again"
-nonholonomic = "2*x' + 2*R*phi' + y'"
-[[constraint]]
-name = "height"
-nonholonomic = "3*y'"
-[[force]]
-at = "disc"
-vector = ["-2*x + 3", 1]
-)toml";
 
 /// A cylinder that rolls inside a ring, which rolls on the ground: the rows of the inner rolling condition along x
 /// and y are cos θ and sin θ times the same row.
@@ -100,17 +73,10 @@ contact = ["r*sin(theta)", "-r*cos(theta)"]
                        theta);
 }
 
-Json json_of(const std::vector<std::string>& words) {
-    const auto result = run(words);
-    INFO(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
-}
-
 }  // namespace
 
 TEST_CASE("commands: eval's least multipliers are those of Moore and Penrose") {
-    const Json json = json_of({"eval", temporary("plate.toml", plate), "--json"});
+    const Json json = json_of({"eval", temporary("plate.toml", redundant_plate), "--json"});
     // M q'' = F + Aᵀ λ of all rows: λ = (Aᵀ)⁺ (M q'' − F).
     Eigen::MatrixXd A(3, 3);
     A << 1, 0, 0.5, 2, 1, 1, 0, 3, 0;
@@ -124,7 +90,8 @@ TEST_CASE("commands: eval's least multipliers are those of Moore and Penrose") {
 }
 
 TEST_CASE("commands: derive prints all multipliers and what makes them least, and check proves both") {
-    for (const std::string& scene : {temporary("plate.toml", plate), temporary("ring.toml", ring("0.5"))}) {
+    for (const std::string& scene :
+         {temporary("plate.toml", redundant_plate), temporary("ring.toml", ring("0.5"))}) {
         const Json shown = json_of({"derive", scene, "--json"}), at = json_of({"eval", scene, "--json"});
         CHECK(shown["multipliers"].size() == at["multipliers"].size());
         REQUIRE(shown["shares"].size() == 1);
@@ -155,7 +122,7 @@ TEST_CASE(
 }
 
 TEST_CASE("commands: reactions have the share of every row, and sum up to M q'' - F") {
-    const std::string scene = temporary("plate.toml", plate);
+    const std::string scene = temporary("plate.toml", redundant_plate);
     const Json json = json_of({"eval", scene, "--json", "--reactions"});
     double along_y = 0;
     for (const auto& [constraint, by] : json["reactions"].items())

@@ -6,30 +6,20 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_speeds {
 
+using alembert::test::Json;
+using alembert::test::json_of;
+using alembert::test::number;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
-namespace {
-
-Json json_of(const std::vector<std::string>& args) {
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
-}
-
-double number(const Json& object, const char* group, const char* name) {
-    return object[group][name].get<double>();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 // c² = v₀² + w₀² (J + m a²)/m, v = c tanh(l t + b), w = c √(m/(J + m a²)) sech(l t + b), l = a m c/(J + m a²).
 TEST_CASE("commands: the sleigh in v and w follows its closed form without a multiplier") {

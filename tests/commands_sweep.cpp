@@ -10,16 +10,19 @@
 #include <string>
 #include <vector>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "run/samples.hpp"
 #include "scenes.hpp"
 
 namespace commands_sweep {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
+using alembert::test::swept;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -42,20 +45,11 @@ duration = 3
 tolerance = 1e-12
 )toml";
 
-Json sweep(std::vector<std::string> words, int exit = 0) {
-    words.insert(words.begin(), "sweep");
-    words.push_back("--json");
-    const auto result = run(words);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == exit);
-    return Json::parse(result.out);
-}
-
 }  // namespace
 
 TEST_CASE("sweep: each row is the result of simulate from that state") {
     const std::string scene = source_path("scenes/benchmark/double_pendulum_regular.toml");
-    const Json table = sweep({scene, "--vary", "theta1=0.1:0.7:3", "--vary", "l1=1:1.5:2", "--vary",
+    const Json table = swept({scene, "--vary", "theta1=0.1:0.7:3", "--vary", "l1=1:1.5:2", "--vary",
                               "theta2'=-0.5:0.5:2", "--duration", "3"});
     REQUIRE(table["rows"].size() == 12);
     for (const std::size_t k : {0UL, 5UL, 10UL}) {
@@ -66,9 +60,7 @@ TEST_CASE("sweep: each row is the result of simulate from that state") {
                 words.emplace_back("--at");
                 words.push_back(name + "=" + value.dump());
             }
-            const auto result = run(words);
-            REQUIRE(result.exit == 0);
-            return Json::parse(result.out);
+            return json_of(words);
         }();
         // The energy of the row's start is kept until its end: both states belong to the same parameters.
         std::vector<std::string> words{"eval", scene, "--json", "--at", "l1=" + row["varied"]["l1"].dump()};
@@ -85,7 +77,7 @@ TEST_CASE("sweep: each row is the result of simulate from that state") {
     }
     const auto plain = run({"simulate", scene, "--json", "--duration", "3"});
     const Json whole = Json::parse(plain.out),
-               same = sweep({scene, "--vary", "t=0:0:1", "--duration", "3"})["rows"][0];
+               same = swept({scene, "--vary", "t=0:0:1", "--duration", "3"})["rows"][0];
     for (const char* part : {"coordinates", "rates"})
         for (const char* name : {"theta1", "theta2"})
             CHECK(std::abs(same["final"][part][name].get<double>() - whole["final"][part][name].get<double>()) <
@@ -94,7 +86,7 @@ TEST_CASE("sweep: each row is the result of simulate from that state") {
 }
 
 TEST_CASE("sweep: initial values follow the parameters that they depend on, and the motion is the closed form") {
-    const Json table = sweep({temporary("spring.toml", spring), "--vary", "k=1:9:5"});
+    const Json table = swept({temporary("spring.toml", spring), "--vary", "k=1:9:5"});
     for (const Json& row : table["rows"]) {
         const double k = row["varied"]["k"], w = std::sqrt(k);
         CHECK(std::abs(row["final"]["coordinates"]["x"].get<double>() - k / 10 * std::cos(3 * w)) < 1e-10);
@@ -122,14 +114,14 @@ TEST_CASE(
     "sweep: rows with constraints and from guesses are those of simulate; a start that cannot be had is told in "
     "its row") {
     const std::string scene = source_path("scenes/textbook/cartesian_pendulum.toml");
-    const Json table = sweep({scene, "--vary", "g=5:9.81:2", "--duration", "1"});
+    const Json table = swept({scene, "--vary", "g=5:9.81:2", "--duration", "1"});
     CHECK(table["side_by_side"] == 1);
     const auto whole = run({"simulate", scene, "--json", "--duration", "1"});
     const Json expected = Json::parse(whole.out)["final"], found = table["rows"][1]["final"];
     for (const auto& [name, value] : expected["coordinates"].items())
         CHECK(std::abs(found["coordinates"][name].get<double>() - value.get<double>()) < 1e-9);
 
-    const Json broken = sweep({scene, "--vary", "l=1:-100:2", "--duration", "1"}, 4);
+    const Json broken = swept({scene, "--vary", "l=1:-100:2", "--duration", "1"}, 4);
     CHECK(broken["failed"].get<int>() >= 1);
 }
 
@@ -161,7 +153,7 @@ TEST_CASE("sweep: a scene without parameters is swept, side by side and by every
     for (const char* method : {"rk4", "dopri5", "dop853", "verner76", "verner98"}) {
         std::vector<std::string> words{scene, "--vary", "x=1:2:11", "--method", method};
         if (std::string(method) == "rk4") words.insert(words.end(), {"--step", "0.1"});
-        const Json table = sweep(words);
+        const Json table = swept(words);
         CHECK(table["side_by_side"] == 8);
         for (const Json& row : table["rows"])
             CHECK(row["final"]["coordinates"]["x"].get<double>() ==
@@ -172,8 +164,8 @@ TEST_CASE("sweep: a scene without parameters is swept, side by side and by every
 TEST_CASE("sweep: the points of a file give the rows of the grid that has the same points") {
     const std::string scene = temporary("spring.toml", spring),
                       points = temporary("points.csv", "\xEF\xBB\xBFx , k\n0.5,4\n\n 1, 2*3 \r\n\"0.5\",6\n");
-    const Json listed = sweep({scene, "--vary-from", points}),
-               grid = sweep({scene, "--vary", "k=4:6:2", "--vary", "x=0.5:1:2"});
+    const Json listed = swept({scene, "--vary-from", points}),
+               grid = swept({scene, "--vary", "k=4:6:2", "--vary", "x=0.5:1:2"});
     REQUIRE(listed["rows"].size() == 3);
     const std::size_t same[] = {0, 3, 2};
     for (std::size_t k = 0; k < 3; ++k) CHECK(listed["rows"][k]["final"] == grid["rows"][same[k]]["final"]);
@@ -203,7 +195,7 @@ TEST_CASE("sweep: samples lie as their kind says, and the seed decides which the
     const std::string scene = temporary("spring.toml", spring);
     const auto points = [&](const char* sampling, const char* seed) {
         std::vector<std::vector<double>> result;
-        const Json all = sweep({scene, "--vary", "x=1:3", "--vary", "k=4:8", "--vary", "m=1:2", "--duration", "0",
+        const Json all = swept({scene, "--vary", "x=1:3", "--vary", "k=4:8", "--vary", "m=1:2", "--duration", "0",
                                 "--samples", "64", "--sampling", sampling, "--seed", seed});
         for (const Json& row : all["rows"]) {
             const Json& v = row["varied"];

@@ -8,7 +8,10 @@
 #include <iterator>
 
 #include "contacts.hpp"
+#include "edits.hpp"
 #include "files.hpp"
+#include "json.hpp"
+#include "shell.hpp"
 
 namespace commands_sweep_phased {
 
@@ -18,19 +21,7 @@ namespace {
 
 /// The scene with some text replaced.
 std::string changed(const std::string& file, const std::string& from, const std::string& to) {
-    std::string scene = alembert::test::contents(source_path(file));
-    const std::size_t at = scene.find(from);
-    REQUIRE(at != std::string::npos);
-    return temporary("changed.toml", scene.replace(at, from.size(), to));
-}
-
-Json swept(std::vector<std::string> words, int exit = 0) {
-    words.insert(words.begin(), "sweep");
-    words.push_back("--json");
-    const auto result = run(words);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == exit);
-    return Json::parse(result.out);
+    return temporary("changed.toml", edited(contents(source_path(file)), {{from, to}}));
 }
 
 /// Are a motion of a sweep and one of `simulate` the same, to the last bit?
@@ -144,6 +135,25 @@ TEST_CASE("sweep: a motion in pieces that cannot begin or go on says why in its 
     CHECK(rods["rows"][0]["status"] == "done");
     CHECK(rods["rows"][1]["status"].get<std::string>().find("Painlevé") != std::string::npos);
     CHECK(rods["failed"] == 1);
+}
+
+// The ball lands and stays in the last motions only, whose equations with the closed contact are compiled then.
+TEST_CASE("sweep: where a closed mode cannot be compiled, the message is told, and --resume goes on from there") {
+    const Run result = run_shell(R"sh(cd "$1"
+        export XDG_CACHE_HOME=$PWD/cache CXX=$PWD/compiler
+        printf '#!/bin/sh\n[ -e broken ] && { echo "the disk is full" >&2; exit 1; }\nexec c++ "$@"\n' >compiler
+        chmod +x compiler
+        sweep() { "$ALEMBERT" sweep --code compiled --chunk 4 --threads 1 -o "$@"; }
+        sweep free.csv "$2" --vary y=8:16:16 >/dev/null
+        touch broken
+        sweep t.csv "$2" --vary y=8:0.5:16 >out 2>err; echo "exit $?"
+        grep -c "the disk is full" err
+        rm broken
+        sweep t.csv "$2" --vary y=8:0.5:16 --resume >out; grep "from before" out
+        sweep quiet.csv "$2" --vary y=8:0.5:16 >out
+        cmp t.csv quiet.csv && ls *.csv*)sh",
+                                 {temporary_folder("compiler"), ball(0, 0.5)});
+    CHECK(result.out == "exit 5\n1\n12 motions were there from before\nfree.csv\nquiet.csv\nt.csv\n");
 }
 
 }  // namespace commands_sweep_phased

@@ -10,24 +10,22 @@
 #include <numbers>
 #include <sstream>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_taylor {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
-Json simulated(const std::string& scene, std::vector<std::string> more, const char* method = "taylor") {
-    more.insert(more.begin(), {"simulate", scene, "--json", "--no-estimate", "--method", method});
-    const auto result = run(more);
-    INFO(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+Json simulated(const std::string& scene, const std::vector<std::string>& more, const char* method = "taylor") {
+    return json_of({"simulate", scene, "--no-estimate", "--method", method}, more);
 }
 
 double coordinate(const Json& run, const std::string& name) {

@@ -8,14 +8,16 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_touching {
 
+using alembert::test::Json;
+using alembert::test::json_of;
 using alembert::test::run;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -66,10 +68,7 @@ const std::string line =
     "[[constraint]]\nname = \"line\"\nholonomic = \"(xb - xa)*(yc - ya) = (yb - ya)*(xc - xa)\"\n";
 
 Json end_of(const std::string& scene) {
-    const auto result = run({"simulate", temporary("points.toml", scene), "--json", "--no-estimate"});
-    INFO(scene << result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out)["final"];
+    return json_of({"simulate", temporary("points.toml", scene), "--no-estimate"})["final"];
 }
 
 }  // namespace

@@ -6,13 +6,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "program.hpp"
 
 namespace commands_trust {
 
+using alembert::test::Json;
 using alembert::test::run;
+using alembert::test::simulated;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
@@ -34,14 +36,6 @@ std::string pendulum(const std::string& initial) {
         initial +
         ", unit = \"rad\" }\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"l*sin(theta)\", "
         "\"-l*cos(theta)\"]\n[simulation]\nduration = 20\n");
-}
-
-Json simulated(const std::string& scene, std::vector<std::string> options = {}) {
-    options.insert(options.begin(), {"simulate", scene, "--json"});
-    const auto result = run(options);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
 }
 
 bool trusted(const Json& result) {

@@ -8,27 +8,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
+#include "tables.hpp"
 
 namespace alembert::test {
 
-using Json = nlohmann::json;
-
 inline constexpr double g = 9.81;
-
-inline Json simulated(const std::string& scene, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> args{"simulate", scene, "--json"};
-    args.insert(args.end(), more.begin(), more.end());
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
-}
 
 /// The contact events of one kind, and of one contact if it is named.
 inline std::vector<Json> of_kind(const Json& motion, const std::string& kind, const std::string& name = "") {
@@ -67,20 +56,6 @@ duration = {}
 tolerance = 1e-12
 {})toml",
                                               e, duration, more));
-}
-
-inline std::vector<std::vector<double>> table_of(const std::string& file) {
-    std::ifstream in(file);
-    std::vector<std::vector<double>> rows;
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-        std::vector<double> row;
-        std::istringstream cells(line);
-        for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
-        rows.push_back(row);
-    }
-    return rows;
 }
 
 }  // namespace alembert::test

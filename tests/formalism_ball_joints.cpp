@@ -12,20 +12,17 @@
 #include "lower/choose.hpp"
 #include "lower/inverse.hpp"
 #include "lower/robot_functions.hpp"
+#include "mechanisms.hpp"
 #include "program/interpret.hpp"
 #include "program/modular.hpp"
-#include "scenes.hpp"
 #include "state/prepared.hpp"
 
 namespace formalism_ball_joints {
 
 using namespace alembert;
+using alembert::test::from_text;
 
 namespace {
-
-Mechanism from_text(const std::string& text) {
-    return build(parse_scene(text, "scene.toml"));
-}
 
 std::string body(const std::string& name) {
     return fmt::format(

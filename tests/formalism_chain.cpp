@@ -8,6 +8,7 @@
 #include <random>
 
 #include "formalism/planar_chain.hpp"
+#include "formalism/tree_recursions.hpp"
 
 namespace formalism_chain {
 

@@ -7,22 +7,24 @@
 #include <set>
 #include <string>
 
+#include "json.hpp"
 #include "program.hpp"
+#include "redundant_plate.hpp"
 #include "scenes.hpp"
 
 namespace formalism_in_momenta {
 
+using alembert::test::Json;
+using alembert::test::json_of;
+using alembert::test::redundant_plate;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
-using Json = nlohmann::json;
 
 namespace {
 
 Json derived(const std::string& scene, const std::string& by) {
-    const auto result = run({"derive", scene, "--by", by, "--json"});
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return json_of({"derive", scene, "--by", by});
 }
 
 bool are_proved(const std::string& scene, const Json& equations) {
@@ -136,37 +138,8 @@ TEST_CASE("steps: in LaTeX the formulas among the words of every formalism are t
         }
 }
 
-// A disc that rolls between rails has redundant constraints.
 TEST_CASE("formalisms: agree knows each formalism by which derive works, with redundant constraints too") {
-    const std::string scene = temporary("twice.toml", R"toml(
-[parameters]
-R = 0.5
-[coordinates]
-x = { initial=0, rate=-0.5}
-y = 0
-phi = { initial = 0.2, rate = 1 }
-[[frame]]
-name = "D"
-rotate = [["z", "phi"]]
-[[body]]
-name = "disc"
-mass = 2
-frame = "D"
-position = ["x", "y"]
-inertia = 0.25
-[[constraint]]
-name = "rail"
-nonholonomic = "x' + R*phi'"
-[[constraint]]
-name = "again"
-nonholonomic = "2*x' + 2*R*phi' + y'"
-[[constraint]]
-name = "height"
-nonholonomic = "3*y'"
-[[force]]
-at = "disc"
-vector = ["-2*x", 1]
-)toml");
+    const std::string scene = temporary("twice.toml", redundant_plate);
     std::string text = run({"agree", scene, "--json"}).out;
     const Json agreed = Json::parse(text);
     CHECK(agreed["verdict"] == "proved");

@@ -5,30 +5,12 @@
 #include "agree/agree.hpp"
 #include "formalism/maggi.hpp"
 #include "formalism/routh.hpp"
-#include "notation/text.hpp"
-#include "report/derivation.hpp"
-#include "scenes.hpp"
-#include "state/prepared.hpp"
+#include "mechanisms.hpp"
 
 namespace formalism_maggi {
 
 using namespace alembert;
-
-namespace {
-
-Mechanism textbook(const std::string& name) {
-    return prepared(read_scene(test::source_path("scenes/textbook/" + name + ".toml"))).mechanism;
-}
-
-std::string equations_of(const Mechanism& m, const Equations& equations) {
-    const Derivation shown = derivation_of(m, equations);
-    std::string result;
-    for (const ReadableEquation& e : shown.equations) result += text(e.lhs) + " = " + text(e.rhs) + "\n";
-    for (const auto& [rate, value] : shown.kinematics) result += text(rate) + " = " + text(value) + "\n";
-    return result;
-}
-
-}  // namespace
+using namespace alembert::test;
 
 // Chaplygin's sleigh: v' = a w², (J + m a²) w' = −m a v w (Neimark & Fufaev, Dynamics of Nonholonomic Systems
 // (1972)).

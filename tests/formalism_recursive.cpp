@@ -4,30 +4,26 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "agree/agree.hpp"
 #include "emit/emit.hpp"
+#include "formalism/articulated_tree.hpp"
 #include "formalism/joint_tree.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/recursive.hpp"
 #include "lower/choose.hpp"
+#include "mechanisms.hpp"
 #include "program/flatten.hpp"
 #include "program/modular.hpp"
-#include "scenes.hpp"
 #include "state/prepared.hpp"
 
 namespace formalism_recursive {
 
 using namespace alembert;
+using alembert::test::from_text;
 
 namespace {
-
-Mechanism from_text(const std::string& text) {
-    return build(parse_scene(text, "scene.toml"));
-}
 
 /// By expressions (no form), and by the recursions over nodes.
 std::vector<Program> programs(const Mechanism& m, const Equations& e, bool composite = true) {
@@ -323,27 +319,15 @@ TEST_CASE("recursive: closed loops keep their multipliers") {
 }
 
 TEST_CASE("recursive: every form gives the accelerations of trees of bodies that were computed elsewhere") {
-    std::ifstream file(test::source_path("tests/reference/trees.txt"));
-    std::string line;
-    std::getline(file, line);
     int compared = 0;
-    while (std::getline(file, line)) {
-        std::istringstream words(line);
-        std::string name;
-        words >> name;
-        CAPTURE(name);
-        std::vector<double> expected;
-        double largest = 0;
-        for (double a = 0; words >> a;) expected.push_back(a), largest = std::max(largest, std::abs(a));
-        const Mechanism m =
-            prepared(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml"))).mechanism;
+    for (const test::ReferenceTree& tree : test::reference_trees()) {
+        CAPTURE(tree.name);
+        const Mechanism m = tree.mechanism();
         const State<double> state = start_of(m).state();
-        for (const Program& program : programs(m, recursive(m), expected.size() <= 16)) {
+        for (const Program& program : programs(m, recursive(m), tree.accelerations.size() <= 16)) {
             CAPTURE(program.formulation);
-            const std::vector<double> value = interpret(program, state);
-            const std::vector<int> nodes = program.nodes_of(Group::acceleration);
-            for (std::size_t i = 0; i < expected.size(); ++i)
-                CHECK(std::abs(value[nodes[i]] - expected[i]) < 1e-12 * largest);
+            CHECK(test::relative_distance(test::group(program, state, Group::acceleration), tree.accelerations) <
+                  1e-12);
             ++compared;
         }
     }

@@ -15,29 +15,22 @@
 #include "formalism/lagrange1.hpp"
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
+#include "mechanisms.hpp"
 #include "model/energy.hpp"
 #include "notation/text.hpp"
-#include "scenes.hpp"
 #include "state/prepared.hpp"
 #include "state/speeds.hpp"
 
 namespace formalism_speeds {
 
 using namespace alembert;
+using alembert::test::textbook;
 using GiNaC::ex;
 
 namespace {
 
-Mechanism textbook(const std::string& name) {
-    return prepared(read_scene(test::source_path("scenes/textbook/" + name + ".toml"))).mechanism;
-}
-
 std::string equations_of(const Mechanism& m) {
-    const Derivation shown = derivation_of(m, kane(m));
-    std::string result;
-    for (const ReadableEquation& e : shown.equations) result += text(e.lhs) + " = " + text(e.rhs) + "\n";
-    for (const auto& [rate, value] : shown.kinematics) result += text(rate) + " = " + text(value) + "\n";
-    return result;
+    return test::equations_of(m, kane(m));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
     std::string outputs;
     std::vector<std::string> claims;
     for (const Claim& claim : scene.claims) {
-        if (claim.at != "motion" || !claim.unknowns.empty() || !claim.constants.empty()) continue;
+        if (claim.at != Claim::At::motion || !claim.unknowns.empty() || !claim.constants.empty()) continue;
         outputs += fmt::format("claim{} = \"({}) - ({})\"\n", claims.size(), claim.equation.lhs.text,
                                claim.equation.rhs.text);
         claims.push_back(claim.equation.lhs.text + " = " + claim.equation.rhs.text);

@@ -13,6 +13,7 @@
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
+#include "machine/encoder.hpp"
 #include "machine/memory_solver.hpp"
 #include "scenes.hpp"
 #include "state/prepared.hpp"
@@ -137,7 +138,9 @@ void agrees(const std::string& scene, const std::string& by, const std::vector<s
            load(compile(emit(program, {.batch = true}).text, program.name,
                         {.compiler = {}, .extra_flags = flags, .cache = {}})
                     .object));
-    if (const auto memory = memory_solver(program, true)) agrees(mechanism, program, memory->module);
+    const auto memory = memory_solver(program, true);
+    REQUIRE(memory.has_value() == machine::can_run(lanes));
+    if (memory) agrees(mechanism, program, memory->module);
 }
 
 /// Every function of a program of x and y, for each pair of values in each lane.
@@ -238,7 +241,9 @@ TEST_CASE(
         program.roots.push_back({Group::acceleration, "a", program.number(0)});
     }
     goes_lane_by_lane(load(compile(emit(program, {.batch = true}).text, "functions", {}).object), outputs.size());
-    if (const auto memory = memory_solver(program, true)) goes_lane_by_lane(memory->module, outputs.size());
+    const auto memory = memory_solver(program, true);
+    REQUIRE(memory.has_value() == machine::can_run(lanes));
+    if (memory) goes_lane_by_lane(memory->module, outputs.size());
 }
 
 }  // namespace generator_packs

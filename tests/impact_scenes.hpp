@@ -11,17 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "json.hpp"
 #include "program.hpp"
 
 namespace alembert::test {
 
-using Json = nlohmann::json;
-
 inline Json impact_of(const std::string& text) {
-    const auto result = run({"impact", temporary("struck.toml", text), "--json"});
-    INFO(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
+    return json_of({"impact", temporary("struck.toml", text)});
 }
 
 inline double number(const Json& json) {

@@ -9,21 +9,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace alembert::test {
 
-using Json = nlohmann::json;
 using V3 = std::array<double, 3>;
-
-inline Json json_of(std::vector<std::string> args) {
-    args.emplace_back("--json");
-    const auto result = run(args);
-    CAPTURE(result.err);
-    REQUIRE(result.exit == 0);
-    return Json::parse(result.out);
-}
 
 /// With these values of coordinates (prime "") or rates ("'") …
 inline void set(std::vector<std::string>& args, const Json& values, const std::string& prime) {

@@ -1,57 +1,26 @@
 // SPDX-License-Identifier: MIT
-// Joints against the same geometry written with frames and points, closed loops against trees that obey them, and
-// trees of bodies against accelerations computed elsewhere.
+// Joints against the same geometry written with frames and points.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <random>
 
-#include <fstream>
-#include <sstream>
-
-#include "agree/agree.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/roberson_wittenburg.hpp"
 #include "formalism/routh.hpp"
 #include "formalism/schiehlen.hpp"
-#include "lower/lower.hpp"
-#include "scene/joint_moves.hpp"
-#include "scenes.hpp"
-#include "state/assemble.hpp"
-#include "state/prepared.hpp"
+#include "joint_scenes.hpp"
+#include "mechanisms.hpp"
 
 namespace model_joints {
 
 using namespace alembert;
+using namespace alembert::test;
 
 namespace {
-
-Mechanism from_text(const std::string& text) {
-    return build(parse_scene(text, "scene.toml"));
-}
-
-std::vector<double> group(const Program& program, const State<double>& state, Group name) {
-    const std::vector<double> value = interpret(program, state);
-    std::vector<double> result;
-    for (const int id : program.nodes_of(name)) result.push_back(value[id]);
-    return result;
-}
-
-double distance(const std::vector<double>& a, const std::vector<double>& b) {
-    REQUIRE(a.size() == b.size());
-    double worst = 0, size = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        worst = std::max(worst, std::abs(a[i] - b[i]));
-        size = std::max(size, std::abs(b[i]));
-    }
-    return worst / size;
-}
-
-Program lowered(const Mechanism& m, const Equations& equations) {
-    return lower(m, equations, energy_of(m));
-}
 
 /// The same accelerations, outputs and energy at random states, by Lagrange's equations; and by those that start
 /// from bodies.
@@ -65,25 +34,14 @@ void same_motion(const std::string& joints, const std::string& frames) {
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     for (int i = 0; i < 8; ++i) {
-        const State<double> state = test::random_state(start_of(a), random);
+        const State<double> state = random_state(start_of(a), random);
         const std::vector<double> expected = group(r, state, Group::acceleration);
         // Rounding times the conditioning of M (below 10³ here).
         for (const Program* program : {&p, &k, &d, &s, &w})
-            CHECK(distance(group(*program, state, Group::acceleration), expected) < 1e-12);
-        CHECK(distance(group(p, state, Group::energy), group(r, state, Group::energy)) < 1e-13);
+            CHECK(relative_distance(group(*program, state, Group::acceleration), expected) < 1e-12);
+        CHECK(relative_distance(group(p, state, Group::energy), group(r, state, Group::energy)) < 1e-13);
     }
 }
-
-const char* const base = R"(
-gravity = [1, -2, -9.81]
-[parameters]
-h = 0.7
-)";
-
-const char* const masses = R"(
-mass = 2
-inertia = { xx = 0.4, yy = 0.5, zz = 0.6, xy = 0.01, yz = -0.02, zx = 0.03 }
-)";
 
 /// A joint's type with its turns and shifts, written with frames and points.
 struct Case {
@@ -216,61 +174,6 @@ axes = "FB"
                               c.backwards, back, c.shift, masses);
 }
 
-/// Two bodies, the second of which moves relative to the first according to `motion`, and a joint of this type
-/// that closes a loop between them.
-std::string loop(const std::string& type, const std::string& keys, const std::string& free) {
-    return fmt::format(R"({}
-[[body]]
-name = "A" {}
-[[body]]
-name = "B" {}
-[[joint]]
-name = "first"
-type = "revolute"
-parent = "N"
-child = "A"
-axis = "x"
-coordinates = {{ q0 = 0.3 }}
-[[joint]]
-name = "moved"
-type = "free"
-parent = "A"
-child = "B"
-parent_point = [0.3, 0.2, -0.1]
-child_point = [0, 0.4, -0.5]
-angles = "xyz"
-{}
-[[joint]]
-name = "loop"
-type = "{}"
-parent = "A"
-child = "B"
-parent_point = [0.3, 0.2, -0.1]
-child_point = [0, 0.4, -0.5]
-{}
-)",
-                       base, masses, masses, free, type, keys);
-}
-
-struct Locked {
-    const char *type, *keys;
-    const char* allowed[6];  // x, y, z, and angles about x, y, z as functions of time
-    std::vector<int> rows;   // the directions that are locked
-};
-
-const Locked locked[] = {
-    {"fixed", "", {"0", "0", "0", "0", "0", "0"}, {0, 1, 2, 3, 4, 5}},
-    {"revolute", "", {"0", "0", "0", "0", "0", "t"}, {0, 1, 2, 3, 4}},
-    {"revolute", "axis = 'y'", {"0", "0", "0", "0", "t", "0"}, {0, 1, 2, 3, 5}},
-    {"revolute", "axis = [-1, 0, 0]", {"0", "0", "0", "t", "0", "0"}, {0, 1, 2, 4, 5}},
-    {"prismatic", "axis = 'x'", {"t", "0", "0", "0", "0", "0"}, {1, 2, 3, 4, 5}},
-    {"cylindrical", "axis = 'y'", {"0", "t", "0", "0", "2*t", "0"}, {0, 2, 3, 5}},
-    {"universal", "", {"0", "0", "0", "t", "3*t", "0"}, {0, 1, 2, 5}},
-    {"spherical", "", {"0", "0", "0", "t", "3*t", "2*t"}, {0, 1, 2}},
-    {"planar", "", {"t", "t^2", "0", "0", "0", "2*t"}, {2, 3, 4}},
-    {"screw", "pitch = 0.2", {"0", "0", "0.2*t", "0", "0", "t"}, {0, 1, 2, 3, 4}},
-};
-
 }  // namespace
 
 TEST_CASE("joints: a body placed by a joint of any type moves as one placed by frames and points") {
@@ -308,14 +211,14 @@ TEST_CASE(
                       w = lowered(m, roberson_wittenburg(m));
         std::mt19937_64 random(20040110);
         for (int i = 0; i < 5; ++i) {
-            State<double> state = test::random_state(start_of(m), random);  // q0, a, b, c, d
+            State<double> state = random_state(start_of(m), random);  // q0, a, b, c, d
             const Eigen::Quaterniond e(state.q[1], state.q[2], state.q[3], state.q[4]);
             const Eigen::Matrix3d R = e.normalized().toRotationMatrix();
             const std::vector<double> outputs = group(program, state, Group::output);
             for (int r = 0; r < 9; ++r) CHECK(outputs[r] == doctest::Approx(R(r / 3, r % 3)).epsilon(1e-13));
             for (const Program* other : {&k, &s, &w})
-                CHECK(distance(group(*other, state, Group::acceleration),
-                               group(program, state, Group::acceleration)) < 1e-12);
+                CHECK(relative_distance(group(*other, state, Group::acceleration),
+                                        group(program, state, Group::acceleration)) < 1e-12);
         }
     }
 }
@@ -330,63 +233,9 @@ TEST_CASE("joints: a free joint whose quaternion is prescribed moves as the body
     CHECK(a.constraints.empty());
     REQUIRE(a.size() == 3);
     std::mt19937_64 random(20040110);
-    const State<double> state = test::random_state(start_of(a), random);
-    CHECK(distance(group(lowered(a, lagrange(a)), state, Group::acceleration),
-                   group(lowered(b, kane(b)), state, Group::acceleration)) < 1e-12);
-}
-
-TEST_CASE("joints: a loop's rows hold for every motion that its joint allows") {
-    for (const Locked& c : locked) {
-        CAPTURE(c.type);
-        std::string motion = "motion = { ";
-        for (int k = 0; k < 6; ++k)
-            motion += fmt::format("{}q{} = \"{}\"", k > 0 ? ", " : "", k + 1, c.allowed[k]);
-        const Mechanism m = from_text(loop(c.type, c.keys, motion + " }"));
-        CHECK(m.constraints.empty());
-        CHECK(m.identities.size() == c.rows.size());
-    }
-}
-
-TEST_CASE("joints: a loop's rows lock exactly the other directions, and pull the child along the joint's axes") {
-    for (const Locked& c : locked) {
-        CAPTURE(c.type);
-        const Mechanism m =
-            from_text(loop(c.type, c.keys, "coordinates = { q1 = 0, q2 = 0, q3 = 0, q4 = 0, q5 = 0, q6 = 0 }"));
-        CHECK(m.constraints.size() == c.rows.size());
-        const Program program = lower_constraints(m);
-        const State<double> state = start_of(m).state();
-        const std::vector<double> A = group(program, state, Group::row);
-        for (std::size_t k = 0; k < c.rows.size(); ++k)
-            for (std::size_t i = 0; i < 7; ++i) {
-                // All joints' axes agree at the start: the k-th row is the rate of one coordinate of the free
-                // joint.
-                const double screw = std::string(c.type) == "screw" && c.rows[k] == 2 && i == 6 ? -0.2 : 0;
-                CHECK(A[k * 7 + i] ==
-                      doctest::Approx(static_cast<int>(i) == c.rows[k] + 1 ? 1 : screw).epsilon(1e-14));
-            }
-    }
-}
-
-TEST_CASE("joints: a four-bar linkage closed by a joint accelerates as the one written with points") {
-    const auto accelerations = [](const std::string& file, std::vector<double>& lambda) {
-        const Mechanism m = prepared(read_scene(test::source_path(file))).mechanism;
-        REQUIRE(m.constraints.size() == 2);
-        Start start = start_of(m);
-        assemble(start, m, lower_constraints(m), {});
-        const Program p = lowered(m, routh(m));
-        lambda = group(p, start.state(), Group::multiplier);
-        return group(p, start.state(), Group::acceleration);
-    };
-    std::vector<double> force, other;
-    const std::vector<double> joints = accelerations("scenes/gallery/four_bar_joints.toml", force),
-                              points = accelerations("scenes/textbook/four_bar.toml", other);
-    // The angles of the first are counted from the link before. The start is assembled to 1e-12.
-    const double size = std::abs(points[0]) + std::abs(points[1]) + std::abs(points[2]);
-    CHECK(std::abs(joints[0] - points[0]) < 1e-11 * size);
-    CHECK(std::abs(joints[0] + joints[1] - points[1]) < 1e-11 * size);
-    CHECK(std::abs(joints[2] - points[2]) < 1e-11 * size);
-    // Both pull the rocker's end from the coupler's: along N there, along the coupler here.
-    CHECK(std::hypot(force[0], force[1]) == doctest::Approx(std::hypot(other[0], other[1])).epsilon(1e-10));
+    const State<double> state = random_state(start_of(a), random);
+    CHECK(relative_distance(group(lowered(a, lagrange(a)), state, Group::acceleration),
+                            group(lowered(b, kane(b)), state, Group::acceleration)) < 1e-12);
 }
 
 TEST_CASE("joints: the double pendulum by joints is the one by coordinates") {
@@ -499,92 +348,6 @@ from = "cart"
 position = [0, -0.5]
 axes = "L"
 )");
-}
-
-TEST_CASE("joints: trees of bodies accelerate as computed elsewhere") {
-    std::ifstream file(test::source_path("tests/reference/trees.txt"));
-    std::string line;
-    std::getline(file, line);
-    int compared = 0;
-    while (std::getline(file, line)) {
-        std::istringstream words(line);
-        std::string name;
-        words >> name;
-        CAPTURE(name);
-        std::vector<double> expected;
-        for (double a = 0; words >> a;) expected.push_back(a);
-        const Mechanism m =
-            prepared(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml"))).mechanism;
-        for (const Equations& equations :
-             {lagrange(m), kane(m), dalembert(m), schiehlen(m), roberson_wittenburg(m)}) {
-            CAPTURE(equations.formalism);
-            CHECK(distance(group(lowered(m, equations), start_of(m).state(), Group::acceleration), expected) <
-                  1e-12);
-            ++compared;
-        }
-    }
-    CHECK(compared == 35);
-}
-
-// A hangs on the ground, C on A, B on C by a joint from B to C; D closes a loop from B to the ground; P is a
-// particle on its own.
-TEST_CASE("joints: incidence and path matrix of the system graph are inverse to each other") {
-    std::string text = "[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n";
-    for (const char* body : {"A", "B", "C"}) text += fmt::format("[[body]]\nname = \"{}\"{}", body, masses);
-    const auto joint = [](const char* name, const char* type, const char* parent, const char* child,
-                          const char* q) {
-        return fmt::format("[[joint]]\nname = \"{}\"\ntype = \"{}\"\nparent = \"{}\"\nchild = \"{}\"\n{}", name,
-                           type, parent, child,
-                           *q != 0 ? fmt::format("coordinates = {{ {} = 0 }}\n", q) : std::string());
-    };
-    const Mechanism m =
-        from_text(text + joint("b", "revolute", "B", "C", "q1") + joint("d", "spherical", "N", "B", "") +
-                  joint("c", "revolute", "A", "C", "q2") + joint("a", "prismatic", "N", "A", "q3"));
-    const SystemGraph g = system_graph(m);
-    REQUIRE(g.arcs.size() == 4);
-    CHECK(g.chords == std::vector<std::string>{"d: N -> B"});
-    // Bodies P, A, B, C; arcs P (its own), a: N -> A, c: A -> C, b: B -> C.
-    CHECK(g.S_0 == std::vector<int>{1, 1, 0, 0});
-    CHECK(g.S == std::vector<std::vector<int>>{{-1, 0, 0, 0}, {0, -1, 1, 0}, {0, 0, 0, 1}, {0, 0, -1, -1}});
-    CHECK(g.T == std::vector<std::vector<int>>{{-1, 0, 0, 0}, {0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 1, 0}});
-    for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t k = 0; k < 4; ++k) {
-            int unit = 0, ground = 0;
-            for (std::size_t a = 0; a < 4; ++a) {
-                unit += g.T[i][a] * g.S[a][k];
-                ground += g.S_0[a] * g.T[a][k];
-            }
-            CHECK(unit == (i == k ? 1 : 0));
-            CHECK(ground == -1);
-        }
-}
-
-TEST_CASE("joints: every formalism that applies gives the same equations of the gallery's mechanisms") {
-    for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope",
-                             "universal_double_pendulum", "furuta_joints", "rssr"}) {
-        CAPTURE(name);
-        const Mechanism m =
-            prepared(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name)))).mechanism;
-        const Derivations derivations = derive_all(m);
-        CHECK(derivations.equations.size() >= 3);
-        CHECK(agree(derivations.equations, m).verdict == Agreement::Verdict::proved);
-    }
-}
-
-// Of six directions a joint leaves those in which it moves; a quaternion is four coordinates for three of them.
-TEST_CASE("joints: locked and free directions are six in all") {
-    for (const std::string& name : joint_types()) {
-        CAPTURE(name);
-        const Joint::Type type = joint_type_named(name).value();
-        CHECK(moves_of(type).name == name);
-        Joint joint;
-        joint.type = type;
-        const std::size_t by_quaternion = coordinates_of(joint);
-        joint.angles = "zxz";
-        CHECK(locked_directions(type) + static_cast<int>(coordinates_of(joint)) == 6);
-        CHECK(by_quaternion == coordinates_of(joint) + (moves_of(type).has(Move::Kind::turn_in_space) ? 1 : 0));
-    }
-    CHECK_FALSE(joint_type_named("hinge"));
 }
 
 }  // namespace model_joints

@@ -194,7 +194,7 @@ Rewritings::Rewritings(const Scene& scene, const Mechanism& m, const Equations& 
     }
     for (const Claim& claim : scene.claims) {
         const std::string written = text_of(claim.equation);
-        if (claim.at == "motion" && claim.unknowns.empty() && claim.constants.empty() &&
+        if (claim.at == Claim::At::motion && claim.unknowns.empty() && claim.constants.empty() &&
             !mentions_geometry(written))
             right_.push_back(written);
     }

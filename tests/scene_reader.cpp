@@ -89,7 +89,7 @@ source = "equation (9), first line"
     CHECK(scene.coordinates[1].rate.text == "0");
     CHECK(scene.simulation.tolerance.text == "1e-10");
     CHECK(scene.claims.at(0).equation.rhs.text == " F*cos(theta1)");
-    CHECK(scene.claims[0].at == "motion");
+    CHECK(scene.claims[0].at == Claim::At::motion);
 }
 
 TEST_CASE("reader: every table is read in full") {
@@ -189,7 +189,7 @@ TEST_CASE("reader: every table is read in full") {
 
     REQUIRE(scene.claims.size() == 2);
     CHECK(scene.claims[0].source == "line 1");
-    CHECK(scene.claims[1].at == "impact");
+    CHECK(scene.claims[1].at == Claim::At::impact);
     CHECK(scene.claims[1].unknowns.at(0).text == "e");
     CHECK(scene.claims[1].constants.at(0).text == "c1");
 }

@@ -25,6 +25,11 @@ inline std::vector<std::string> scenes_in(const std::string& folder) {
     return files;
 }
 
+/// The text of a textbook scene.
+inline std::string textbook_text(const std::string& name) {
+    return contents(source_path("scenes/textbook/" + name + ".toml"));
+}
+
 /// Every third file, beginning with the one at `first`: for what takes long on each scene and is not bound to one.
 /// The tests begin at different files, so that together they meet all scenes; with ALEMBERT_ALL_SCENES in the
 /// environment each of them meets all.

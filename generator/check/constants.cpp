@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/constants.hpp"
 
+#include "formalism/elements.hpp"
 #include "language/say.hpp"
 
 namespace alembert {
@@ -8,7 +9,7 @@ namespace alembert {
 using GiNaC::ex;
 
 GivenConstants::GivenConstants(const Scene& scene, Claims& claims, std::vector<ClaimForm>& forms) {
-    const auto of_motion = [&](std::size_t k) { return scene.claims[k].at == "motion"; };
+    const auto of_motion = [&](std::size_t k) { return scene.claims[k].at == Claim::At::motion; };
     const auto open = [&](int o) { return claims.open()[static_cast<std::size_t>(o)]; };
     std::map<int, std::size_t> by;  // open name → the claim that gives it
     std::vector<std::size_t> nonlinear;

@@ -18,6 +18,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/leftover.hpp"
+#include "commands/streams.hpp"
 #include "language/say.hpp"
 
 namespace alembert {
@@ -115,14 +116,7 @@ int write_all(int descriptor, std::string_view text) {
     }, before{};
     ignored.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &ignored, &before);
-    int error = 0;
-    while (!text.empty() && error == 0) {
-        const ssize_t count = write(descriptor, text.data(), text.size());
-        if (count >= 0)
-            text.remove_prefix(static_cast<std::size_t>(count));
-        else if (errno != EINTR)
-            error = errno;
-    }
+    const int error = write_bytes(descriptor, text);
     sigaction(SIGPIPE, &before, nullptr);
     return error;
 }

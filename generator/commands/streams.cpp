@@ -21,6 +21,17 @@
 
 namespace alembert {
 
+int write_bytes(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t count = write(descriptor, text.data(), text.size());
+        if (count >= 0)
+            text.remove_prefix(static_cast<std::size_t>(count));
+        else if (errno != EINTR)
+            return errno;
+    }
+    return 0;
+}
+
 namespace {
 
 bool may_need_escape(unsigned char byte) {
@@ -47,13 +58,7 @@ struct Way {
     bool colours = false;   ///< whether marks (ink.hpp) become colours
 
     bool put(std::string_view text) {
-        while (!text.empty() && error == 0) {
-            const ssize_t count = write(descriptor, text.data(), text.size());
-            if (count >= 0)
-                text.remove_prefix(static_cast<std::size_t>(count));
-            else if (errno != EINTR)
-                error = errno;
-        }
+        if (error == 0) error = write_bytes(descriptor, text);
         return error == 0;
     }
 };

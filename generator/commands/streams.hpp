@@ -35,6 +35,9 @@ std::string harmless(std::string_view text);
 /// What a signal that ends the process writes to standard error; empty for nothing. May be called again and again.
 void tell_at_signal(const std::string& text);
 
+/// Writes all bytes. The errno of the write that failed; 0 if everything was written.
+int write_bytes(int descriptor, std::string_view text);
+
 /// Writes to standard error without escaping, for our own escape sequences (progress bars).
 void raw_to_terminal(std::string_view text);
 

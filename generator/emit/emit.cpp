@@ -54,14 +54,6 @@ mustache::data data_of(const EmittedFunction& function) {
     return result;
 }
 
-std::vector<std::string> labels(const Program& p, std::initializer_list<Group> groups) {
-    std::vector<std::string> result;
-    for (const Group group : groups)
-        for (const Root& root : p.roots)
-            if (root.group == group) result.push_back(ascii_identifier(root.name));
-    return result;
-}
-
 std::vector<std::string> texts(const std::vector<int>& numbers) {
     std::vector<std::string> result;
     for (const int number : numbers) result.push_back(std::to_string(number));
@@ -176,8 +168,8 @@ private:
         file_.set("speed_names", quoted(words_.u()));
         file_.set("coordinate_names", quoted(words_.q()));
         file_.set("parameter_names", quoted(words_.par()));
-        file_.set("output_names", quoted(labels(p_, {Group::output, Group::speed})));
-        file_.set("event_names", quoted(labels(p_, {Group::event})));
+        file_.set("output_names", quoted(root_names(p_, {Group::output, Group::speed})));
+        file_.set("event_names", quoted(root_names(p_, {Group::event})));
         std::string values;
         for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
         file_.set("parameter_values", values);

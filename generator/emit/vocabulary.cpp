@@ -134,4 +134,12 @@ std::vector<ArrayInput> Vocabulary::inputs(const std::map<int, int>& uses, bool 
     return items;
 }
 
+std::vector<std::string> root_names(const Program& program, std::initializer_list<Group> groups) {
+    std::vector<std::string> result;
+    for (const Group group : groups)
+        for (const Root& root : program.roots)
+            if (root.group == group) result.push_back(ascii_identifier(root.name));
+    return result;
+}
+
 }  // namespace alembert

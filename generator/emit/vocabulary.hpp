@@ -57,4 +57,7 @@ private:
     std::map<int, std::string> constant_names_;
 };
 
+/// The identifiers of the roots of these groups, as a solver's table lists outputs and events.
+std::vector<std::string> root_names(const Program& program, std::initializer_list<Group> groups);
+
 }  // namespace alembert

@@ -16,10 +16,10 @@
 #include <functional>
 
 #include "formalism/ball_joint.hpp"
+#include "formalism/body_tree.hpp"
 #include "formalism/link_axes.hpp"
 #include "formalism/named.hpp"
 #include "formalism/obstacle.hpp"
-#include "formalism/tree_recursions.hpp"
 #include "model/mechanism.hpp"
 
 namespace alembert {

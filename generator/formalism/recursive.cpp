@@ -5,6 +5,7 @@
 
 #include "formalism/elements.hpp"
 #include "formalism/joint_tree.hpp"
+#include "formalism/tree_recursions.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "lower/articulated_bodies.hpp"
 
+#include "formalism/articulated_tree.hpp"
 #include "formalism/planar_chain.hpp"
 #include "language/say.hpp"
 #include "lower/joint_change.hpp"

@@ -50,6 +50,17 @@ std::vector<int> eliminated(Program& program, std::vector<std::vector<int>> a, s
     return b;
 }
 
+/// sign λ, with a source that says which friction acts on this reaction.
+int sign_of_reaction(Program& program, int lambda, const std::string& friction, bool is_trial) {
+    const auto source = static_cast<int>(program.source_labels.size());
+    program.source_labels.push_back(fmt::format("the reaction of friction '{}'", friction));
+    program.reaction_signs.push_back({.source = source, .friction = friction, .is_trial = is_trial});
+    const std::vector<int> former = program.set_sources({source});
+    const int sign = program.call(Op::sign, {lambda});
+    program.set_sources(former);
+    return sign;
+}
+
 }  // namespace
 
 NormalForces::NormalForces(const Mechanism& m, const Equations& e) : e_(e) {
@@ -155,7 +166,10 @@ std::vector<int> NormalForces::forces(Program& program, const std::vector<std::v
         std::vector<std::vector<int>> a(count);
         std::vector<int> b;
         for (std::size_t k = 0; k < count; ++k) {
-            const int s = pressed_[k].may_pull ? program.call(Op::sign, {lambda[k]}) : program.number(1);
+            const int s =
+                pressed_[k].may_pull
+                    ? sign_of_reaction(program, lambda[k], pressed_[k].frictions[0]->name, round + 1 < rounds)
+                    : program.number(1);
             b.push_back(program.product(1, {{s, 1}, {alone[k], 1}}));
             for (std::size_t j = 0; j < count; ++j)
                 a[k].push_back(program.sum(j == k ? 1 : 0, {{-1, program.product(1, {{s, 1}, {D[k][j], 1}})}}));

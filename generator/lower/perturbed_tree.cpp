@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "formalism/articulated_tree.hpp"
 #include "formalism/recursive.hpp"
 #include "lower/joint_change.hpp"
 #include "lower/link_frames.hpp"

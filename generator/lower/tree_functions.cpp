@@ -3,6 +3,7 @@
 // 69) and composite bodies (Walker & Orin 1982) on a tree with base parameters (Gautier & Khalil 1990).
 #include "lower/tree_functions.hpp"
 
+#include "formalism/tree_recursions.hpp"
 #include "lower/link_frames.hpp"
 
 namespace alembert {

@@ -20,14 +20,14 @@ constexpr unsigned no_register = 0;  ///< in the field of a register that an ins
 
 bool can_run([[maybe_unused]] int lanes) {
 #if defined(__x86_64__)
-    if (lanes > 1) return Encoder::registers() == 32;
+    if (lanes > 1) return Encoder::registers_of_processor() == 32;
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #else
     return false;
 #endif
 }
 
-int Encoder::registers() {
+int Encoder::registers_of_processor() {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512dq"))

@@ -8,9 +8,8 @@
 ///     code.compute(Instruction::add, 1, 2, Operand{.reg = 3});               // vaddsd xmm1, xmm2, xmm3
 ///     code.compute(Instruction::fused_add_231, 1, 2, Operand{.memory = place});  // xmm1 += xmm2·[place]
 ///
-/// Registers are 0 … 15, with AVX-512 also 16 … 31 (`Encoder::registers()`). Constants lie behind the code, and
-/// are addressed relative to it. The encoding is that of Intel's Software Developer's Manual, volume 2, 2.3 (VEX)
-/// and 2.7 (EVEX).
+/// Registers are 0 … 15, with AVX-512 also 16 … 31. Constants lie behind the code, and are addressed relative to
+/// it. The encoding is that of Intel's Software Developer's Manual, volume 2, 2.3 (VEX) and 2.7 (EVEX).
 ///
 /// With eight lanes, a register and a place in memory hold eight doubles side by side (AVX-512), and a constant is
 /// one double that stands for eight.
@@ -65,10 +64,11 @@ bool can_run(int lanes = 1);
 
 class Encoder {
 public:
-    /// `lanes`: 1 or 8.
-    explicit Encoder(int lanes = 1) : is_packed_(lanes > 1) {}
-    /// The number of registers of this processor: 16 or 32.
-    static int registers();
+    /// `lanes`: 1 or 8. `registers`: how many of them the code may use, 16 or 32.
+    explicit Encoder(int lanes = 1, int registers = registers_of_processor())
+        : is_packed_(lanes > 1), registers_(registers) {}
+    static int registers_of_processor();
+    int registers() const { return registers_; }
 
     void compute(Instruction instruction, int to, int first, const Operand& second);
     /// Shifts the bits of each double to the left, or to the right so that the sign moves in; eight lanes only.
@@ -124,6 +124,7 @@ private:
     void place(unsigned reg, const Memory& memory, int unit, int after = 0);
 
     bool is_packed_;
+    int registers_;
     std::vector<std::uint8_t> bytes_;
     std::vector<std::uint64_t> constants_{0x7fffffffffffffff, 0, 0x8000000000000000, 0};
     std::map<std::uint64_t, std::int32_t> places_;

@@ -29,14 +29,6 @@ private:
     std::vector<const char*> list_;
 };
 
-std::vector<std::string> labels(const Program& p, std::initializer_list<Group> groups) {
-    std::vector<std::string> result;
-    for (const Group group : groups)
-        for (const Root& root : p.roots)
-            if (root.group == group) result.push_back(ascii_identifier(root.name));
-    return result;
-}
-
 /// All that the tables point to.
 struct Tables {
     explicit Tables(const Program& p, const Vocabulary& words)
@@ -45,8 +37,8 @@ struct Tables {
           coordinates(words.q()),
           speeds(words.u()),
           parameters(words.par()),
-          outputs(labels(p, {Group::output, Group::speed})),
-          events(labels(p, {Group::event})) {
+          outputs(root_names(p, {Group::output, Group::speed})),
+          events(root_names(p, {Group::event})) {
         for (const Quantity& parameter : p.parameters) values.push_back(parameter.value);
     }
 
@@ -64,8 +56,12 @@ struct Tables {
 
 class Building {
 public:
-    explicit Building(const Program& program, int lanes = 1)
-        : p_(program), words_(program), ready_(program, roots_of(program)), lanes_(lanes), code_(lanes) {}
+    Building(const Program& program, int lanes, int registers)
+        : p_(program),
+          words_(program),
+          ready_(program, roots_of(program)),
+          lanes_(lanes),
+          code_(lanes, registers) {}
 
     std::optional<MemorySolver> solver(std::shared_ptr<const alembert_pack_table> packs) {
         const auto tables = std::make_shared<Tables>(p_, words_);
@@ -227,7 +223,7 @@ private:
     const Program& p_;
     Vocabulary words_;
     Readiness ready_;
-    int lanes_ = 1;
+    int lanes_;
     Encoder code_;
     bool is_possible_ = true;
     std::vector<std::pair<std::size_t, std::function<void(const std::uint8_t*)>>> functions_;
@@ -235,13 +231,14 @@ private:
 
 }  // namespace
 
-std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs) {
+std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs, std::optional<int> registers) {
     if (!can_run() || (with_packs && !can_run(lanes))) return std::nullopt;
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
     std::shared_ptr<const alembert_pack_table> packs;
-    if (with_packs && !(packs = Building(program, lanes).packs())) return std::nullopt;
-    return Building(program).solver(std::move(packs));
+    const int allowed = registers.value_or(Encoder::registers_of_processor());
+    if (with_packs && !(packs = Building(program, lanes, allowed).packs())) return std::nullopt;
+    return Building(program, 1, allowed).solver(std::move(packs));
 }
 
 }  // namespace alembert

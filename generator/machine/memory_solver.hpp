@@ -31,7 +31,9 @@ struct MemorySolver {
 };
 
 /// `with_packs`: with the functions for eight systems at once, as a file that is emitted with `--batch`, which
-/// need AVX-512. Throws ModelError as `emit` does.
-std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs = false);
+/// need AVX-512. `registers`: how many the code may use, 16 or 32; all of the processor's if it is not given.
+/// Throws ModelError as `emit` does.
+std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs = false,
+                                          std::optional<int> registers = {});
 
 }  // namespace alembert

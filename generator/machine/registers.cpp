@@ -29,7 +29,7 @@ public:
         : code_(code),
           other_(other),
           l_(lines),
-          holds_(static_cast<std::size_t>(Encoder::registers()), -1),
+          holds_(static_cast<std::size_t>(code.registers()), -1),
           reg_(lines.homes.size(), -1),
           slot_(lines.homes.size(), -1),
           unit_(8 * lines.lanes) {

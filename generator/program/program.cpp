@@ -300,6 +300,7 @@ void Program::refuse_unspecified(const Node& node) const {
 Program Program::shell() const {
     Program result;
     result.source_labels = source_labels;
+    result.reaction_signs = reaction_signs;
     result.name = name;
     result.parameters = parameters;
     result.coordinates = coordinates;

@@ -205,6 +205,16 @@ public:
 
     std::vector<Root> roots;
     std::vector<std::string> source_labels;
+
+    /// Nodes with this source are signs of a reaction on which a dry friction acts. A scene does not write them;
+    /// they come from the solution for the normal forces (lower/normal_forces.hpp), and all but the last round of
+    /// that solution look at trial values.
+    struct ReactionSign {
+        int source;
+        std::string friction;
+        bool is_trial;
+    };
+    std::vector<ReactionSign> reaction_signs;
     std::string name;                               ///< the name of the scene, that of its file without ending
     std::vector<Quantity> parameters, coordinates;  ///< the quantities to which the indices of variables refer
     std::vector<std::string> functions;             ///< names of [functions], to which Op::unspecified refers

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "language/say.hpp"
+#include "scene/claim_mode.hpp"
 
 namespace alembert {
 
@@ -35,7 +36,7 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     json["equation"] = text_of(claim.equation);
     json["line"] = claim.place.line;
     if (!claim.source.empty()) json["source"] = claim.source;
-    json["at"] = claim.at;
+    json["at"] = mode_text(claim);
     json["verdict"] = name_of(checked.verdict);
     json["method"] = checked.normal_form ? "proved" : "sampled";
     if (checked.verdict == Verdict::proved && !checked.normal_form) json["failure_bound_log2"] = checked.failure;

@@ -186,17 +186,6 @@ private:
     std::map<std::size_t, int> columns_;  ///< column of the table → column of the page
 };
 
-const char* kind_of(const ContactEvent& event) {
-    switch (event.kind) {
-        case ContactEvent::Kind::impact:
-            return to_say("impact");
-        case ContactEvent::Kind::release:
-            return to_say("release");
-        default:
-            return to_say("rest");
-    }
-}
-
 /// The point of the figure at which a contact happens: that of its floor or string.
 int point_of_contact(const Overview& all, const std::string& name) {
     if (!all.drawing.value) return -1;
@@ -253,7 +242,7 @@ void add_motion(PageParts& page, const Overview& all) {
     std::vector<Happening> list;
     for (const ContactEvent& e : run.motion.contacts) {
         const std::string& name = run.contacts[static_cast<std::size_t>(e.contact)];
-        list.push_back({e.time, translated(kind_of(e)) + " " + name, point_of_contact(all, name)});
+        list.push_back({e.time, translated(name_of(e.kind)) + " " + name, point_of_contact(all, name)});
     }
     for (const EventRecord& e : run.motion.events)
         list.push_back({e.time, say("event {}", e.name) + (e.impulse.empty() ? "" : say(", with an impulse")),

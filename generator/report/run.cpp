@@ -9,11 +9,7 @@
 
 namespace alembert {
 
-namespace {
-
-constexpr std::size_t most_lines = 20;
-
-const char* word(ContactEvent::Kind kind) {
+const char* name_of(ContactEvent::Kind kind) {
     switch (kind) {
         case ContactEvent::Kind::impact:
             return to_say("impact");
@@ -23,6 +19,10 @@ const char* word(ContactEvent::Kind kind) {
             return to_say("rest");
     }
 }
+
+namespace {
+
+constexpr std::size_t most_lines = 20;
 
 Json json_of(const EventRecord& event, const Mechanism& m) {
     const auto k = static_cast<std::size_t>(event.index);
@@ -54,7 +54,7 @@ Json json_of(const std::vector<ContactEvent>& events, const std::vector<std::str
     for (const ContactEvent& e : events)
         list.push_back({{"time", e.time},
                         {"name", names[static_cast<std::size_t>(e.contact)]},
-                        {"event", word(e.kind)},
+                        {"event", name_of(e.kind)},
                         {"speed_before", e.speed_before},
                         {"speed_after", e.speed_after},
                         {"energy_loss", e.energy_loss},
@@ -67,7 +67,7 @@ std::string text_of(const std::vector<ContactEvent>& events, const std::vector<s
     for (std::size_t i = 0; i < std::min(events.size(), most_lines); ++i) {
         const ContactEvent& e = events[i];
         text += say("contact {}: {} at t = {:.15g}", names[static_cast<std::size_t>(e.contact)],
-                    translated(word(e.kind)), e.time);
+                    translated(name_of(e.kind)), e.time);
         if (e.kind == ContactEvent::Kind::impact)
             text +=
                 say(", speed {:.6g} -> {:.6g}, energy loss {:.6g}", e.speed_before, e.speed_after, e.energy_loss);

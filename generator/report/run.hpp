@@ -7,6 +7,9 @@
 
 namespace alembert {
 
+/// "impact", "release" or "rest", as in the JSON; `translated` gives it in the user's language.
+const char* name_of(ContactEvent::Kind kind);
+
 Json as_json(const Run& run);
 std::string as_text(const Run& run, const Ink& ink = {});
 

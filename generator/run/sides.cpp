@@ -83,6 +83,16 @@ std::string text_of(const Program& p, int id, int depth = 0) {
     }
 }
 
+/// The name of the sign of a reaction on which a friction acts; nothing for signs that the scene has.
+std::optional<std::string> name_of_reaction(const Program& program, int id) {
+    const std::vector<int>& sources = program[id].sources;
+    for (const Program::ReactionSign& one : program.reaction_signs)
+        if (sources == std::vector<int>{one.source})
+            return one.is_trial ? say("a trial value of the reaction of friction '{}'", one.friction)
+                                : say("the reaction of friction '{}'", one.friction);
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<std::string> names_of_sides(const Program& program, const Switched& s) {
@@ -98,6 +108,10 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
             continue;
         }
         const int id = s.functions[k];
+        if (const auto reaction = name_of_reaction(program, id)) {
+            names.push_back(*reaction);
+            continue;
+        }
         const std::string text = text_of(program, id);
         names.push_back(text.size() <= longest ? text : fmt::format("{}(…)", name_of(program[id].op)));
     }

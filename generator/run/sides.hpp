@@ -30,7 +30,8 @@ private:
     std::vector<double> values_, sigma_, par_;
 };
 
-/// The names of the functions whose signs are held constant, for messages: "sign(x'-v)", "friction 'floor'".
+/// The names of the functions whose signs are held constant, for messages: "sign(x'-v)", "friction 'floor'",
+/// "the reaction of friction 'slot'" where its side decides the normal force.
 /// `program` is the one from which `s` was made.
 std::vector<std::string> names_of_sides(const Program& program, const Switched& s);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "language/say.hpp"
+#include "scene/check_claim.hpp"
 #include "scene/names.hpp"
 #include "scene/quantity.hpp"
 #include "scene/quaternions.hpp"
@@ -36,12 +37,12 @@ public:
         check_constraints();
         check_frictions();
         check_runs();
-        for (const Claim& claim : scene_.claims) check(claim);
+        for (const Claim& claim : scene_.claims) check_claim(claim, {scene_, names_, quantities_, diagnostics_});
     }
 
     void check_claims() {
         describe_definitions();
-        for (const Claim& claim : scene_.claims) check(claim);
+        for (const Claim& claim : scene_.claims) check_claim(claim, {scene_, names_, quantities_, diagnostics_});
     }
 
 private:
@@ -121,7 +122,7 @@ private:
             }
             check(joint.axis.axis, {.subject = say("an axis")});
             quantities_.check(joint.pitch, pitch);
-            if (joint.name.place.line == 0 || !check_name(joint.name)) continue;
+            if (joint.name.place.line == 0 || !need_name(joint.name, diagnostics_)) continue;
             const auto [first, is_new] = known.emplace(joint.name.text, joint.name.place);
             if (!is_new)
                 complain(joint.name.place, say("the name {} is taken: a joint has it on line {}",
@@ -290,6 +291,7 @@ private:
 
     void check_frictions() {
         std::unordered_map<std::string, Place> known;
+        std::unordered_map<std::string, const FrictionRule*> forces;
         const Legal rates{.subject = say("a sliding velocity"), .order = 1, .input_order = 1, .time = true};
         for (const FrictionRule& rule : scene_.frictions) {
             for (const auto& [value, subject] : {std::pair{&rule.coefficient, say("a coefficient of friction")},
@@ -299,11 +301,28 @@ private:
             quantities_.check(rule.slip, rates);
             quantities_.check(rule.across, rates);
             quantities_.check(rule.restitution, {.subject = say("a restitution")});
-            if (rule.name.place.line == 0 || !check_name(rule.name)) continue;
+            if (rule.name.place.line == 0 || !need_name(rule.name, diagnostics_)) continue;
             const auto [first, is_new] = known.emplace(rule.name.text, rule.name.place);
             if (!is_new)
                 complain(rule.name.place, say("the name {} is taken: a friction has it on line {}",
                                               in_quotes(rule.name.text), first->second.line));
+            else
+                check_forces(rule, forces);
+        }
+    }
+
+    /// While they stick, frictions `a` in a plane and `a_1` would have a force of one name.
+    void check_forces(const FrictionRule& rule, std::unordered_map<std::string, const FrictionRule*>& forces) {
+        for (const std::string& force : sticking_forces(rule)) {
+            const auto [first, is_new] = forces.emplace(force, &rule);
+            if (is_new) continue;
+            complain(
+                rule.name.place,
+                say("while friction {} sticks, its force is called {}, and so is one of friction {} on line {}; "
+                    "give one of the two another name",
+                    in_quotes(rule.name.text), in_quotes(force), in_quotes(first->second->name.text),
+                    first->second->name.place.line));
+            return;
         }
     }
 
@@ -320,7 +339,7 @@ private:
     }
 
     void check_constraint_name(const Name& name, std::unordered_map<std::string, Place>& known) {
-        if (name.place.line == 0 || !check_name(name)) return;
+        if (name.place.line == 0 || !need_name(name, diagnostics_)) return;
         const auto [first, is_new] = known.emplace(name.text, name.place);
         if (!is_new)
             complain(name.place, say("the name {} is taken: a constraint has it on line {}", in_quotes(name.text),
@@ -331,7 +350,7 @@ private:
         Legal anything{
             .subject = say("an output"), .order = 2, .input_order = 2, .time = true, .multipliers = true};
         for (const Output& output : scene_.outputs) {
-            check_name(output.name);
+            need_name(output.name, diagnostics_);
             quantities_.check(output.value, anything);
         }
         std::unordered_map<std::string, Place> events;
@@ -343,7 +362,7 @@ private:
                 quantities_.check(i.value,
                                   {.subject = say("an impulse"), .order = 1, .input_order = 2, .time = true});
             }
-            if (event.name.place.line == 0 || !check_name(event.name)) continue;
+            if (event.name.place.line == 0 || !need_name(event.name, diagnostics_)) continue;
             const auto [first, is_new] = events.emplace(event.name.text, event.name.place);
             if (!is_new)
                 complain(event.name.place, say("the name {} is taken: an event has it on line {}",
@@ -358,89 +377,6 @@ private:
         for (const Expression* value :
              {&s.start, &s.duration, &s.tolerance, &s.step, &s.max_step, &s.sample, &s.period})
             quantities_.check(*value, constant);
-    }
-
-    bool check_name(const Name& name) {
-        if (is_name(name.text)) return true;
-        complain(name.place,
-                 say("{} is not a name: a name is a letter or _, then letters, digits, _", in_quotes(name.text)));
-        return false;
-    }
-
-    /// The claim may hold the forces of what sticks, whose names are added to `more`.
-    void check_sticking(const Claim& claim, std::unordered_set<std::string>& more) {
-        std::vector<std::string> known;
-        for (const FrictionRule& friction : scene_.frictions) known.push_back(friction.name.text);
-        if (known.empty())
-            complain(claim.place, say("a claim speaks of the motion while friction sticks, and the scene has no "
-                                      "[[friction]]"));
-        for (const std::string& name : named_sticking(claim))
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                complain(claim.place, say("a claim speaks of the motion while {} sticks, and no friction has this "
-                                          "name{}",
-                                          in_quotes(name), quantities_.suggestion(name, known)));
-        const std::vector<std::string> sticking = sticking_in(claim, scene_);
-        for (const FrictionRule& friction : scene_.frictions) {
-            if (std::find(sticking.begin(), sticking.end(), friction.name.text) == sticking.end()) continue;
-            for (const std::string& force : taken_forces(friction, names_))
-                complain(claim.place,
-                         say("while friction '{}' sticks, {} is its force, and the scene has {} of this name",
-                             friction.name.text, in_quotes(force), described(names_.values.at(force).kind)));
-            for (const std::string& force : sticking_forces(friction)) more.insert(force);
-        }
-    }
-
-    void check(const Claim& claim) {
-        std::unordered_set<std::string> more;
-        for (const std::vector<Name>* list : {&claim.unknowns, &claim.constants})
-            for (const Name& name : *list) {
-                if (!check_name(name)) continue;
-                if (const Declared* const declared = NameSpaces::find(names_.values, name.text))
-                    complain(name.place, say("{} cannot be left open: it is {} of the scene", in_quotes(name.text),
-                                             described(declared->kind)));
-                more.insert(name.text);
-            }
-        if (is_sticking(claim)) check_sticking(claim, more);
-        for (const auto& [name, value] : claim.near) {
-            const bool is_rate = name.text.ends_with('\'');
-            const std::string of = is_rate ? name.text.substr(0, name.text.size() - 1) : name.text;
-            const Declared* const declared = NameSpaces::find(names_.values, of);
-            if (declared == nullptr)
-                complain(name.place, say("unknown name {}; expected a coordinate", in_quotes(of)));
-            else if (declared->kind != Declared::Kind::coordinate)
-                complain(name.place, say("'near' gives the values of coordinates, and of rates as \"x'\"; "
-                                         "{} is {}",
-                                         in_quotes(of), described(declared->kind)));
-            quantities_.check(value, {.subject = say("a state that a claim is held near")});
-        }
-        if (claim.at == "solution" && claim.equation.lhs.tree) {
-            const Tree& left = *claim.equation.lhs.tree;
-            const Declared* const declared =
-                left.kind == Tree::Kind::name ? NameSpaces::find(names_.values, left.text) : nullptr;
-            if (left.kind == Tree::Kind::name && declared == nullptr)
-                complain(claim.equation.lhs.place(),
-                         say("unknown name {}; expected a coordinate or a multiplier", in_quotes(left.text)));
-            else if (declared == nullptr || left.primes > 0 ||
-                     (declared->kind != Declared::Kind::coordinate &&
-                      declared->kind != Declared::Kind::multiplier))
-                complain(claim.equation.lhs.place(),
-                         say("a claim at \"solution\" has the name of a coordinate or a multiplier on its left, "
-                             "and on its "
-                             "right what this is in the course of time: x = x0*cos(w*t)"));
-            quantities_.check(claim.equation.rhs,
-                              {.subject = say("a solution"), .input_order = 2, .time = true, .more = &more});
-            return;
-        }
-        const Legal anything{.subject = say("a claim"),
-                             .order = claim.at == "motion" || is_sticking(claim) ? 3 : 2,
-                             .input_order = 2,
-                             .time = true,
-                             .advice = {},
-                             .more = &more,
-                             .multipliers = true,
-                             .claim = true};
-        quantities_.check(claim.equation.lhs, anything);
-        quantities_.check(claim.equation.rhs, anything);
     }
 };
 

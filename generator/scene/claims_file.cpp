@@ -8,6 +8,7 @@
 
 #include "language/say.hpp"
 #include "scene/check.hpp"
+#include "scene/claim_mode.hpp"
 #include "scene/source.hpp"
 #include "scene/text_file.hpp"
 
@@ -33,6 +34,12 @@ std::vector<Word> words_of(const std::string& line) {
         if (at > begin) words.push_back({line.substr(begin, at - begin), begin});
     }
     return words;
+}
+
+std::string joined(const std::vector<Word>& words) {
+    std::string text;
+    for (const Word& word : words) text += (text.empty() ? "" : " ") + word.text;
+    return text;
 }
 
 /// Of "near theta = 0, phi = pi/2", from the first name on.
@@ -69,9 +76,7 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
     std::vector<Diagnostic> mistakes = check_bytes(result.text);
     if (!mistakes.empty()) fail(result, std::move(mistakes));
 
-    std::vector<Name> unknowns, constants;
-    std::string at = "motion";
-    std::vector<std::pair<Name, Expression>> near;
+    Claim common;  // what the lines before say of the claims that follow
     std::istringstream lines(result.text);
     const SourceText source(result.text);
     std::size_t begin = 0, next = 0;
@@ -84,7 +89,7 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
         const std::string& first = words[0].text;
         const bool is_equation = line.find('=') != std::string::npos;
         if (!is_equation && (first == "unknowns" || first == "constants")) {
-            std::vector<Name>& list = first == "unknowns" ? unknowns : constants;
+            std::vector<Name>& list = first == "unknowns" ? common.unknowns : common.constants;
             for (std::size_t k = 1; k < words.size(); ++k)
                 list.push_back({words[k].text, source.place(begin + words[k].offset)});
             if (words.size() == 1)
@@ -92,32 +97,21 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
                     {source.place(begin), say("'{}' names nothing; expected names after it", first)});
             continue;
         }
-        if (!is_equation && words.size() == 1 &&
-            (first == "rest" || first == "impact" || first == "motion" || first == "solution")) {
-            at = first;
-            near.clear();
-            continue;
-        }
-        if (!is_equation && first == "sticking") {
-            at = first;
-            for (std::size_t k = 1; k < words.size(); ++k) at += ' ' + words[k].text;
-            near.clear();
+        if (!is_equation && set_mode(common, joined(words))) {
+            common.near.clear();
             continue;
         }
         if (is_equation && first == "near" && words.size() > 1) {
-            at = "near";
-            near = values_after(line, words[1].offset, source, begin, mistakes);
+            common.at = Claim::At::near;
+            common.sticking.clear();
+            common.near = values_after(line, words[1].offset, source, begin, mistakes);
             continue;
         }
-        Claim claim;
+        Claim claim = common;
         claim.place = source.place(begin + words[0].offset);
-        claim.at = at;
-        claim.near = near;
-        claim.unknowns = unknowns;
-        claim.constants = constants;
         std::vector<Place> places;
         for (std::size_t k = 0; k <= line.size(); ++k) places.push_back(source.place(begin + k));
-        claim.equation = parse_equality(line, places, mistakes, at == "impact");
+        claim.equation = parse_equality(line, places, mistakes, claim.at == Claim::At::impact);
         result.claims.push_back(std::move(claim));
     }
     if (!mistakes.empty()) fail(result, std::move(mistakes));

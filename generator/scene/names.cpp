@@ -55,15 +55,10 @@ std::string reason(const std::string& name) {
 
 /// Reports an illegal or reserved name; true if the name may be used.
 bool check(const Name& name, DeclaredAs kind, std::vector<Diagnostic>& diagnostics) {
-    if (!is_name(name.text))
-        diagnostics.push_back(
-            {name.place,
-             say("{} is not a name: a name is a letter or _, then letters, digits, _", in_quotes(name.text))});
-    else if (is_reserved(name.text, kind))
-        diagnostics.push_back(
-            {name.place, say("the name '{0}' is reserved: {0} is {1}", name.text, reason(name.text))});
-    else
-        return true;
+    if (!need_name(name, diagnostics)) return false;
+    if (!is_reserved(name.text, kind)) return true;
+    diagnostics.push_back(
+        {name.place, say("the name '{0}' is reserved: {0} is {1}", name.text, reason(name.text))});
     return false;
 }
 
@@ -121,6 +116,13 @@ std::string described(DeclaredAs kind) {
         default:
             return say("a multiplier");
     }
+}
+
+bool need_name(const Name& name, std::vector<Diagnostic>& diagnostics) {
+    if (is_name(name.text)) return true;
+    diagnostics.push_back({name.place, say("{} is not a name: a name is a letter or _, then letters, digits, _",
+                                           in_quotes(name.text))});
+    return false;
 }
 
 NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {

@@ -34,6 +34,9 @@ struct Declared {
 /// "a coordinate", "an input", …
 std::string described(Declared::Kind kind);
 
+/// Whether this text is a name; if not, that is added to the diagnostics.
+bool need_name(const Name& name, std::vector<Diagnostic>& diagnostics);
+
 struct NameSpaces {
     using Space = std::unordered_map<std::string, Declared>;
     Space values, frames, points;

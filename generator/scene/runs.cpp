@@ -7,7 +7,7 @@
 
 #include "alembert/methods.hpp"
 #include "language/say.hpp"
-#include "scene/sticking.hpp"
+#include "scene/claim_mode.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
@@ -155,23 +155,21 @@ void read_claim(Table table, Scene& scene) {
     claim.unknowns = table.names("unknowns");
     claim.constants = table.names("constants");
     if (const auto at = table.name("at")) {
-        claim.at = at->text;
-        if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact" && claim.at != "solution" &&
-            !is_sticking(claim))
+        if (!set_mode(claim, at->text))
             table.reading().complain(
                 at->place,
                 say("a claim is held at \"motion\", \"rest\", \"impact\", \"solution\" or \"sticking\", "
                     "not at {}",
-                    in_quotes(claim.at)));
+                    in_quotes(at->text)));
     }
     if (table.has("near")) {
         claim.near = values_by_name(table, "near", say("values of coordinates and rates: {{ theta = 0 }}"),
                                     say("the value of"));
-        if (claim.at != "motion")
+        if (claim.at != Claim::At::motion)
             table.complain("near", say("a claim at {} cannot hold to first order 'near' a state; leave out one "
                                        "of the two",
-                                       in_quotes(claim.at)));
-        claim.at = "near";
+                                       in_quotes(mode_text(claim))));
+        claim.at = Claim::At::near;
     }
     if (const Entry* const equation = table.find("equation"); !equation)
         table.reading().complain(table.place(), say("{} needs '{}'", table.title(), "equation"));
@@ -179,7 +177,7 @@ void read_claim(Table table, Scene& scene) {
         table.reading().complain(place_of(*equation->node), say("{} is {}; expected an equation in quotes",
                                                                 table.what("equation"), kind_of(*equation->node)));
     else
-        claim.equation = read_equality(table.reading(), *equation->node, claim.at == "impact");
+        claim.equation = read_equality(table.reading(), *equation->node, claim.at == Claim::At::impact);
     scene.claims.push_back(std::move(claim));
 }
 

@@ -261,7 +261,11 @@ struct Claim {
     Equality equation;
     std::string source;
     std::vector<Name> unknowns, constants;
-    std::string at = "motion";  ///< motion, rest, impact, solution or near
+    /// Of what it speaks: any motion, states of rest, impulses, one motion in closed form, motions near a state,
+    /// or motions while friction sticks.
+    enum class At : unsigned char { motion, rest, impact, solution, near, sticking };
+    At at = At::motion;
+    std::vector<std::string> sticking = {};  ///< at `sticking`: the frictions that do; all if there are none here
     /// Where it holds to first order: coordinates, and rates as "x'", with their values in parameters.
     std::vector<std::pair<Name, Expression>> near = {};
 };

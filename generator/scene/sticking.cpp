@@ -2,14 +2,10 @@
 #include "scene/sticking.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <sstream>
 
 namespace alembert {
 
 namespace {
-
-constexpr std::string_view word = "sticking";
 
 bool contains(const std::vector<std::string>& list, const std::string& name) {
     return std::find(list.begin(), list.end(), name) != list.end();
@@ -51,23 +47,10 @@ Scene with_sticking(Scene scene, const std::vector<std::string>& frictions) {
     return scene;
 }
 
-bool is_sticking(const Claim& claim) {
-    if (!claim.at.starts_with(word)) return false;
-    return claim.at.size() == word.size() || std::isspace(static_cast<unsigned char>(claim.at[word.size()])) != 0;
-}
-
-std::vector<std::string> named_sticking(const Claim& claim) {
-    std::istringstream words(claim.at.substr(word.size()));
-    std::vector<std::string> names;
-    for (std::string name; words >> name;) names.push_back(name);
-    return names;
-}
-
 std::vector<std::string> sticking_in(const Claim& claim, const Scene& scene) {
-    const std::vector<std::string> named = named_sticking(claim);
     std::vector<std::string> result;
     for (const FrictionRule& f : scene.frictions)
-        if (named.empty() || contains(named, f.name.text)) result.push_back(f.name.text);
+        if (claim.sticking.empty() || contains(claim.sticking, f.name.text)) result.push_back(f.name.text);
     return result;
 }
 

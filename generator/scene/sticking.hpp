@@ -25,14 +25,7 @@ std::vector<std::string> sticking_forces(const FrictionRule& friction);
 /// the motion while this friction sticks.
 std::vector<std::string> taken_forces(const FrictionRule& friction, const NameSpaces& names);
 
-/// Whether a claim speaks of the motion while friction sticks: its `at` is "sticking", of all frictions, or
-/// "sticking" with the names of some after it, between blanks of any kind.
-bool is_sticking(const Claim& claim);
-
-/// The frictions that stick according to such a claim, in the order of the scene.
+/// The frictions that stick according to a claim at `sticking`, in the order of the scene.
 std::vector<std::string> sticking_in(const Claim& claim, const Scene& scene);
-
-/// The names that a claim has after "sticking".
-std::vector<std::string> named_sticking(const Claim& claim);
 
 }  // namespace alembert

@@ -25,6 +25,7 @@
 
 #include "alembert/integrate.hpp"
 #include "alembert/pace.hpp"
+#include "alembert/recorder.hpp"
 #include "alembert/rounding.hpp"
 #include "alembert/step.hpp"
 #include "alembert/step_size.hpp"
@@ -51,6 +52,7 @@ public:
           watch_(events, rhs),
           rounding_(tolerance_),
           stiffness_(stable_interval(), dearer(), options.turns.patience),
+          recorder_(result_, events, sample_interval(options)),
           row_(initial.size()),
           event_rate_(initial.size()) {
         result_.dimension = rhs.dimension;
@@ -65,7 +67,7 @@ public:
     }
 
     Trajectory go() && {
-        add_row(options_.start, step_.state());
+        recorder_.row(options_.start, step_.state());
         if (!step_.starts_finite()) {
             const int bad = step_.worst_component();
             fail(FailureKind::not_a_number, bad,
@@ -228,29 +230,21 @@ private:
         ++result_.statistics.steps;
         const bool is_last = options_.on_stretch && options_.on_stretch(stretch());
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
-        for (std::size_t k = 0; k < crossings.size(); ++k) {
-            if (!crossings[k].counts) continue;
-            add_rows_before(crossings[k].time);
-            step_.interpolate(crossings[k].theta, row_.data());
-            tell_event(crossings[k]);
-            if (!event_of(crossings[k]).stop) continue;
-            const double grain = simultaneous(step_.time(), step_.end_time());
-            for (std::size_t j = 0; j < crossings.size(); ++j) {
-                if (std::abs(crossings[j].time - crossings[k].time) > grain) continue;
-                if (j > k && crossings[j].counts) tell_event(crossings[j]);
-                result_.last_zeros.push_back({.event = crossings[j].index,
-                                              .direction = crossings[j].direction,
-                                              .counts = crossings[j].counts});
-            }
-            return stop_at(crossings[k].time);
-        }
+        const auto reach = [this](const Crossing& crossing) -> const std::vector<double>& {
+            add_rows_before(crossing.time);
+            step_.interpolate(crossing.theta, row_.data());
+            return row_;
+        };
+        if (const std::optional<double> time =
+                recorder_.crossings(crossings, step_.time(), step_.end_time(), reach))
+            return stop_at(*time);
         add_rows_before(step_.end_time());
         step_.advance();
         tell(step_.time(), step_.state(), step_.rate());
-        if (step_.time() == end_) return add_row(end_, step_.state());
+        if (step_.time() == end_) return recorder_.row(end_, step_.state());
         if (is_last) {
             result_.ending = Ending::stopped_by_event;
-            return add_row(step_.time(), step_.state());
+            return recorder_.row(step_.time(), step_.state());
         }
         look_at_cost();
     }
@@ -302,17 +296,7 @@ private:
                                              .step = step_.length(),
                                              .why = why,
                                              .effort_per_time = pace_.effort_per_time()};
-        if (result_.times.back() < step_.time()) add_row(step_.time(), step_.state());
-    }
-
-    const Event& event_of(const Crossing& crossing) const {
-        return events_.list[static_cast<std::size_t>(crossing.index)];
-    }
-
-    /// The state there is in row_.
-    void tell_event(const Crossing& crossing) {
-        result_.events.push_back(
-            {.index = crossing.index, .name = event_of(crossing).name, .time = crossing.time, .state = row_});
+        recorder_.last_row(step_.time(), step_.state());
     }
 
     Stretch stretch() {
@@ -330,9 +314,7 @@ private:
         step_.rhs()(time, row_.data(), event_rate_.data());
         ++further_evaluations_;
         tell(time, row_.data(), event_rate_.data());
-        if (result_.rows() > 1 && result_.times.back() > time - 1e-9 * sample_interval(options_)) drop_row();
-        if (result_.times.back() < time) add_row(time, row_.data());
-        result_.ending = Ending::stopped_by_event;
+        recorder_.stop_at(time, row_.data());
     }
 
     /// Records the rows of the grid up to `time`, including one at the end of a step, but not the last row of the
@@ -346,19 +328,9 @@ private:
                 std::copy_n(step_.end_state(), row_.size(), row_.begin());
             else
                 step_.interpolate((next - step_.time()) / step_.length(), row_.data());
-            add_row(next, row_.data());
+            recorder_.row(next, row_.data());
             ++rows_on_grid_;
         }
-    }
-
-    void add_row(double time, const double* state) {
-        result_.times.push_back(time);
-        result_.states.insert(result_.states.end(), state, state + result_.dimension);
-    }
-
-    void drop_row() {
-        result_.times.pop_back();
-        result_.states.resize(result_.states.size() - row_.size());
     }
 
     void tell(double time, const double* state, const double* rate) const {
@@ -411,7 +383,7 @@ private:
     /// Ends the run at the start of the step that failed, which becomes the last row.
     void fail(FailureKind kind, int component, std::string message) {
         const double* const state = step_.state();
-        if (result_.times.back() < step_.time()) add_row(step_.time(), state);
+        recorder_.last_row(step_.time(), state);
         result_.ending = Ending::failed;
         result_.failure = Failure{.kind = kind,
                                   .message = std::move(message),
@@ -434,6 +406,7 @@ private:
     double longest_wish_ = 0;    ///< of the lengths that a power series would have taken
     double earlier_length_ = 0;  ///< of the step before the last that was looked at
     Trajectory result_;
+    Recorder recorder_;
     std::vector<double> row_;
     std::vector<double> event_rate_;
     long rows_on_grid_ = 1;  ///< the number of the next row; the row at the start exists already

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/closed_claim.hpp"
+
+#include <algorithm>
+
+#include "check/multiple.hpp"
+#include "check/root_form.hpp"
+#include "check/vanishing.hpp"
+#include "language/say.hpp"
+#include "model/energy.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
+#include "symbolic/fourier.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// Whether signs decide: Legendre's symbol takes their place in exact arithmetic, and that of 3 is −1, so that
+/// 3 times something positive counts as negative. A root is the one of two that counts as positive: that of 9
+/// is −3.
+bool depends_on_sides(const Program& p, const std::vector<int>& roots) {
+    const std::vector<int> needed = p.needed(roots);
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        return p[id].op == Op::sign || p[id].op == Op::abs || p[id].op == Op::sqrt;
+    });
+}
+
+/// What numbers say of a claim that vanishes in exact arithmetic, if they are asked: where signs decide in the
+/// claim, or in the equations, with which it can be compared if states are found.
+InNumbers seen_in_numbers(Comparison& now, const Motions& motions, const Program& p, int root) {
+    if (!motions.rubbed().empty())
+        return hold_in_numbers(told(now), motions, p, {root})[0] ? InNumbers::holds : InNumbers::fails;
+    if (depends_on_sides(p, {root})) return in_numbers(told(now), motions, p, root);
+    std::vector<int> entries = motions.entries().M;
+    for (const auto* part :
+         {&motions.entries().f, &motions.entries().A, &motions.entries().drift, &motions.entries().gamma})
+        entries.insert(entries.end(), part->begin(), part->end());
+    const bool fails = depends_on_sides(motions.program(), entries) &&
+                       in_numbers(told(now), motions, p, root) == InNumbers::fails;
+    return fails ? InNumbers::fails : InNumbers::holds;
+}
+
+/// A claim that holds with other signs of the multipliers of friction, and in numbers, has the right ones.
+bool holds_with_signs_turned(Comparison& now, std::size_t k, const ExactStates& states, const Program& p,
+                             int root) {
+    const unsigned choices = 1U << states.motions.rubbed().size();
+    for (unsigned turned = 1; turned < choices; ++turned) {
+        ExactStates others(now.m, now.law, states.motions.where(), states.motions.halves(), halvings_in(now, {k}),
+                           Motions::Positions::solved, turned);
+        if (vanishes_at(others, p, root, now.verdicts[k].failure) == std::optional(true) &&
+            hold_in_numbers(told(now), states.motions, p, {root})[0])
+            return true;
+    }
+    return false;
+}
+
+/// A claim with a root that holds for one of the root's signs at every state: that of the initial state's
+/// branch.
+std::optional<std::vector<std::string>> branch_of(const Comparison& now, std::size_t k, ExactStates& states) {
+    if (now.at != Claim::At::motion) return std::nullopt;
+    const std::optional<RootForm> form = root_form(now.forms[k].residual, now.m);
+    if (!form) return std::nullopt;
+    Program p;
+    const int norm = now.claims.lower(p, {form->norm})[0];
+    double failure = 0;
+    if (!p.is_zero(norm) && vanishes_at(states, p, norm, failure) != std::optional(true)) return std::nullopt;
+    if (!is_positive_at_start(form->root, now.claims, now.e)) return std::nullopt;
+    return std::vector<std::string>{inequality(form->root, now.m)};
+}
+
+}  // namespace
+
+std::string inequality(const GiNaC::ex& positive, const Mechanism& mechanism) {
+    const auto f = fourier(positive, *mechanism.symbols);
+    return (f ? text(readable(*f)) : say("a root of the claim")) + " > 0";
+}
+
+void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
+    CheckedClaim& c = now.verdicts[k];
+    Program p;
+    const int root = now.claims.lower(p, {now.forms[k].residual})[0];
+    if (p.is_zero(root)) {
+        c.verdict = Verdict::proved;
+        c.normal_form = true;
+        if (now.at != Claim::At::impact) c.reason = say("it holds identically and says nothing of the motion");
+        return;
+    }
+    const std::optional<bool> zero = vanishes_at(states, p, root, c.failure);
+    if (!zero) {
+        c.reason =
+            say("it could not be evaluated: it divides by something that is zero on every motion, or its degree "
+                "is too high");
+        return;
+    }
+    const bool is_rubbed = !states.motions.rubbed().empty();
+    const InNumbers seen = *zero ? seen_in_numbers(now, states.motions, p, root) : InNumbers::fails;
+    if (seen == InNumbers::unknown) {
+        c.reason =
+            say("it holds in exact arithmetic, which knows no order and may turn the signs of roots and absolute "
+                "values, and too few states in numbers were found with which to compare it");
+        return;
+    }
+    if (seen == InNumbers::holds) {
+        if (!states.motions.loose().empty() && !hold_in_numbers(told(now), states.motions, p, {root})[0]) {
+            c.reason =
+                say("it holds wherever the constraints are constant, and no state was found at which they are "
+                    "zero and the equations have one solution");
+            return;
+        }
+        c.verdict = Verdict::proved;
+        if (depends_on_shares(states, p, root))
+            c.reason =
+                say("it holds for the least reactions of constraints that depend on each other; other reactions "
+                    "with the same effect would not obey it");
+        c.normal_form = (now.at == Claim::At::motion && is_multiple(now.forms[k].residual, now.m, now.law)) ||
+                        (now.at == Claim::At::impact && is_identically_zero(now.forms[k].residual, now.m));
+        return;
+    }
+    if (is_rubbed && holds_with_signs_turned(now, k, states, p, root)) {
+        c.verdict = Verdict::proved;
+        return;
+    }
+    if (const auto branch = branch_of(now, k, states)) {
+        c.verdict = Verdict::proved;
+        c.where = *branch;
+        c.reason = say("on the branch of the initial state");
+        return;
+    }
+    const auto shown = counterexample(told(now), states.motions, p, root);
+    if (!shown) {  // exact arithmetic does not know every identity; nothing is called wrong without a state at
+                   // which it fails
+        c.reason = say("it differs in exact arithmetic, and no state in numbers was found at which it fails");
+        return;
+    }
+    refute(c, *shown);
+    if (!*zero || is_rubbed)
+        explain(now, k, states);  // repairs are compared in the arithmetic that was wrong here
+}
+
+}  // namespace alembert

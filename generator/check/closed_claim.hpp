@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A claim without open names, compared with the equations at states.
+///
+///     settle_closed_claim(now, 2, states);     // writes now.verdicts[2]
+
+#include "check/comparison.hpp"
+
+namespace alembert {
+
+/// `states`: states that obey the law and the constraints of `now`.
+void settle_closed_claim(Comparison& now, std::size_t claim, ExactStates& states);
+
+/// "r > 0": on what sheet of roots a verdict holds.
+std::string inequality(const GiNaC::ex& positive, const Mechanism& mechanism);
+
+}  // namespace alembert

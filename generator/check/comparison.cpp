@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/comparison.hpp"
+
+#include <algorithm>
+
+#include "check/diagnosis.hpp"
+
+namespace alembert {
+
+Told told(Comparison& now) {
+    return {.mechanism = now.m,
+            .equations = now.e,
+            .claims = now.claims,
+            .spoken = now.spoken,
+            .positive = now.positive,
+            .is_impact = now.at == Claim::At::impact};
+}
+
+int halvings_in(const Comparison& now, const std::vector<std::size_t>& claims) {
+    int result = 0;
+    for (const std::size_t k : claims) {
+        Program p;
+        result = std::max(result, halvings(p, now.claims.lower(p, {now.forms[k].residual})));
+    }
+    return result;
+}
+
+void refute(CheckedClaim& verdict, const Counterexample& shown) {
+    verdict.verdict = Verdict::refuted;
+    verdict.counterexample = shown.values;
+    verdict.residual = shown.residual;
+    verdict.residual_value = shown.residual_value;
+}
+
+void explain(Comparison& now, std::size_t claim, ExactStates& states) {
+    const Diagnosis found = diagnose({.scene = now.scene,
+                                      .claims = now.claims,
+                                      .law = now.law,
+                                      .forms = now.forms,
+                                      .wrong = now.wrong,
+                                      .claim = claim,
+                                      .in_motion = now.at == Claim::At::motion,
+                                      .at_impact = now.at == Claim::At::impact,
+                                      .known = now.known},
+                                     states);
+    CheckedClaim& c = now.verdicts[claim];
+    if (!found.reason.empty()) c.reason = found.reason;
+    c.nearest = found.nearest;
+    c.difference = found.difference;
+    c.likely = found.likely;
+}
+
+}  // namespace alembert

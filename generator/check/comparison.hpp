@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The claims of one mode as they are compared with the equations: what the parts of the check share.
+///
+///     Comparison now{.scene = scene, .m = m, .e = e, .claims = claims};
+///     now.at = Claim::At::rest;                       // what the claims speak of that are compared now
+///     settle_closed_claim(now, 2, states);            // writes now.verdicts[2]
+
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "check/absent.hpp"
+#include "check/claims.hpp"
+#include "check/counterexample.hpp"
+#include "check/verdict.hpp"
+#include "exact/exact_states.hpp"
+
+namespace alembert {
+
+struct Comparison {
+    const Scene& scene;
+    const Mechanism& m;
+    const Equations& e;
+    Claims& claims;
+    std::vector<ClaimForm> forms = {};        ///< of the claims of the scene
+    std::vector<CheckedClaim> verdicts = {};  ///< likewise
+    /// What is positive on the sheet of the scene and its claims, not of repairs that are tried.
+    std::vector<GiNaC::ex> positive = {};
+
+    // For the claims that are compared now:
+    Claim::At at = Claim::At::motion;         ///< motion, rest or impact
+    Equations law = {};                       ///< the equations with the multipliers that these claims contain
+    std::vector<std::size_t> spoken = {};     ///< positions of these multipliers in Mechanism::undetermined()
+    std::optional<EquationTerms> known = {};  ///< of the law; made when it is first needed
+    std::set<std::size_t> wrong = {};         ///< the wrong ones of claims that share open names
+};
+
+Told told(Comparison& now);
+
+/// How often angles must be halved for the residuals of these claims to be rational.
+int halvings_in(const Comparison& now, const std::vector<std::size_t>& claims);
+
+/// The claim is refuted by this state.
+void refute(CheckedClaim& verdict, const Counterexample& shown);
+
+/// Adds to the verdict what is wrong with the claim. `states`: those at which it was compared.
+void explain(Comparison& now, std::size_t claim, ExactStates& states);
+
+}  // namespace alembert

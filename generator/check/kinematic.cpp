@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/kinematic.hpp"
+
+#include "check/any_motion.hpp"
+#include "check/vanishing.hpp"
+#include "language/say.hpp"
+
+namespace alembert {
+
+namespace {
+
+void tell_kinematic(Comparison& now, std::size_t k, ExactStates& states) {
+    CheckedClaim& c = now.verdicts[k];
+    Program p;
+    const int root = now.claims.lower(p, {now.forms[k].residual})[0];
+    double failure = 0;
+    c.kinematic = p.is_zero(root) || vanishes_at(states, p, root, failure) == std::optional(true);
+    if (c.kinematic && c.reason.empty())
+        c.reason = say("a relation of kinematics: it holds for every motion that the constraints allow");
+}
+
+}  // namespace
+
+void tell_kinematics(Comparison& now) {
+    std::vector<GiNaC::symbol> multipliers = now.e.lambda;
+    for (const Mechanism::Constraint* c : now.m.undetermined()) multipliers.push_back(c->multiplier);
+    std::vector<std::size_t> here;
+    for (std::size_t k = 0; k < now.forms.size(); ++k) {
+        const CheckedClaim& c = now.verdicts[k];
+        if (now.scene.claims[k].at == Claim::At::motion && c.verdict == Verdict::proved && c.where.empty() &&
+            now.forms[k].open.empty() && !now.forms[k].third &&
+            !now.m.z->depends(now.forms[k].residual, multipliers))
+            here.push_back(k);
+    }
+    if (here.empty()) return;
+    const Equations any = any_motion(now.e, now.m);
+    for (const int halves : {0, 1, 2}) {
+        ExactStates states(now.m, any, Motions::At::motion, halves, halvings_in(now, here));
+        if (states.get(0) == nullptr) continue;
+        for (const std::size_t k : here) tell_kinematic(now, k, states);
+        return;
+    }
+}
+
+}  // namespace alembert

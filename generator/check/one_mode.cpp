@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion (check/vanishing.hpp).
+#include "check/one_mode.hpp"
+
+#include <algorithm>
+
+#include "check/any_motion.hpp"
+#include "check/closed_claim.hpp"
+#include "check/combinations.hpp"
+#include "check/completeness.hpp"
+#include "check/constants.hpp"
+#include "check/first_order.hpp"
+#include "check/kinematic.hpp"
+#include "check/open_claims.hpp"
+#include "check/solution.hpp"
+#include "formalism/elements.hpp"
+#include "formalism/routh.hpp"
+#include "language/say.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::numeric;
+
+namespace {
+
+class Checker {
+public:
+    Checker(const Scene& scene, const Mechanism& m, const Equations& e, const std::shared_ptr<RootSheets>& sheets,
+            const std::string& by)
+        : claims_(scene, m, e, sheets, by),
+          sheets_(sheets),
+          now_{.scene = scene, .m = m, .e = e, .claims = claims_} {}
+
+    Checked run() {
+        read();
+        now_.verdicts.resize(now_.forms.size());
+        for (const Claim::At at : {Claim::At::motion, Claim::At::rest, Claim::At::impact}) {
+            now_.at = at;
+            std::vector<std::size_t> here;
+            for (std::size_t k = 0; k < now_.forms.size(); ++k)
+                if (now_.scene.claims[k].at == at) here.push_back(k);
+            if (here.empty()) continue;
+            if (at == Claim::At::impact && !claims_.after_impact())
+                for (const std::size_t k : here) now_.verdicts[k].reason = claims_.impact_obstacle();
+            else  // the rates after an impact have become expressions in the variables of any state of motion
+                while (!here.empty()) {
+                    const std::vector<std::size_t> spoken = undetermined_in(here.front());
+                    std::vector<std::size_t> part = here;
+                    std::erase_if(part, [&](std::size_t k) { return undetermined_in(k) != spoken; });
+                    std::erase_if(here, [&](std::size_t k) { return undetermined_in(k) == spoken; });
+                    now_.law =
+                        has_masses() || !spoken.empty() ? with_multipliers(spoken) : any_motion(now_.e, now_.m);
+                    now_.spoken = spoken;
+                    now_.known.reset();
+                    settle(part, at == Claim::At::rest ? Motions::At::rest : Motions::At::motion);
+                }
+        }
+        constants_->withdraw(now_.scene, now_.verdicts);
+        tell_kinematics(now_);
+        settle_apart();
+        for (CheckedClaim& c : now_.verdicts)
+            for (const ex& positive : now_.positive) c.where.insert(c.where.begin(), inequality(positive, now_.m));
+        const bool is_complete = complete();
+        return {.claims = std::move(now_.verdicts), .complete = is_complete};
+    }
+
+private:
+    void read() {
+        std::vector<Diagnostic> mistakes;
+        for (const Claim& claim : now_.scene.claims) try {
+                now_.forms.push_back(claims_.read(claim));
+            } catch (const SceneMistake& mistake) {
+                mistakes.push_back(mistake.diagnostic);
+            }
+        if (!mistakes.empty()) fail(now_.scene, mistakes);
+        constants_.emplace(now_.scene, claims_, now_.forms);
+        if (sheets_) now_.positive = sheets_->positive();
+    }
+
+    /// Claims that need no states: motions in closed form, first approximations.
+    void settle_apart() {
+        std::vector<std::size_t> solution;
+        for (std::size_t k = 0; k < now_.forms.size(); ++k) {
+            if (now_.scene.claims[k].at == Claim::At::solution) solution.push_back(k);
+            if (now_.scene.claims[k].at == Claim::At::near)
+                check_first_order(now_.scene.claims[k], claims_, now_.verdicts[k]);
+        }
+        if (!solution.empty()) check_solution(now_.scene, claims_, solution, now_.verdicts);
+    }
+
+    /// The constraints of Mechanism::undetermined() whose multipliers the claim contains. A claim with a contact's
+    /// multiplier must hold for any value of it; a claim without it is about the motion while the gap is open.
+    /// Constraints that follow from others have their shares of least norm.
+    std::vector<std::size_t> undetermined_in(std::size_t claim) const {
+        std::vector<std::size_t> result;
+        const auto all = now_.m.undetermined();
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (k >= now_.m.unilateral.size() ||
+                now_.m.z->depends(now_.forms[claim].residual, {all[k]->multiplier}))
+                result.push_back(k);
+        return result;
+    }
+
+    Equations with_multipliers(const std::vector<std::size_t>& undetermined) const {
+        Equations law = now_.e;
+        for (const std::size_t k : undetermined) {
+            const Mechanism::Constraint& c = *now_.m.undetermined()[k];
+            for (int i = 0; i < law.size(); ++i) law.own[i] += c.row[i] * c.multiplier;
+        }
+        return law;
+    }
+
+    bool has_masses() const { return !now_.m.kinetic.empty() || now_.m.given_lagrangian; }
+
+    /// With holonomic constraints as they are at the pose where the scene starts: what of it is known in numbers
+    /// only obeys them.
+    Mechanism struck() {
+        Mechanism result = now_.m;
+        const GiNaC::exmap& pose = claims_.after_impact()->pose;
+        for (auto* constraints : {&result.constraints, &result.redundant})
+            for (Mechanism::Constraint& c : *constraints) {
+                if (!c.position) continue;
+                const ex here = now_.m.z->expand(*c.position).subs(pose, GiNaC::subs_options::no_pattern).expand();
+                c.position = GiNaC::is_a<numeric>(here) ? std::nullopt : std::optional(now_.m.z->name(here));
+            }
+        return result;
+    }
+
+    void settle(const std::vector<std::size_t>& asked, Motions::At at) {
+        const bool is_bound = std::any_of(now_.m.constraints.begin(), now_.m.constraints.end(),
+                                          [](const Mechanism::Constraint& c) { return c.position.has_value(); });
+        const bool may_combine = at == Motions::At::rest || (now_.at == Claim::At::motion && is_bound);
+        const std::vector<std::size_t> here = may_combine ? without_combinations(now_, asked, at) : asked;
+        if (here.empty()) return;
+        // Angles in halves only where they occur: every halving doubles the degrees.
+        const Mechanism mechanism = now_.at == Claim::At::impact ? struck() : now_.m;
+        std::optional<ExactStates> states;
+        for (const int halves : {0, 1, 2}) {
+            states.emplace(mechanism, now_.law, at, halves, halvings_in(now_, here));
+            const ExactState* const state = states->get(0);
+            if (state == nullptr) continue;
+            bool all = true;
+            for (const std::size_t k : here) {
+                Program p;
+                const std::vector<int> root = claims_.lower(p, {now_.forms[k].residual});
+                bool usable = false;
+                for (std::size_t s = 0; s < 24 && !usable && states->get(s) != nullptr; ++s)
+                    usable = evaluate_mod(p, states->get(s)->point, root).has_value();
+                all = all && usable;
+            }
+            if (all) break;
+        }
+        if (states->get(0) == nullptr) {
+            for (const std::size_t k : here) {
+                CheckedClaim& c = now_.verdicts[k];
+                c.reason = !states->motions.obstacle().empty() ? states->motions.obstacle()
+                           : at == Motions::At::rest
+                               ? say("no state was found in which the equations allow rest")
+                               : say("no state was found that obeys the constraints and has one acceleration");
+            }
+            return;
+        }
+        std::vector<std::size_t> open;
+        for (const std::size_t k : here)
+            if (now_.forms[k].open.empty())
+                settle_closed_claim(now_, k, *states);
+            else if (!states->motions.rubbed().empty())
+                now_.verdicts[k].reason =
+                    say("it leaves names open, and the side that a constraint with friction presses is known in "
+                        "numbers only");
+            else if (states->motions.loose().empty())
+                open.push_back(k);
+            else
+                now_.verdicts[k].reason =
+                    say("the constraints cannot be solved one after the other, and it leaves names open");
+        settle_open_claims(now_, open, *states);
+    }
+
+    /// Do the claims of the motion that are right fix every acceleration?
+    bool complete() const {
+        std::vector<const ClaimForm*> right;
+        for (std::size_t k = 0; k < now_.forms.size(); ++k) {
+            const Verdict verdict = now_.verdicts[k].verdict;
+            if (now_.scene.claims[k].at == Claim::At::motion &&
+                (verdict == Verdict::proved || verdict == Verdict::vacuous))
+                right.push_back(&now_.forms[k]);
+        }
+        return fix_accelerations(claims_, right);
+    }
+
+    Claims claims_;
+    std::shared_ptr<RootSheets> sheets_;
+    std::optional<GivenConstants> constants_;
+    Comparison now_;
+};
+
+}  // namespace
+
+Checked check_of_one_mode(const Scene& scene, const Mechanism& mechanism,
+                          const std::shared_ptr<RootSheets>& sheets, const std::string& by) {
+    const Equations equations = routh(mechanism);
+    const Mechanism m = in_terms_of(equations, mechanism);
+    return Checker(scene, m, equations, sheets, by).run();
+}
+
+}  // namespace alembert

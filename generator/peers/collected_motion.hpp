@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A motion by an integrator of SUNDIALS, step by step, with the rows and events of the runtime's own methods.
+///
+///     CountedSystem system{.rhs = rhs, .options = options};
+///     const SteppedIntegrator by{.name = "cvode", .step = …, .state = …, …};
+///     Trajectory motion = CollectedMotion(system, initial, by, events).go();
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "alembert/recorder.hpp"
+#include "alembert/run.hpp"
+
+namespace alembert {
+
+/// What a function that SUNDIALS calls returns if it fails.
+inline constexpr int unrecoverable = -1, recoverable = 1;
+
+inline bool is_finite(const double* values, std::size_t size) {
+    return std::all_of(values, values + size, [](double x) { return std::isfinite(x); });
+}
+
+/// The right-hand side with a count of its calls, and everything else that SUNDIALS needs of the system.
+struct CountedSystem {
+    const Rhs& rhs;
+    const Options& options;
+    long evaluations = 0;
+    std::vector<double> moved = {};
+
+    std::size_t size() const { return static_cast<std::size_t>(rhs.dimension); }
+    bool is_over_budget() const { return evaluations >= options.budget; }
+    int rate(double t, const double* y, double* out) {
+        if (is_over_budget()) return unrecoverable;
+        rhs(t, y, out);
+        ++evaluations;
+        return is_finite(out, size()) ? 0 : recoverable;
+    }
+};
+
+/// One running integrator: a step, and states within it.
+struct SteppedIntegrator {
+    std::string name;
+    std::function<int(double& t)> step;  ///< negative values are error flags of SUNDIALS
+    std::function<const double*()> state;
+    std::function<void(double t, double* state)> at;
+    std::function<long()> steps, rejected;
+    std::function<std::string(int flag)> meaning;
+};
+
+/// Rows and events of a run.
+class CollectedMotion {
+public:
+    CollectedMotion(CountedSystem& system, const std::vector<double>& initial, const SteppedIntegrator& by,
+                    const Events& events)
+        : system_(system),
+          by_(by),
+          events_(events),
+          watch_(events, system.rhs),
+          grid_(system.options.grid.value_or(system.options.start)),
+          interval_(sample_interval(system.options)),
+          next_(std::lround(std::floor((system.options.start - grid_) / interval_ + 1e-9)) + 1),
+          recorder_(motion_, events, interval_),
+          row_(initial),
+          rate_(initial.size()) {
+        motion_.dimension = system.rhs.dimension;
+        motion_.names = system.rhs.names;
+        recorder_.row(system.options.start, initial.data());
+        look_at_rate(system.options.start, initial.data());
+        if (has_events()) watch_.begin(system.options.start, initial.data(), rate_.data());
+        tell(system.options.start, initial.data());
+    }
+
+    Trajectory go() && {
+        const double end = system_.options.start + system_.options.duration;
+        double t = system_.options.start;
+        while (t < end && motion_.ending == Ending::completed) {
+            double reached = t;
+            const int flag = by_.step(reached);
+            if (flag < 0) {
+                fail(t, flag);
+                break;
+            }
+            finish_step(t, reached);
+            t = reached;
+            if (t >= end && motion_.ending == Ending::completed) recorder_.row(end, row_.data());
+        }
+        motion_.statistics = {.steps = by_.steps(),
+                              .rejected = by_.rejected(),
+                              .evaluations = system_.evaluations + watch_.evaluations(),
+                              .seconds = 0,
+                              .method = by_.name};
+        return std::move(motion_);
+    }
+
+private:
+    bool has_events() const { return !events_.list.empty(); }
+
+    /// Adds the rows of the grid before a time, but not the last row of the run.
+    void add_rows_before(double time) {
+        const double end = system_.options.start + system_.options.duration;
+        for (;; ++next_) {
+            const double at = grid_ + static_cast<double>(next_) * interval_;
+            if (!(at < std::min(time, end - 1e-9 * interval_))) return;
+            by_.at(at, row_.data());
+            if (system_.options.project) system_.options.project(at, row_.data());
+            recorder_.row(at, row_.data());
+        }
+    }
+
+    /// Records what lies between two ends of steps.
+    void finish_step(double begin, double end) {
+        const std::vector<double> state(by_.state(), by_.state() + system_.size());
+        look_at_rate(end, state.data());
+        if (has_events()) {
+            const std::vector<Crossing> crossings = watch_.look(
+                {.start = begin,
+                 .end = end,
+                 .end_state = state.data(),
+                 .end_rate = rate_.data(),
+                 .interpolate = [&](double theta, double* out) { by_.at(begin + theta * (end - begin), out); }});
+            const auto reach = [this](const Crossing& crossing) -> const std::vector<double>& {
+                add_rows_before(crossing.time);
+                by_.at(crossing.time, row_.data());
+                return row_;
+            };
+            if (const std::optional<double> time = recorder_.crossings(crossings, begin, end, reach))
+                return stop_at(*time);
+        }
+        add_rows_before(end);
+        row_ = state;
+        tell(end, row_.data());
+    }
+
+    /// The state there is in row_.
+    void stop_at(double time) {
+        look_at_rate(time, row_.data());
+        tell(time, row_.data());
+        recorder_.stop_at(time, row_.data());
+    }
+
+    void look_at_rate(double t, const double* state) {
+        if (!system_.options.on_step && !has_events()) return;
+        system_.rhs(t, state, rate_.data());
+        ++system_.evaluations;
+    }
+
+    void tell(double t, const double* state) const {
+        if (system_.options.on_step) system_.options.on_step(t, {state, rate_.size()}, rate_);
+    }
+
+    void fail(double t, int flag) {
+        recorder_.last_row(t, row_.data());
+        motion_.ending = Ending::failed;
+        const bool budget = system_.is_over_budget();
+        motion_.failure = Failure{
+            .kind = budget ? FailureKind::budget_used_up : FailureKind::step_underflow,
+            .message = budget
+                           ? fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; "
+                                         "raise the budget, loosen the tolerance or shorten the duration",
+                                         system_.options.budget, t)
+                           : fmt::format("{} gave up at t = {:.17g} with {}; loosen the tolerance, or take radau",
+                                         by_.name, t, by_.meaning(flag)),
+            .time = t,
+            .state = row_};
+    }
+
+    CountedSystem& system_;
+    const SteppedIntegrator& by_;
+    const Events& events_;
+    EventWatch watch_;
+    double grid_, interval_;
+    long next_;  ///< the number of the next row on the grid
+    Trajectory motion_;
+    Recorder recorder_;
+    std::vector<double> row_, rate_;
+};
+
+}  // namespace alembert
