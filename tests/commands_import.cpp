@@ -12,6 +12,7 @@
 #include "files.hpp"
 #include "json.hpp"
 #include "robot_model.hpp"
+#include "solved.hpp"
 
 namespace commands_import {
 
@@ -71,7 +72,7 @@ void compare(const std::string& robot, const std::vector<std::string>& still, st
         f = -column(model.loads(q, u, none, 9.81, true));
         Eigen::Index k = 0;
         for (const auto& [name, value] : q) M.col(k++) = column(model.loads(q, none, {{name, 1.0}}, 0, false));
-        const Eigen::VectorXd expected = M.ldlt().solve(f);
+        const Eigen::VectorXd expected = alembert::test::solved(M, f).value();
         std::vector<std::string> eval{"eval", scene, "--json", "--by", "recursive"};
         for (const auto& [values, prime] : {std::pair(&q, ""), std::pair(&u, "'")})
             for (const auto& [name, value] : *values) {

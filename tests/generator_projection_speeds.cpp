@@ -18,6 +18,7 @@
 #include "lower/choose.hpp"
 #include "lower/lower.hpp"
 #include "scenes.hpp"
+#include "solved.hpp"
 #include "state/assemble.hpp"
 #include "state/prepared.hpp"
 
@@ -140,11 +141,11 @@ TEST_CASE("projection: in speeds the emitted step is the least change, at any st
                 for (int k = 0; k < m; ++k)
                     if (here.mechanism.constraints[static_cast<std::size_t>(k)].position) holonomic.push_back(k);
                 const MatrixXd A = before.A(holonomic, Eigen::all);
-                dq = A.transpose() * (A * A.transpose()).fullPivLu().solve(VectorXd(position(holonomic)));
+                dq = A.transpose() * VectorXd(test::solved(A * A.transpose(), position(holonomic)).value());
                 CHECK((A * before.S).norm() <= 1e-12 * A.norm() * before.S.norm());
             } else {
                 ++along;
-                const MatrixXd across_B = before.M.fullPivLu().solve(before.B.transpose());
+                const MatrixXd across_B = test::solved(before.M, before.B.transpose()).value();
                 const auto factors = (before.B * across_B)
                                          .eval()
                                          .completeOrthogonalDecomposition();  // zero rows of eliminated ones

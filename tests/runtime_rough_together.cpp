@@ -13,6 +13,7 @@
 #include "alembert/rough_cones.hpp"
 #include "alembert/rough_impact.hpp"
 #include "alembert/rough_strike.hpp"
+#include "solved.hpp"
 
 namespace runtime_rough_together {
 
@@ -184,7 +185,7 @@ TEST_CASE("rough together: contacts that do not feel each other are struck each 
 std::vector<VectorXd> all_results(const MatrixXd& M, const VectorXd& momentum,
                                   const std::vector<ConeRows>& contacts) {
     const auto k = static_cast<Index>(contacts.size()), n = M.rows();
-    const MatrixXd inverse = M.inverse();
+    const MatrixXd inverse = test::inverse_of(M);
     std::vector<VectorXd> results;
     for (int code = 0; code < 1 << (2 * k); ++code) {
         const auto mode = [&](Index i) { return code >> (2 * i) & 3; };  // open, sticks, slides up, slides down
@@ -209,9 +210,9 @@ std::vector<VectorXd> all_results(const MatrixXd& M, const VectorXd& momentum,
         const VectorXd free = inverse * momentum;
         VectorXd p(0), after = free;
         if (held.rows() > 0) {
-            const Eigen::FullPivLU<MatrixXd> factors(held * inverse * along);
-            if (!factors.isInvertible()) continue;
-            p = factors.solve(-offset - held * free);
+            const std::optional<MatrixXd> solution = test::solved(held * inverse * along, -offset - held * free);
+            if (!solution) continue;
+            p = *solution;
             after += inverse * along * p;
         }
         bool is_consistent = after.allFinite();
@@ -244,7 +245,7 @@ TEST_CASE("rough together: along lines the only result is found, and each refusa
         for (int trial = 0; trial < 400; ++trial) {
             const int n = 5, contacts = 2 + trial % 2;
             const MatrixXd M = random_mass(random, n);
-            const VectorXd momentum = random_vector(random, n), before = M.ldlt().solve(momentum);
+            const VectorXd momentum = random_vector(random, n), before = test::solved(M, momentum).value();
             std::vector<ConeRows> cones;
             Situation here{
                 .M = M, .f = VectorXd::Zero(n), .bilateral = Plate::rows(0), .contacts = Plate::rows(0)};

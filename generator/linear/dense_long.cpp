@@ -14,6 +14,40 @@ std::vector<std::complex<long double>> values_of(const Eigen::EigenSolver<LongMa
     return {values.data(), values.data() + values.size()};
 }
 
+/// Makes A an upper triangle by row operations, which b takes part in, with the largest pivot of each column. The
+/// result is the sign of the exchanges. Eigen's elimination is made for large matrices and takes long to compile.
+template <typename Matrix>
+int eliminate(Matrix& A, Matrix& b) {
+    int sign = 1;
+    for (Eigen::Index k = 0; k < A.cols(); ++k) {
+        Eigen::Index pivot = k;
+        for (Eigen::Index i = k + 1; i < A.rows(); ++i)
+            if (std::abs(A(i, k)) > std::abs(A(pivot, k))) pivot = i;
+        if (pivot != k) {
+            A.row(k).swap(A.row(pivot));
+            b.row(k).swap(b.row(pivot));
+            sign = -sign;
+        }
+        for (Eigen::Index i = k + 1; i < A.rows(); ++i) A(i, k) /= A(k, k);
+        for (Eigen::Index j = k + 1; j < A.cols(); ++j)
+            for (Eigen::Index i = k + 1; i < A.rows(); ++i) A(i, j) -= A(i, k) * A(k, j);
+        for (Eigen::Index j = 0; j < b.cols(); ++j)
+            for (Eigen::Index i = k + 1; i < A.rows(); ++i) b(i, j) -= A(i, k) * b(k, j);
+    }
+    return sign;
+}
+
+template <typename Matrix>
+Matrix by_elimination(Matrix A, Matrix b) {
+    eliminate(A, b);
+    for (Eigen::Index j = 0; j < b.cols(); ++j)
+        for (Eigen::Index k = A.cols() - 1; k >= 0; --k) {
+            b(k, j) /= A(k, k);
+            for (Eigen::Index i = 0; i < k; ++i) b(i, j) -= A(i, k) * b(k, j);
+        }
+    return b;
+}
+
 }  // namespace
 
 std::optional<std::vector<std::complex<long double>>> eigenvalues(const LongMatrix& A) {
@@ -38,7 +72,7 @@ LongSingularValues singular_values(const LongMatrix& A) {
 }
 
 LongRightVectors right_vectors(const LongComplexMatrix& A) {
-    const Eigen::JacobiSVD<LongComplexMatrix> svd(A, Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<LongComplexMatrix, Eigen::NoQRPreconditioner> svd(A, Eigen::ComputeFullV);
     return {svd.singularValues(), svd.matrixV()};
 }
 
@@ -49,19 +83,21 @@ LongLeastNorm least_norm(const LongMatrix& A, const LongColumn& b, long double t
 }
 
 Eigen::MatrixXd solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b) {
-    return A.partialPivLu().solve(b);
+    return by_elimination(A, b);
 }
 
 LongMatrix solve(const LongMatrix& A, const LongMatrix& b) {
-    return A.partialPivLu().solve(b);
+    return by_elimination(A, b);
 }
 
 LongComplexMatrix solve(const LongComplexMatrix& A, const LongComplexMatrix& b) {
-    return A.partialPivLu().solve(b);
+    return by_elimination(A, b);
 }
 
 long double determinant(const LongMatrix& A) {
-    return A.determinant();
+    LongMatrix triangle = A, nothing(A.rows(), 0);
+    const int sign = eliminate(triangle, nothing);
+    return sign * triangle.diagonal().prod();
 }
 
 LongMatrix kernel_of(const LongMatrix& A, std::optional<long double> threshold) {

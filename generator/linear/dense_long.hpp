@@ -46,7 +46,7 @@ struct LongRightVectors {
     LongComplexMatrix right;  ///< n×n, columns of length 1
 };
 /// The singular values of a complex matrix and the vectors on its right. The last of them spans its kernel if A is
-/// singular.
+/// singular. A: n×n.
 LongRightVectors right_vectors(const LongComplexMatrix& A);
 
 struct LongLeastNorm {

@@ -234,6 +234,12 @@ MatrixOf<Real> columns_of(const MatrixOf<Real>& from, const std::vector<int>& wh
     return result;
 }
 
+/// A B, for expressions too; each kind of product takes Eigen a second to compile.
+template <typename Real>
+MatrixOf<Real> product(const MatrixOf<Real>& A, const MatrixOf<Real>& B) {
+    return A * B;
+}
+
 /// A x = b, for expressions too.
 template <typename Real>
 MatrixOf<Real> solution(const MatrixOf<Real>& A, const MatrixOf<Real>& b) {
@@ -308,7 +314,8 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     along.bottomRightCorner(extra, extra).setIdentity();
     if (r.holonomic > 0) {
         const Matrix dependent = columns_of<Real>(phi.leftCols(n), split.q_dependent);
-        along.topRows(n) += spread<Real>(solution<Real>(dependent, -phi * along), split.q_dependent, n);
+        along.topRows(n) +=
+            spread<Real>(solution<Real>(dependent, -product<Real>(phi, along)), split.q_dependent, n);
     }
     const Matrix A = nu.middleCols(n, s);
     const Matrix dependent = columns_of<Real>(A, split.u_dependent);
@@ -316,8 +323,8 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
         if (r.kept == 0) return Matrix::Zero(s, right.cols());
         return spread<Real>(solution<Real>(dependent, right), split.u_dependent, s);
     };
-    along.middleRows(n, s) += particular(-nu * along);
-    const Matrix U = along.block(n, nr, s, p);
+    along.middleRows(n, s) += particular(-product<Real>(nu, along));
+    const Matrix U = along.block(n, nr, s, p), onto = U.transpose();
 
     // u' and λ of the undisturbed motion.
     Matrix M = Matrix::Zero(s, s);
@@ -326,8 +333,9 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
         for (Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[r.mass[next++]].value;
     const Vector f = value.vector(r.forcing), gamma = value.vector(r.gamma);
     Vector udot = particular(gamma).col(0);
-    result.mass = U.transpose() * M * U;
-    result.balance = U.transpose() * (f - M * udot);
+    result.mass = product<Real>(product<Real>(onto, M), U);
+    const Vector unbalanced = f - M * udot;
+    result.balance = onto * unbalanced;
     if (is_forced) {
         result.speed_rates = p > 0 ? Vector(solution<Real>(result.mass, result.balance)) : Vector(0);
         udot += U * result.speed_rates;
@@ -361,15 +369,15 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
                 Gamma(k, c) += d * udot[i];
             }
         }
-    const Matrix forced = particular(-Gamma * along);
-    result.force = U.transpose() * (R * along + M * forced);
+    const Matrix forced = particular(-product<Real>(Gamma, along));
+    result.force = product<Real>(onto, product<Real>(R, along) + product<Real>(M, forced));
     if (is_forced)
         result.speed_rates_by =
             p > 0 ? Matrix(-solution<Real>(result.mass, result.force)) : Matrix(0, along.cols());
 
     if (is_forced) {
-        result.udot_by = forced + U * result.speed_rates_by;
-        const Matrix excess = R * along + M * result.udot_by;  // = Aᵀ δλ
+        result.udot_by = forced + product<Real>(U, result.speed_rates_by);
+        const Matrix excess = product<Real>(R, along) + product<Real>(M, result.udot_by);  // = Aᵀ δλ
         Matrix on_dependent(r.kept, along.cols());
         for (Index k = 0; k < r.kept; ++k) on_dependent.row(k) = excess.row(split.u_dependent[k]);
         result.lambda_by = r.kept > 0 ? solution<Real>(dependent.transpose(), on_dependent) : on_dependent;
@@ -379,7 +387,7 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     result.udot = udot;
     result.lambda = lambda;
     const Vector rates = value.vector(r.rate);
-    const Matrix rates_by = value.jacobian(r.rate) * along;
+    const Matrix rates_by = product<Real>(value.jacobian(r.rate), along);
     result.rates.resize(nr);
     result.rates_by.resize(nr, along.cols());
     for (Index j = 0; j < nr; ++j) {

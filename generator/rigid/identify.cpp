@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
+#include "alembert/dense.hpp"
 #include "alembert/error.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
@@ -49,14 +50,16 @@ std::optional<MatrixXd> constrained(State<double>& state, const RegressorColumns
         const VectorXd f = matrix(value, c.positions, 1);
         if (f.size() == 0 || f.cwiseAbs().maxCoeff() < 1e-13) break;
         if (step + 1 == most_steps) return std::nullopt;
-        map(state.q) -= slope.completeOrthogonalDecomposition().solve(f);
+        map(state.q) -= VectorXd(least_norm(slope, f).x);
     }
     const MatrixXd A = matrix(value, c.rows, n);
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(A);
-    const MatrixXd allowed = MatrixXd::Identity(n, n) - solver.pseudoInverse() * A;
-    map(state.qdot) = allowed * map(state.qdot) - solver.solve(matrix(value, c.drift, 1));
+    const MatrixXd to_obey = least_norm(A, MatrixXd::Identity(A.rows(), A.rows())).x,
+                   allowed = MatrixXd::Identity(n, n) - to_obey * A;
+    const VectorXd rates = map(state.qdot), accelerations = map(state.qddot), drift = matrix(value, c.drift, 1);
+    map(state.qdot) = allowed * rates - to_obey * drift;
     value = interpret(c.program, state);
-    map(state.qddot) = allowed * map(state.qddot) + solver.solve(matrix(value, c.gamma, 1));
+    const VectorXd gamma = matrix(value, c.gamma, 1);
+    map(state.qddot) = allowed * accelerations + to_obey * gamma;
     return allowed;
 }
 
@@ -87,7 +90,7 @@ MatrixXd coefficients_in_doubles(const Regressor& y, const std::vector<std::size
     MatrixXd kept(W.rows(), static_cast<Index>(d.pivots.size()));
     for (std::size_t r = 0; r < d.pivots.size(); ++r)
         kept.col(static_cast<Index>(r)) = W.col(static_cast<Index>(d.pivots[r]));
-    return kept.colPivHouseholderQr().solve(W);
+    return least_norm(kept, W).x;
 }
 
 /// Second moments, then first moments, then masses, then rotors.

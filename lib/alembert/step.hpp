@@ -25,6 +25,7 @@
 /// evaluations for the same error). Quadratures (Rhs::extra) are left out.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -198,24 +199,38 @@ private:
     /// constant.
     template <class Row>
     static Lane weighted_sum(const Lane* k, auto stride) {
-        constexpr int first = first_of<Row>();
-        if constexpr (first == tableau.all_stages) {
+        constexpr int count = terms_of<Row>();
+        if constexpr (count == 0)
             return Lane{};
-        } else {
-            Lane sum = Row::weight(first) * k[first * stride];
-            repeat<tableau.all_stages>([&]<int j>() {
-                constexpr double weight = Row::weight(j);
-                if constexpr (weight != 0 && j != first) sum += weight * k[j * stride];
-            });
-            return sum;
-        }
+        else
+            return sum_of_terms<Row>(k, stride, std::make_integer_sequence<int, count - 1>());
+    }
+
+    /// The terms in one expression, because a function for each would take long to compile.
+    template <class Row, int... n>
+    static Lane sum_of_terms(const Lane* k, auto stride, std::integer_sequence<int, n...>) {
+        constexpr std::array<int, sizeof...(n) + 1> at = places_of<Row, sizeof...(n) + 1>();
+        constexpr std::array<double, sizeof...(n) + 1> weight{Row::weight(at[0]), Row::weight(at[n + 1])...};
+        Lane sum = weight[0] * k[at[0] * stride];
+        (..., (sum += weight[n + 1] * k[at[n + 1] * stride]));
+        return sum;
     }
 
     template <class Row>
-    static constexpr int first_of() {
-        int j = 0;
-        while (j < tableau.all_stages && Row::weight(j) == 0) ++j;
-        return j;
+    static constexpr int terms_of() {
+        int count = 0;
+        for (int j = 0; j < tableau.all_stages; ++j) count += Row::weight(j) != 0 ? 1 : 0;
+        return count;
+    }
+
+    /// The stages whose weights are not zero.
+    template <class Row, std::size_t count>
+    static constexpr std::array<int, count> places_of() {
+        std::array<int, count> places{};
+        std::size_t next = 0;
+        for (int j = 0; j < tableau.all_stages; ++j)
+            if (Row::weight(j) != 0) places[next++] = j;
+        return places;
     }
 
     /// rest + h Σ_j weight_j k_j. Stage `fresh` has just been written, and everything else waits for it. Therefore
