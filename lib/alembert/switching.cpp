@@ -307,8 +307,11 @@ private:
     }
 
     /// The sliding velocity of a pair below which it counts as having stopped: what the tolerance leaves of none.
+    /// Steps hold errors of rates below it times max(1, |rate|), and a body hands them on from one of its feet to
+    /// the others.
     double stopped(int pair) const {
-        const double largest = std::max((*sizes_)[pair], (*sizes_)[pair + 1]);
+        double largest = 1;
+        for (int k = 0; sides_.is_pair(k); ++k) largest = std::max(largest, (*sizes_)[k]);
         return std::max(std::max(options_.tolerance, 1e-13) * largest, still(pair));
     }
 
