@@ -3,6 +3,7 @@
 // switching (tests/reference/belt_blocks.py).
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
 #include <cmath>
 #include <filesystem>
@@ -260,6 +261,68 @@ TEST_CASE("friction: Painlevé's rod has no motion where its determinant is nega
                                                                   {"duration = 2", "duration = 0.05"}})});
     CAPTURE(smooth.err);
     CHECK(smooth.exit == 0);
+}
+
+// A rod of length 2 l slides with its tip on the floor, which it presses with N: gap'' = b + A N/m, where
+// A = 1 + 3 cos θ (cos θ − μ s sin θ), s = ±1 against the sliding, and b = l θ'² sin θ − g (Génot & Brogliato, New
+// results on Painlevé paradoxes, Eur. J. Mech. A/Solids 18 (1999) 653). It stays if b < 0 < A and leaves if both
+// are positive; for A < 0 < b it can do either, and for A, b < 0 neither.
+TEST_CASE("friction: a sliding rod stays, leaves, can do both or neither, as the signs of its closed form say") {
+    const std::string scene = R"toml(
+gravity = [0, "-g"]
+[parameters]
+g = 9.81
+mu = 2
+[coordinates]
+x = { initial = "cos(TH)", rate = "SPEED - sin(TH)*OMEGA" }
+y = { initial = "sin(TH)", rate = "cos(TH)*OMEGA" }
+th = { initial = TH, rate = OMEGA }
+[[frame]]
+name = "B"
+rotate = [["z", "th"]]
+[[body]]
+name = "rod"
+mass = 1
+frame = "B"
+position = ["x", "y"]
+inertia = "1/3"
+[[unilateral]]
+name = "floor"
+gap = "y - sin(th)"
+[[friction]]
+name = "tip"
+coefficient = "mu"
+slip = "x' + sin(th)*th'"
+on = "floor"
+[simulation]
+duration = 0.001
+)toml";
+    int told = 0;
+    for (const double theta : {0.4, 0.8, 1.1, 1.4})
+        for (const double omega : {0.0, 3.0, 4.5})
+            for (const double speed : {3.0, -3.0}) {
+                std::string one = scene;
+                for (const auto& [name, number] : {std::pair("TH", theta), {"OMEGA", omega}, {"SPEED", speed}})
+                    for (std::size_t at = 0; (at = one.find(name)) != std::string::npos;)
+                        one.replace(at, std::string(name).size(), fmt::format("{}", number));
+                const double s = speed < 0 ? 1 : -1, sine = std::sin(theta), cosine = std::cos(theta);
+                const double A = 1 + 3 * cosine * (cosine - 2 * s * sine), b = omega * omega * sine - 9.81;
+                INFO("theta = " << theta << ", omega = " << omega << ", speed " << speed);
+                const std::string file = temporary("rod.toml", one);
+                const auto result = run({"simulate", file, "--no-estimate"});
+                INFO(result.err);
+                CHECK(result.exit == (A > 0 ? 0 : 4));
+                if (A > 0) {
+                    CHECK(result.out.find(b < 0 ? "closed: floor" : "closed: no contact") != std::string::npos);
+                } else if (b > 0) {
+                    ++told;
+                    CHECK(result.err.find("more than one contact mode is consistent at t = 0, with different "
+                                          "accelerations: floor: slip | floor: open") != std::string::npos);
+                } else {
+                    CHECK(result.err.find("no mode of friction 'tip' is consistent") != std::string::npos);
+                }
+            }
+    CHECK(told >= 2);
 }
 
 TEST_CASE("friction: a derivation describes both modes, and a claim with its force is proved") {

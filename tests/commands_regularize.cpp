@@ -41,13 +41,22 @@ void check_refused(const std::string& scene, std::vector<std::string> options, c
 
 }  // namespace
 
+/// Rounding changes the energy by ε/(2√3) of itself in each step, at random, and the orbit gathers 1.5 · 200π
+/// times the mean of that sum, √(steps/3) of it; six times this is allowed for.
+double rounded(const Json& run) {
+    return 1.5 * 200 * M_PI * 2.2e-16 * std::sqrt(run["steps"].get<double>());
+}
+
+// Of half as long steps the errors of the method are 2⁸ times smaller. In t the steps are as many, and the near
+// end, 1e-4 from the middle, costs all digits that it does in time: at least three.
 TEST_CASE("regularize: a comet with e = 0.9999 is where Kepler's equation says after a hundred turns") {
     const Json in_t = simulated(comet, {}), own = simulated(comet, {"--regularize"}),
-               fixed = simulated(comet, {"--regularize", "--step", "0.1"});
+               fixed = simulated(comet, {"--regularize", "--step", "0.1"}),
+               coarse = simulated(comet, {"--regularize", "--step", "0.2"});
     MESSAGE("errors " << error(in_t) << " in t, " << error(own) << " and " << error(fixed) << " regularized");
-    CHECK(error(in_t) > 1e-8);
-    CHECK(error(own) < 3e-11);
-    CHECK(error(fixed) < 3e-10);
+    CHECK(error(in_t) > 1e3 * error(own));
+    CHECK(error(own) < rounded(own));
+    CHECK(error(fixed) < rounded(fixed) + error(coarse) / 256);
     CHECK(own["method"] == "verner98");
     CHECK(fixed["method"] == "kahanli8");
     CHECK(own["regularized"] == true);
@@ -55,19 +64,23 @@ TEST_CASE("regularize: a comet with e = 0.9999 is where Kepler's equation says a
     for (const Json& each : {in_t, own}) CHECK(error(each) < each["error_estimate"]["value"].get<double>());
 }
 
-// Test Set for IVP Solvers, plei.F; to 16 digits here and in commands_hard.
+// Test Set for IVP Solvers, plei.F; to 16 digits here and in commands_hard. kahanli8 comes to rounding, which the
+// near collisions of stars with 0.03 between them make larger: ε for each of 3000 steps at random, √3000 ε
+// = 1.2e-14, times 1/0.03 is 4e-13, and 1e-12 is less than three times that. gauss has 2⁶ times the error in steps
+// twice as long, to a tenth.
 TEST_CASE("regularize: Pleiades in fixed steps, through its near collisions") {
     const std::string pleiades = source_path("scenes/benchmark/pleiades.toml");
-    for (const auto& [method, bound] : {std::pair("kahanli8", 1e-12), std::pair("gauss", 1e-11)}) {
+    for (const std::string method : {"kahanli8", "gauss"}) {
         const Json plain = simulated(pleiades, {"--no-estimate", "--method", method, "--step", "0.001"}),
                    own = simulated(pleiades,
                                    {"--no-estimate", "--method", method, "--step", "0.001", "--regularize"});
         const auto error = [](const Json& run) {
             return std::abs(run["final"]["coordinates"]["x1"].get<double>() - 0.37061391439705129);
         };
-        MESSAGE(std::string(method) << ": x1 off by " << error(plain) << " in t, " << error(own)
-                                    << " regularized");
-        CHECK(error(own) < bound);
+        MESSAGE(method << ": x1 off by " << error(plain) << " in t, " << error(own) << " regularized");
+        const Json coarse =
+            simulated(pleiades, {"--no-estimate", "--method", method, "--step", "0.002", "--regularize"});
+        CHECK(error(own) < (method == "gauss" ? 1.1 / 64 * error(coarse) : 1e-12));
         CHECK(error(plain) > 100 * error(own));
     }
 }
@@ -94,8 +107,10 @@ regularize = true
 )toml");
     const Json result = simulated(polar, {});
     CHECK(result["regularized"] == true);
-    CHECK(std::abs(result["final"]["coordinates"]["r"].get<double>() - 1.999) < 1e-9);
-    CHECK(std::abs(result["final"]["coordinates"]["phi"].get<double>() - 2 * M_PI) < 1e-9);
+    const double told = result["error_estimate"]["value"].get<double>();  // by a run at a tenth of the tolerance
+    CHECK(std::abs(result["final"]["coordinates"]["r"].get<double>() - 1.999) < told);
+    CHECK(std::abs(result["final"]["coordinates"]["phi"].get<double>() - 2 * M_PI) < told);
+    CHECK(told < 1e-9);  // the three digits that 1/(1 - e) = 1000 may cost of a tolerance of 1e-12
     const auto swept = run({"sweep", polar, "--vary", "e=0.1:0.2:2"});
     CHECK(swept.exit == 3);
     CHECK(swept.err.find("sweep does not run regularized") != std::string::npos);

@@ -401,4 +401,22 @@ TEST_CASE("rough together: an impact with more than one consistent result is tol
     }
 }
 
+// A block that a force pulls along the floor, at rest: it stays below μₛ N, and the force above starts it with
+// (F − μ N)/m. Below, sliding with the kinetic coefficient would be a second solution.
+TEST_CASE("rough together: what rests slides only where its static coefficient does not hold it") {
+    const Eigen::MatrixXd none(0, 2);
+    for (const double pull : {0.3, 0.7, 0.9, 1.1, 1.5}) {
+        const std::vector<RoughRows> floor{{.normal = Eigen::RowVector2d(0, 1),
+                                            .slip = Eigen::RowVector2d(1, 0),
+                                            .coefficient = 0.5,
+                                            .resting = 1}};
+        const RoughChoices all = every_rough_choice(2 * Eigen::Matrix2d::Identity(), Eigen::Vector2d(pull, -1),
+                                                    none, Eigen::VectorXd(), floor);
+        CAPTURE(pull);
+        CHECK(all.is_complete);
+        REQUIRE(all.different.size() == 1);
+        CHECK(all.different[0].after[0] == doctest::Approx(pull > 1 ? (pull - 0.5) / 2 : 0).epsilon(1e-14));
+    }
+}
+
 }  // namespace runtime_rough_together

@@ -320,6 +320,9 @@ private:
             const Mechanism::Constraint& given = m_.constraints[k];
             const bool flat = std::all_of(given.row.begin(), given.row.end(),
                                           [&](const ex& e) { return vanishes(e, m_) == true; });
+            if (!given.squared_in.empty())
+                c.notes.push_back(
+                    say("added: its square stands in a combination of {}, which only touch", given.squared_in));
             if (flat) {
                 c.notes.push_back(c.holonomic
                                       ? say("it does not depend on any coordinate: it holds always or never")

@@ -8,6 +8,7 @@
 
 #include "alembert/tolerances.hpp"
 #include "formalism/routh.hpp"
+#include "language/libraries.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/friction.hpp"
@@ -206,17 +207,14 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
     const Eigen::VectorXd slack = negligible_gaps(here, q, tolerance), speed = gap_rates(here, u),
                           still = negligible_rates(here, u);
     std::vector<int> closed;
-    std::string names;
     for (std::size_t k = 0; k < view.names().size(); ++k) {
         const auto i = static_cast<Eigen::Index>(k);
         if (std::abs(here.contacts.value[i]) > slack[i] || std::abs(speed[i]) > still[i]) continue;
         closed.push_back(static_cast<int>(k));
-        names += (names.empty() ? "'" : ", '") + view.names()[k] + "'";
     }
     const Lasting lasting = lasting_contacts(here, closed);
     if (!lasting && !closed.empty())
-        throw IntegrationError(say("no contact mode is consistent at t = {:.17g} with the contacts {} closed: {}",
-                                   state.t, names, lasting.failure),
+        throw IntegrationError(translated_from_library(refusal_of(lasting, state.t, closed, view.names())),
                                state.t, state.q);
     return lasting;
 }

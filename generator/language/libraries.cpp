@@ -45,6 +45,7 @@ constexpr std::array patterns{
         "at t = {} the motion may go on to either side of {} = 0: the equations do not say which; start close to "
         "that state instead"),
     to_say("no contact mode is consistent at t = {} with the contacts {} closed: {}"),
+    to_say("more than one contact mode is consistent at t = {}, with different accelerations: {}"),
     to_say(
         "no contact mode is consistent at t = {}: contact '{}' and others open and close while the time does not "
         "advance; loosen the tolerance, or look at the gaps there"),

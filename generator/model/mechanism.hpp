@@ -137,6 +137,9 @@ struct Mechanism {
         std::optional<int> joint = {};  ///< position in `joints` of the joint whose loop the row closes
         /// Position in `rollings` of the rolling condition to which the row belongs.
         std::optional<int> rolling = {};
+        /// The constraints of the scene in which the square of this one stands, for people; empty for those that
+        /// the scene gives (state/touching.hpp).
+        std::string squared_in = {};
         bool norm = false;  ///< whether this is e·e = 1 of a quaternion: there is no inertia along its row
     };
 

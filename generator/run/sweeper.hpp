@@ -23,6 +23,7 @@
 #include "run/phased_members.hpp"
 #include "run/sweep.hpp"
 #include "state/inertia_check.hpp"
+#include "state/redundancy.hpp"
 
 namespace alembert {
 
@@ -82,6 +83,7 @@ private:
     Sweep s_;
     RunOptions wishes_;
     Program program_, constraints_;
+    std::optional<LeftOut> left_out_;
     std::string source_;
     MethodChoice choice_;  ///< of motions that are not smooth
     Options options_;

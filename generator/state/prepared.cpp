@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "state/prepared.hpp"
 
+#include <algorithm>
+
+#include "language/say.hpp"
 #include "state/inertia_check.hpp"
 #include "state/redundancy.hpp"
+#include "state/touching.hpp"
 
 namespace alembert {
 
@@ -23,11 +27,41 @@ void Prepared::warn(std::string warning) {
         warnings.push_back(std::move(warning));
 }
 
+namespace {
+
+/// One for each group of constraints to which equations were added.
+std::optional<std::string> warning_of_squares(const Prepared& p) {
+    std::vector<Diagnostic> found;
+    const auto& all = p.mechanism.constraints;
+    for (auto c = all.begin(); c != all.end();) {
+        const auto next = std::find_if(c, all.end(), [&](const auto& o) { return o.squared_in != c->squared_in; });
+        if (!c->squared_in.empty()) {
+            std::string names;
+            for (auto each = c; each != next; ++each) names += (each == c ? "'" : ", '") + each->name + "'";
+            found.push_back(
+                {c->place,
+                 say("the constraints {} only touch: wherever all of them hold their rows depend on each other, "
+                     "and "
+                     "loads in some directions would need forces without bound. A combination of them is a sum of "
+                     "squares, each of which is therefore zero; these equations are added as {}, and their "
+                     "multipliers bear such loads",
+                     c->squared_in, names),
+                 Severity::warning});
+        }
+        c = next;
+    }
+    if (found.empty()) return {};
+    return describe(p.scene, found);
+}
+
+}  // namespace
+
 Prepared prepared(Scene scene, const Overrides& at, bool on_sheets) {
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
     if (!result.scene.warnings.empty()) result.warn(describe(result.scene, result.scene.warnings));
     OnSheets built = on_sheets ? build_on_sheets(result.scene) : OnSheets{build(result.scene), nullptr};
-    result.mechanism = with_regular_rows(std::move(built.mechanism));
+    result.mechanism = with_regular_constraints(with_regular_rows(std::move(built.mechanism)));
+    if (auto warning = warning_of_squares(result)) result.warn(*std::move(warning));
     result.sheets = std::move(built.sheets);
     for (std::string& warning : check_bodies(result.scene, result.mechanism, at)) result.warn(std::move(warning));
     return result;

@@ -255,4 +255,30 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
     }
 }
 
+namespace {
+
+Mechanism with_what_was_left_out(Mechanism m) {
+    m.constraints = std::move(m.redundant);
+    m.redundant.clear();
+    m.speeds.clear();
+    return m;
+}
+
+}  // namespace
+
+LeftOut::LeftOut(const Mechanism& m) : program_(lower_constraints(with_what_was_left_out(m))) {}
+
+void LeftOut::check(const State<double>& state) const {
+    const std::vector<double> value = interpret(program_, state);
+    for (const Root& root : program_.roots) {
+        if (root.group != Group::position) continue;
+        const double misfit = std::abs(value[root.node]);
+        if (misfit > tolerance::initial_values * size_of_terms(program_, root.node, value))
+            throw ModelError(
+                say("constraint '{}' follows from the others at the values of the scene, but is off by {:.6g} at "
+                    "these: together they have no solution there",
+                    root.name, misfit));
+    }
+}
+
 }  // namespace alembert

@@ -10,9 +10,11 @@
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
+#include "model/constraint.hpp"
 #include "model/sample_functions.hpp"
 #include "state/assemble.hpp"
 #include "state/contradiction.hpp"
+#include "state/sum_of_squares.hpp"
 
 namespace alembert {
 
@@ -55,16 +57,31 @@ Eigen::MatrixXd with_unit_rows(Eigen::MatrixXd A) {
     return A;
 }
 
-/// The combination λ of the rows (not of unit rows) that is nearest to zero; nothing if they are independent.
-std::optional<Eigen::VectorXd> dependence(const Eigen::MatrixXd& A) {
-    if (!A.allFinite() || A.rows() == 0) return std::nullopt;
+/// Combinations λ of the rows (not of unit rows) that are zero, as many as are independent, each of as few rows as
+/// the others allow: one for each row that depends on those of a basis.
+std::vector<Eigen::VectorXd> dependences(const Eigen::MatrixXd& A) {
+    if (!A.allFinite() || A.rows() == 0) return {};
     const SingularValues parts = singular_values(with_unit_rows(A));
-    const bool dependent = A.rows() > A.cols() || parts.values.tail(1)[0] < nearly_dependent;
-    if (!dependent) return std::nullopt;
-    Eigen::VectorXd lambda = parts.left.rightCols(1);
+    Eigen::Index rank = 0;
+    while (rank < parts.values.size() && parts.values[rank] >= nearly_dependent) ++rank;
+    Eigen::MatrixXd N = parts.left.rightCols(A.rows() - rank);
     for (Eigen::Index r = 0; r < A.rows(); ++r)
-        if (A.row(r).norm() > 0) lambda[r] /= A.row(r).norm();
-    return lambda;
+        if (A.row(r).norm() > 0) N.row(r) /= A.row(r).norm();
+    std::vector<Eigen::VectorXd> result;
+    std::vector<Eigen::Index> taken;
+    for (Eigen::Index c = 0; c < N.cols(); ++c) {
+        Eigen::Index row = 0, column = 0;
+        Eigen::MatrixXd left = N.rightCols(N.cols() - c).cwiseAbs();
+        for (const Eigen::Index r : taken) left.row(r).setZero();
+        left.maxCoeff(&row, &column);
+        N.col(c).swap(N.col(c + column));
+        N.col(c) /= N(row, c);
+        for (Eigen::Index other = 0; other < N.cols(); ++other)
+            if (other != c) N.col(other) -= N(row, other) * N.col(c);
+        taken.push_back(row);
+    }
+    for (Eigen::Index c = 0; c < N.cols(); ++c) result.emplace_back(N.col(c));
+    return result;
 }
 
 /// Orthonormal directions v with A v = 0.
@@ -99,9 +116,47 @@ bool has_one_sign(const HolonomicRows& rows, const State<double>& state, const E
     return (most > nothing && least > -nothing) || (least < -nothing && most < nothing);
 }
 
+/// The rows with a share in λᵀA.
+std::vector<Eigen::Index> rows_in(const Eigen::VectorXd& lambda, const Eigen::MatrixXd& A) {
+    std::vector<Eigen::Index> result;
+    const Eigen::VectorXd shares = lambda.cwiseProduct(A.rowwise().norm()).cwiseAbs();
+    for (Eigen::Index r = 0; r < shares.size(); ++r)
+        if (shares[r] > nearly_dependent * shares.maxCoeff()) result.push_back(r);
+    return result;
+}
+
+/// Are these rows dependent at a state, with a Q of one sign?
+bool touch_at(const HolonomicRows& rows, const State<double>& state, const std::vector<Eigen::Index>& which) {
+    const Eigen::MatrixXd A = rows.at(state);
+    const std::vector<Eigen::VectorXd> there = dependences(A(which, Eigen::all));
+    if (there.empty()) return false;
+    Eigen::VectorXd lambda = Eigen::VectorXd::Zero(A.rows());
+    lambda(which) = there.front();
+    return has_one_sign(rows, state, lambda);
+}
+
+std::string names_of(const Mechanism& m, const std::vector<int>& which) {
+    std::string names;
+    for (const int k : which)
+        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", m.constraints[static_cast<std::size_t>(k)].name);
+    return names;
+}
+
+/// The name of row `number` of those that a group of constraints gives, which no other has: ab_bc_ac_1.
+std::string name_of_row(const Mechanism& m, const std::vector<int>& which, int number) {
+    std::string name;
+    for (const int k : which) name += m.constraints[static_cast<std::size_t>(k)].name + "_";
+    name += std::to_string(number);
+    const auto& symbols = m.symbols->all();
+    while (std::any_of(symbols.begin(), symbols.end(),
+                       [&](const GiNaC::symbol& s) { return s.get_name() == "lambda_" + name; }))
+        name += "_";
+    return name;
+}
+
 }  // namespace
 
-std::vector<int> touching_constraints(const Mechanism& given) {
+std::vector<Touching> touching_constraints(const Mechanism& given) {
     if (given.constraints.size() < 2) return {};
     const Mechanism m = constraints_are_open(given) ? with_sample_functions(given) : given;
     const HolonomicRows rows(m);
@@ -113,32 +168,60 @@ std::vector<int> touching_constraints(const Mechanism& given) {
         return {};  // the command reports this, with the reason
     }
     const State<double> first = start.state();
-    const std::optional<Eigen::VectorXd> lambda = dependence(rows.at(first));
-    if (!lambda || !has_one_sign(rows, first, *lambda)) return {};
-    for (const State<double>& other : states_that_obey(m, start, states_looked_at)) {
-        const std::optional<Eigen::VectorXd> there = dependence(rows.at(other));
-        if (!there || !has_one_sign(rows, other, *there)) return {};
+    const Eigen::MatrixXd A = rows.at(first);
+    std::vector<Touching> result;
+    std::optional<std::vector<State<double>>> others;
+    for (const Eigen::VectorXd& lambda : dependences(A)) {
+        if (!has_one_sign(rows, first, lambda)) continue;
+        const std::vector<Eigen::Index> which = rows_in(lambda, A);
+        if (!others) others = states_that_obey(m, start, states_looked_at);
+        if (!std::all_of(others->begin(), others->end(),
+                         [&](const State<double>& other) { return touch_at(rows, other, which); }))
+            continue;
+        Touching touching{.constraints = {}, .lambda = lambda(which)};
+        for (const Eigen::Index r : which)
+            touching.constraints.push_back(rows.positions()[static_cast<std::size_t>(r)]);
+        result.push_back(std::move(touching));
     }
-    std::vector<int> result;
-    const Eigen::VectorXd shares = lambda->cwiseProduct(rows.at(first).rowwise().norm()).cwiseAbs();
-    for (Eigen::Index r = 0; r < shares.size(); ++r)
-        if (shares[r] > nearly_dependent) result.push_back(rows.positions()[static_cast<std::size_t>(r)]);
     return result;
 }
 
+Mechanism with_regular_constraints(Mechanism m) {
+    std::vector<Mechanism::Constraint> added;
+    for (const Touching& touching : touching_constraints(m)) {
+        const auto squares = sum_of_squares(m, touching.constraints, touching.lambda);
+        if (!squares) continue;
+        const SourceScope source(*m.z, say("constraints {}", names_of(m, touching.constraints)));
+        int number = 0;
+        for (const GiNaC::ex& square : *squares) {
+            const std::string name = name_of_row(m, touching.constraints, ++number);
+            const Place place = m.constraints[static_cast<std::size_t>(touching.constraints.front())].place;
+            added.push_back(constraint_of(
+                {.name = name,
+                 .value = square,
+                 .multiplier =
+                     m.symbols->declare("lambda_" + name, SymbolInfo::Kind::other, static_cast<int>(added.size())),
+                 .place = place,
+                 .at = place},
+                m));
+            added.back().squared_in = names_of(m, touching.constraints);
+        }
+    }
+    // Of rows that depend on each other the first are kept, and these are regular.
+    m.constraints.insert(m.constraints.begin(), added.begin(), added.end());
+    return m;
+}
+
 void refuse_touching(const Mechanism& m) {
-    const std::vector<int> touching = touching_constraints(m);
+    const std::vector<Touching> touching = touching_constraints(m);
     if (touching.empty()) return;
-    std::string names;
-    for (const int k : touching)
-        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", m.constraints[static_cast<std::size_t>(k)].name);
     throw ModelError(say(
         "the constraints {} only touch: wherever they all hold their rows depend on each other, and a direction "
         "is held by their second derivatives alone, so that a load along it has no finite reactions. The "
         "description fails there, not the mechanism: for three points on a line give, in place of one of three "
         "distances, that line itself (the cross product of two of the vectors between them is 0), or place one "
         "point on the line of the others",
-        names));
+        names_of(m, touching.front().constraints)));
 }
 
 }  // namespace alembert

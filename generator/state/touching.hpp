@@ -4,8 +4,10 @@
 /// Finds constraints that only touch: wherever they all hold, their rows depend on each other, and what they hold
 /// beyond their rank they hold by their second derivatives.
 ///
-///     if (const std::vector<int> touching = touching_constraints(mechanism); !touching.empty())
+///     const std::vector<Touching> touching = touching_constraints(mechanism);
 ///         // |AB| = 1, |BC| = 2 and |AC| = 3 keep B on the line AC, but no row holds B across it
+///     mechanism = with_regular_constraints(std::move(mechanism));
+///         // C − 3 B + 2 A = 0 is added, of which the three distances follow from one
 ///
 /// With λᵀA = 0, a motion along v (A v = 0) changes Σ λ_i f_i by ½ vᵀQv with Q = Σ λ_i ∂²f_i/∂q². Where Q takes
 /// both signs, motions go on in several directions: a pose at which branches meet, as of a linkage that lies flat.
@@ -15,16 +17,27 @@
 /// Source: R. Connelly & W. Whiteley, Second-order rigidity and prestress stability for tensegrity frameworks,
 /// SIAM J. Discrete Math. 9 (1996) 453-491 (Q is the stress matrix of distances).
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "model/mechanism.hpp"
 
 namespace alembert {
 
-/// Positions in Mechanism::constraints, ascending; empty if there are none. Judged at the initial state and at
-/// states around it that obey all constraints, which a search finds to the root of its precision only: rows count
-/// as dependent here if less than 1e-3 of one is not explained by the others, at all these states.
-std::vector<int> touching_constraints(const Mechanism& mechanism);
+struct Touching {
+    std::vector<int> constraints;  ///< positions in Mechanism::constraints, ascending
+    Eigen::VectorXd lambda;        ///< λ of each at the initial state
+};
+
+/// Judged at the initial state and at states around it that obey all constraints, which a search finds to the root
+/// of its precision only: rows count as dependent here if less than 1e-3 of one is not explained by the others, at
+/// all these states.
+std::vector<Touching> touching_constraints(const Mechanism& mechanism);
+
+/// Adds, before all others, constraints that hold exactly where the touching ones do and have regular rows
+/// (sum_of_squares.hpp), each with Mechanism::Constraint::squared_in. Touching constraints for which none are
+/// proved stay as they are.
+Mechanism with_regular_constraints(Mechanism mechanism);
 
 /// Throws ModelError if there are some.
 void refuse_touching(const Mechanism& mechanism);

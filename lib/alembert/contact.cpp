@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/contact.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "alembert/dense.hpp"
@@ -78,10 +80,20 @@ bool add_friction(RoughRows& row, const Situation::Rough& rough) {
     return true;
 }
 
+std::vector<std::string> modes_of(const RoughChoice& choice, const std::vector<RoughRows>& rows) {
+    std::vector<std::string> modes;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        modes.emplace_back(!choice.closed[i]                      ? "open"
+                           : rows[i].slip.size() == 0             ? "closed"
+                           : rows[i].side != 0 || choice.moves[i] ? "slip"
+                                                                  : "stick");
+    return modes;
+}
+
 /// The contacts that last with their friction; `closed` is empty where that is not known.
 Lasting lasting_with_friction(const Situation& here, const std::vector<int>& candidates) {
     Lasting lasting;
-    if (candidates.size() < 2 || candidates.size() > most_rough_contacts) return lasting;
+    if (candidates.size() > most_rough_contacts) return lasting;
     std::vector<RoughRows> rows;
     bool any = false;
     for (const int k : candidates) {
@@ -95,9 +107,15 @@ Lasting lasting_with_friction(const Situation& here, const std::vector<int>& can
         any = any || frictions > 0;
     }
     if (!any) return lasting;
-    const RoughChoice found =
-        choose_rough(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration, rows);
-    if (!found.exists) return lasting;
+    const RoughChoices all =
+        every_rough_choice(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration, rows);
+    if (all.different.empty()) return lasting;
+    if (all.different.size() > 1) {
+        lasting.failure = "their accelerations differ";
+        for (const RoughChoice& choice : all.different) lasting.several.push_back(modes_of(choice, rows));
+        return lasting;
+    }
+    const RoughChoice& found = all.different[0];
     lasting.acceleration = found.after;
     for (std::size_t i = 0; i < candidates.size(); ++i)
         if (found.closed[i]) lasting.closed.push_back(candidates[i]);
@@ -153,8 +171,24 @@ bool is_carried(const Situation& here, const std::vector<int>& closed, int k) {
     return rank(stacked(here.bilateral, selected(here.contacts, more)).rows) == rank(without);
 }
 
+std::string refusal_of(const Lasting& lasting, double t, const std::vector<int>& candidates,
+                       const std::vector<std::string>& names) {
+    const auto name = [&](std::size_t i) { return names[static_cast<std::size_t>(candidates[i])]; };
+    std::string text;
+    if (lasting.several.empty()) {
+        for (std::size_t i = 0; i < candidates.size(); ++i) text += (i == 0 ? "'" : ", '") + name(i) + "'";
+        return fmt::format("no contact mode is consistent at t = {} with the contacts {} closed: {}", t, text,
+                           lasting.failure);
+    }
+    for (std::size_t k = 0; k < lasting.several.size(); ++k)
+        for (std::size_t i = 0; i < candidates.size(); ++i)
+            text += (i > 0 ? ", " : k > 0 ? " | " : "") + name(i) + ": " + lasting.several[k][i];
+    return fmt::format("more than one contact mode is consistent at t = {}, with different accelerations: {}", t,
+                       text);
+}
+
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates) {
-    if (Lasting found = lasting_with_friction(here, candidates); !found.closed.empty()) return found;
+    if (Lasting found = lasting_with_friction(here, candidates); !found.closed.empty() || !found) return found;
     const Situation::Rows contacts = selected(here.contacts, candidates);
     const ImpactResult result = press(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration,
                                       contacts.rows, -contacts.acceleration);

@@ -49,18 +49,26 @@ struct Situation {
 struct Lasting {
     std::string
         failure;  ///< if not empty, the reason why no choice is consistent; the other members are then empty
-    Eigen::VectorXd acceleration;  ///< q''
-    std::vector<int>
-        closed;  ///< contacts that stay closed, their rows independent of each other and of the bilateral ones
-    std::vector<int> resting;  ///< these, and the contacts that stay closed because the others do
+    /// If several choices are consistent and differ in q'', the modes of each: `stick`, `slip`, `closed` or `open`
+    /// for each candidate. `failure` says so, too.
+    std::vector<std::vector<std::string>> several = {};
+    Eigen::VectorXd acceleration = {};  ///< q''
+    std::vector<int> closed =
+        {};  ///< contacts that stay closed, their rows independent of each other and of the bilateral ones
+    std::vector<int> resting = {};  ///< these, and the contacts that stay closed because the others do
     explicit operator bool() const { return failure.empty(); }
 };
 
 /// `candidates` are the closed contacts with gap' = 0, ascending. How redundant contacts (the four legs of a
 /// table) share the load is not determined; here as few as possible carry it, and none of them pulls
-/// (Carathéodory). Where several contacts are candidates and one has friction, friction takes part
-/// (rough_choice.hpp), unless no mode is consistent with it.
+/// (Carathéodory). Where a candidate has friction along a line, friction takes part (rough_choice.hpp), unless no
+/// mode is consistent with it; where several are, with different q'', none is chosen.
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates);
+
+/// Why there is no choice, as a message that begins with "no contact mode is consistent at t = …" or "more than
+/// one contact mode is consistent at t = …". `names` are those of all contacts.
+std::string refusal_of(const Lasting& lasting, double t, const std::vector<int>& candidates,
+                       const std::vector<std::string>& names);
 
 /// Do the bilateral rows and the contacts in `closed` determine the acceleration of contact k completely?
 bool is_carried(const Situation& here, const std::vector<int>& closed, int k);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "alembert/dense.hpp"
 
@@ -95,10 +96,15 @@ public:
         return true;
     }
 
+    /// Whether contact i sticks within μₛ, whatever the others need for their modes.
+    bool is_held(std::size_t i) const {
+        const double pi = x_[pressing(i)], tau = x_[pressing(i) + 1];
+        return std::abs(tau) <= contacts_[i].resting * pi;
+    }
+
     RoughChoice result(const std::vector<RoughMode>& modes) const {
         const auto count = static_cast<Index>(modes.size());
-        RoughChoice found{.exists = true,
-                          .after = x_.head(n_),
+        RoughChoice found{.after = x_.head(n_),
                           .normal = VectorXd(count),
                           .tangential = VectorXd(count),
                           .bilateral = x_.segment(n_, m_),
@@ -127,6 +133,18 @@ private:
     VectorXd right_, x_;
     bool has_many_ = false;
 };
+
+/// Whether a contact slides from rest that would stick by its larger static coefficient.
+bool slides_too_early(RoughTrial& trial, const std::vector<RoughRows>& contacts, std::vector<RoughMode> modes) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        const bool slides = modes[i] == RoughMode::slides_up || modes[i] == RoughMode::slides_down;
+        if (!slides || contacts[i].side != 0 || !(contacts[i].resting > contacts[i].coefficient)) continue;
+        const RoughMode former = std::exchange(modes[i], RoughMode::sticks);
+        if (trial.solves(modes) && trial.is_held(i)) return true;
+        modes[i] = former;
+    }
+    return false;
+}
 
 /// The modes that a contact may have, those without sliding first.
 std::vector<RoughMode> modes_of(const RoughRows& contact) {
@@ -158,18 +176,6 @@ void try_choices(RoughTrial& trial, const std::vector<RoughRows>& contacts,
 
 }  // namespace
 
-RoughChoice choose_rough(const MatrixXd& M, const VectorXd& momentum, const MatrixXd& A, const VectorXd& b,
-                         const std::vector<RoughRows>& contacts) {
-    if (contacts.size() > most_rough_contacts) return {};
-    RoughTrial trial(M, momentum, A, b, contacts);
-    RoughChoice first;
-    try_choices(trial, contacts, [&](bool solved, const std::vector<RoughMode>& modes) {
-        if (solved && trial.is_consistent(modes)) first = trial.result(modes);
-        return !first.exists;
-    });
-    return first;
-}
-
 RoughChoices every_rough_choice(const MatrixXd& M, const VectorXd& momentum, const MatrixXd& A, const VectorXd& b,
                                 const std::vector<RoughRows>& contacts) {
     RoughChoices all;
@@ -182,6 +188,7 @@ RoughChoices every_rough_choice(const MatrixXd& M, const VectorXd& momentum, con
         all.is_complete = all.is_complete && !trial.has_many();
         if (!solved || !trial.is_consistent(modes)) return true;
         RoughChoice found = trial.result(modes);
+        if (slides_too_early(trial, contacts, modes)) return true;
         if (std::all_of(all.different.begin(), all.different.end(), [&](const RoughChoice& other) {
                 return energy(found.after - other.after) >
                        alike * (before + energy(found.after) + energy(other.after));

@@ -9,6 +9,12 @@
 /// s η ≥ 0), where π ≥ 0, ξ = g x⁺ + c and η = w x⁺ + d (Moreau, Unilateral Contact and Dry Friction in Finite
 /// Freedom Dynamics, 1988; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 8). All
 /// choices of modes are tried. With M definite, small μ and μₛ = μ the rates of all consistent ones are the same.
+/// What rests slides only where μₛ does not hold it: with μₛ > μ a choice in which a contact slides, although it
+/// would stick while the others keep their modes, does not count.
+///
+/// Where the forces of a choice are not unique, it is not solved. With μₛ = μ nothing is lost: the forces that it
+/// allows are a polyhedron without lines, and at a corner so many contacts are at their bounds, π = 0 or |τ| = μ
+/// π, that a choice in which these are open or slide has the same rates and unique forces.
 
 #include <Eigen/Dense>
 #include <string>
@@ -26,7 +32,6 @@ struct RoughRows {
 };
 
 struct RoughChoice {
-    bool exists = false;
     Eigen::VectorXd after;               ///< x⁺
     Eigen::VectorXd normal, tangential;  ///< π and τ of each contact
     Eigen::VectorXd bilateral;           ///< Λ
@@ -34,12 +39,9 @@ struct RoughChoice {
     std::vector<bool> moves;             ///< which have a sliding velocity that is not 0
 };
 
-/// The first consistent choice. M: n×n; `momentum` is M x⁻ + p; A: m×n. At most `most_rough_contacts`.
-RoughChoice choose_rough(const Eigen::MatrixXd& M, const Eigen::VectorXd& momentum, const Eigen::MatrixXd& A,
-                         const Eigen::VectorXd& b, const std::vector<RoughRows>& contacts);
-
-/// The consistent choices whose rates differ. `is_complete` tells whether there are no others: it is false if the
-/// forces of a choice are not unique, or if there are too many contacts.
+/// The consistent choices whose rates differ, the first of those whose rates are the same. M: n×n; `momentum` is
+/// M x⁻ + p; A: m×n. At most `most_rough_contacts`. `is_complete` tells whether there are no others: it is false
+/// if the forces of a choice are not unique, or if there are too many contacts.
 struct RoughChoices {
     std::vector<RoughChoice> different;
     bool is_complete = false;

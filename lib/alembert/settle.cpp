@@ -214,7 +214,7 @@ private:
         if (lasting)
             take(lasting);
         else if (count_ > 0)
-            fail(all, lasting.failure);
+            result_.failure = refusal_of(lasting, at_.t, all, contacts_.names);
     }
 
     /// The size that gap'' has with or without the contact forces; its errors are measured relative to it.
@@ -249,10 +249,7 @@ private:
     }
 
     bool fail(const std::vector<int>& those, const std::string& why) {
-        std::string names;
-        for (const int k : those) names += (names.empty() ? "'" : ", '") + contacts_.names[k] + "'";
-        result_.failure = fmt::format("no contact mode is consistent at t = {} with the contacts {} closed: {}",
-                                      at_.t, names, why);
+        result_.failure = refusal_of({.failure = why}, at_.t, those, contacts_.names);
         return false;
     }
 

@@ -93,7 +93,6 @@ public:
         };
         // Where ġ bends, the slope there takes the place of that between 0 and 1, which may have the other sign.
         const auto look_around = [&] {
-            constexpr double apart = 1.0 / 8192;
             for (Eigen::Index j = 0; j < s; ++j) {
                 held(j) = alpha[j] + apart;
                 rates(t, y);
@@ -145,6 +144,10 @@ public:
 private:
     // A rate of g below this, relative to the change that its σ makes, is zero.
     static constexpr double negligible = 1e-9;
+    // Two σ between which the slope of ġ is taken: ε^(1/4), a power of two. Rounding makes ε^(3/4) of the slope,
+    // which is 2e-12, and a bend of ġ over the whole range of σ 1e-4; Broyden's method needs its sign and about
+    // its size.
+    static constexpr double apart = 1.0 / 8192;
     static constexpr double dependent = 1e-10;  // the size of a pivot, relative to the largest, that is zero
 
     /// Where functions that slide depend on each other, as the velocities of two ends of one rod, their σ are not

@@ -19,6 +19,7 @@ namespace alembert {
 namespace {
 
 constexpr int most_undecided = 6;  // the most signs that may be undecided together, for which 3⁶ choices are tried
+constexpr double most_gathered = 1e3;  // times the error of a step, which a motion has gathered at most
 constexpr int most_in_one_place = 50;  // the most changes without an advance of time
 // Margin within which a choice still counts as consistent, relative to the rates of g on both sides.
 constexpr double slack = 1e-9;
@@ -260,10 +261,10 @@ private:
 
     /// Adds the pairs that slide without a velocity: of the feet of a body that stops as a whole rounding may have
     /// let one go just before.
-    void open_what_has_stopped(std::vector<int>& open) const {
+    void open_what_has_stopped(std::vector<int>& open, double times = 1) const {
         for (int pair = 0; sides_.is_pair(pair); pair += 2)
             if (sides_[pair] != 0 && std::find(open.begin(), open.end(), pair) == open.end() &&
-                std::hypot(value_of(pair), value_of(pair + 1)) <= stopped(pair))
+                std::hypot(value_of(pair), value_of(pair + 1)) <= times * stopped(pair))
                 open.push_back(pair);
     }
 
@@ -277,11 +278,15 @@ private:
         const std::vector<SideChoice> found = side_choices(system_, sides_, open, t_, state_);
         std::string names;
         for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
-        if (!(found[0].margin > -slack))
+        if (!(found[0].margin > -slack)) {
+            std::vector<int> more = open;  // one that has stopped, too, may have gathered the errors of many steps
+            open_what_has_stopped(more, most_gathered);
+            if (more.size() > open.size()) return choose(more);
             return fail(
                 fmt::format("at t = {} the sign of {} has no consistent side: the equations have no motion "
                             "that goes on from there",
                             t_, names));
+        }
         if (found.size() > 1 && found[1].margin > clear_margin && found[0].jumps)
             return fail(
                 fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
@@ -307,8 +312,11 @@ private:
     }
 
     /// The sliding velocity of a pair below which it counts as having stopped: what the tolerance leaves of none.
+    /// Steps hold errors of rates below it times max(1, |rate|), and a body hands them on from one of its feet to
+    /// the others.
     double stopped(int pair) const {
-        const double largest = std::max((*sizes_)[pair], (*sizes_)[pair + 1]);
+        double largest = 1;
+        for (int k = 0; sides_.is_pair(k); ++k) largest = std::max(largest, (*sizes_)[k]);
         return std::max(std::max(options_.tolerance, 1e-13) * largest, still(pair));
     }
 
