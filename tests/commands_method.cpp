@@ -111,7 +111,7 @@ TEST_CASE("auto: a stiff run goes on with radau and its emitted Jacobian, and en
 TEST_CASE("auto: where a linkage comes to lie flat, dop853 goes on and keeps the energy as if it had begun") {
     if (!alembert::machine::can_run()) return;
     const std::string scene = source_path("scenes/benchmark/four_bars_2.toml");
-    for (const char* const tolerance : {"1e-9", "1e-11"}) {
+    for (const char* const tolerance : {"1e-10", "1e-11"}) {
         const Json result = simulated(scene, {"--tolerance", tolerance}),
                    stages = simulated(scene, {"--tolerance", tolerance, "--method", "dop853"});
         CHECK(result["method"] == "taylor");

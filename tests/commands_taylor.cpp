@@ -125,6 +125,17 @@ TEST_CASE("taylor: a steep change that the series cannot know of is not passed o
     }
 }
 
+// v' = 1 − c tanh(v/w): for c = 4e-4 the rate changes by less than a thousandth, and the polynomials on either
+// side are exact. v is 0 after 1/(1 + c), but for the width w of the change.
+TEST_CASE("taylor: a small steep change is not passed over either") {
+    const std::string scene = temporary(
+        "small.toml",
+        "[parameters]\nc = 4e-4\nw = 1e-6\n[coordinates]\nx = { initial = 0, rate = -1 }\n[energy]\nkinetic = "
+        "\"x'^2/2\"\n[forces]\nx = \"1 - c*tanh(x'/w)\"\n[simulation]\nduration = 2\n");
+    const Json motion = simulated(scene, {"--tolerance", "1e-9"});
+    CHECK(std::abs(rate(motion, "x") - (1 - 4e-4) * (2 - 1 / (1 + 4e-4))) < 1e-8);
+}
+
 TEST_CASE("taylor: the double pendulum at t = 10 agrees with 50 digits, as far as its error growth allows") {
     // 10⁷-fold growth of local errors of 1e-14.
     const Json chaotic = simulated(benchmark("double_pendulum_chaotic"), {"--tolerance", "1e-14"});

@@ -93,6 +93,7 @@ Program view_of(const Mechanism& mechanism) {
     return program.canonical();
 }
 
+constexpr double rate_at_rest = 1e-13;     // of rounding, as in lib/alembert/contact.cpp
 constexpr double negligible_slip = 1e-12;  // of a sliding velocity, relative to the sizes of its terms
 
 }  // namespace
@@ -151,15 +152,16 @@ Situation ContactView::at(const State<double>& state) const {
                    count = static_cast<Eigen::Index>(rough_[k].components);
         const Eigen::MatrixXd along = Eigen::Map<const Rows>(slip_row.data() + at * n_, count, n_);
         const Eigen::VectorXd velocity = slip.segment(at, count);
-        here.rough.push_back({.contact = rough_[k].contact,
-                              .slip = along,
-                              .drift = velocity - along * u,
-                              .velocity = velocity,
-                              .acceleration = -change.segment(at, count),
-                              .coefficient = sliding[i],
-                              .resting = sliding[i] * bound[i],
-                              .restitution = grip[i],
-                              .still = negligible_slip * (along.cwiseAbs() * u.cwiseAbs()).maxCoeff()});
+        here.rough.push_back(
+            {.contact = rough_[k].contact,
+             .slip = along,
+             .drift = velocity - along * u,
+             .velocity = velocity,
+             .acceleration = -change.segment(at, count),
+             .coefficient = sliding[i],
+             .resting = sliding[i] * bound[i],
+             .restitution = grip[i],
+             .still = rate_at_rest + negligible_slip * (along.cwiseAbs() * u.cwiseAbs()).maxCoeff()});
     }
     return here;
 }

@@ -28,6 +28,7 @@ int eliminate(Matrix& A, Matrix& b) {
             b.row(k).swap(b.row(pivot));
             sign = -sign;
         }
+        if (A(k, k) == typename Matrix::Scalar(0)) continue;  // nothing below it either
         for (Eigen::Index i = k + 1; i < A.rows(); ++i) A(i, k) /= A(k, k);
         for (Eigen::Index j = k + 1; j < A.cols(); ++j)
             for (Eigen::Index i = k + 1; i < A.rows(); ++i) A(i, j) -= A(i, k) * A(k, j);

@@ -236,7 +236,7 @@ std::optional<MemorySolver> memory_solver(const Program& program, bool with_pack
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
     std::shared_ptr<const alembert_pack_table> packs;
-    const int allowed = registers.value_or(Encoder::registers_of_processor());
+    const int own = Encoder::registers_of_processor(), allowed = std::min(own, registers.value_or(own));
     if (with_packs && !(packs = Building(program, lanes, allowed).packs())) return std::nullopt;
     return Building(program, 1, allowed).solver(std::move(packs));
 }

@@ -154,7 +154,10 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
     std::optional<Module> canonical;
     if (form) canonical = solver_code(*form, program.name + "_canonical", wishes_).module;
     seconds_.compile += lap();
-    const CodeKind kind = code.go_over ? CodeKind::memory : CodeKind::compiled;
+    const bool is_series_compiled = series.module && !series.go_over;
+    const CodeKind kind = !code.go_over        ? CodeKind::compiled
+                          : is_series_compiled ? CodeKind::both
+                                               : CodeKind::memory;
     std::optional<Program> running;
     if (derivatives)
         running = std::move(derivatives->program);

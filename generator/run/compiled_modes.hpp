@@ -53,7 +53,7 @@ class CompiledModes {
 public:
     /// The arguments must outlive this object. For implicit methods the solvers are emitted with their Jacobian,
     /// unless that would take long to compile; for methods that change to an implicit one when the motion is
-    /// stiff, the Jacobian is emitted at that time. For taylor the series is emitted.
+    /// stiff, the Jacobian is emitted at that time. For taylor the series is made too.
     CompiledModes(const RunOptions& wishes, const Derived& derived, Work work, const MethodChoice& method);
 
     /// The mode with the contacts `closed`, in ascending order. Throws IntegrationError if the mass matrix is

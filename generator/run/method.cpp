@@ -23,7 +23,8 @@ namespace alembert {
 namespace {
 
 constexpr double many_steps = 1e4;
-constexpr double most_products = 300;  // the most products of a series that compiles in about a second
+constexpr double most_products = 300;   // of a series that compiles in about a second; longer ones gain little
+constexpr double usual_operations = 4;  // of a right-hand side for each product, at most
 /// At 3e-5 verner98 becomes faster than dop853 (tests/bench/regret.sh).
 constexpr double loose = 3e-5;
 
@@ -32,20 +33,21 @@ constexpr double loose = 3e-5;
 struct Strict {
     double free, constrained;
 };
-constexpr Strict in_memory{1.01e-8, 1.01e-8}, by_compiler{0.99e-10, 1e-12};
+constexpr Strict in_memory{1.01e-8, 1.01e-8}, by_compiler{0.99e-10, 0.99e-12};
 
 /// The number of Cauchy products at each order; nothing if there is no series.
 std::optional<double> products_of_series(const Program& program, const Derived& d) {
     if (!d.mechanism.unilateral.empty()) return std::nullopt;
-    if (program.count(program.right_hand_side()).total() > 4 * most_products) return std::nullopt;
+    if (program.count(program.right_hand_side()).total() > usual_operations * most_products) return std::nullopt;
     if (obstacle_to_recurrences(program)) return std::nullopt;
     return recurrences(program).products();
 }
 
-/// Whether taylor is likely to be faster than verner98. A step of taylor has its order chosen by the tolerance, so
-/// that its length hardly depends on it, while a step of order 9 becomes shorter: the quotient of the lengths for
-/// the same error at the end grows by 23 % in each decade (the median of 16 systems; theory says 22 % with 24
-/// orders). Against that stands the predicted cost of each step.
+/// Whether taylor is likely to be faster than verner98, by the cost of a compiled series, to which long runs go
+/// over. A step of taylor has its order chosen by the tolerance, so that its length hardly depends on it, while a
+/// step of order 9 becomes shorter: the quotient of the lengths for the same error at the end grows by 23 % in
+/// each decade (the median of 16 systems; theory says 22 % with 24 orders). Against that stands the predicted cost
+/// of each step.
 bool is_series_faster(const Program& program, double tolerance) {
     const double longer = 1.1 * std::pow(1e-6 / tolerance, 0.09);
     const SeriesCost cost = series_cost(program);

@@ -27,12 +27,11 @@ class Values {
 public:
     explicit Values(const Mechanism& m) : numbers_(m) {
         for (std::size_t round = 0; round <= m.parameters.size(); ++round)
-            for (const Mechanism::Parameter& p : m.parameters)
-                if (!exact_.contains(p.symbol)) exact_[p.symbol] = p.value.subs(exact_, no_pattern);
+            for (const Mechanism::Parameter& p : m.parameters) exact_[p.symbol] = p.value.subs(exact_, no_pattern);
     }
 
     bool is_zero(const ex& e) const {
-        return e.is_zero() || e.subs(exact_, no_pattern).subs(exact_, no_pattern).normal().expand().is_zero();
+        return e.is_zero() || e.subs(exact_, no_pattern).normal().expand().is_zero();
     }
     double number(const ex& e) const { return numbers_.number(e); }
 

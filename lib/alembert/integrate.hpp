@@ -97,9 +97,10 @@ struct Options {
     std::optional<Method> when_stiff = {};
     std::function<Rhs()> rhs_when_stiff =
         {};  ///< gives the same system with its Jacobian at that time; if empty, the same Rhs is used
-    /// Where no step is short enough, or where a power series needs steps of a twentieth of its longest, the run
-    /// goes on with this method to its end. Where a linkage lies flat, pivots of its equations pass through zero:
-    /// values beside that pose are still good, but the coefficients of a series lose all digits as it comes close.
+    /// Where no step is short enough, or where a power series needs steps of a twentieth of its longest though
+    /// the motion is no faster, the run goes on with this method to its end. Where a linkage lies flat, pivots of
+    /// its equations pass through zero: values beside that pose are still good, but the coefficients of a series
+    /// lose all digits as it comes close.
     std::optional<Method> when_stuck = {};
     Turns turns = {};
     OnStep on_step = {};  ///< may be empty

@@ -147,6 +147,7 @@ private:
         inner.grid = {};
         inner.quick_times = {};  // they are in t
         inner.when_stiff = {};
+        inner.when_stuck = {};
         inner.rhs_when_stiff = {};
         inner.by = {};
         if (options_.duration == 0) inner.duration = 0;

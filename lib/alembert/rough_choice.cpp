@@ -73,7 +73,11 @@ public:
     /// Whether the last system had more than one solution.
     bool has_many() const { return has_many_; }
 
-    bool is_consistent(const std::vector<RoughMode>& modes) const {
+    /// Whether the conditions of the modes hold, up to rounding (Judged::loosely) or by more than rounding can
+    /// spoil.
+    enum class Judged { loosely, clearly };
+    bool is_consistent(const std::vector<RoughMode>& modes, Judged judged) const {
+        const double allowed = judged == Judged::loosely ? slack : -slack;
         const VectorXd after = x_.head(n_), sizes = after.cwiseAbs();
         const double force = x_.tail(x_.size() - n_ - m_).cwiseAbs().maxCoeff();
         for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -82,15 +86,15 @@ public:
             const double gap = c.normal.dot(after) + c.offset,
                          gap_size = c.normal.cwiseAbs().dot(sizes) + std::abs(c.offset);
             if (modes[i] == RoughMode::open) {
-                if (gap < -slack * gap_size) return false;
+                if (gap < -allowed * gap_size) return false;
                 continue;
             }
-            if (pi < -slack * force) return false;
+            if (pi < -allowed * force) return false;
             if (c.slip.size() == 0) continue;
             const double slip = c.slip.dot(after) + c.slip_offset,
                          slip_size = c.slip.cwiseAbs().dot(sizes) + std::abs(c.slip_offset);
-            if (modes[i] == RoughMode::sticks ? std::abs(tau) > c.resting * pi + slack * force
-                                              : c.side == 0 && side(modes[i]) * slip < -slack * slip_size)
+            if (modes[i] == RoughMode::sticks ? std::abs(tau) > c.resting * pi + allowed * force
+                                              : c.side == 0 && side(modes[i]) * slip < -allowed * slip_size)
                 return false;
         }
         return true;
@@ -99,7 +103,8 @@ public:
     /// Whether contact i sticks within μₛ, whatever the others need for their modes.
     bool is_held(std::size_t i) const {
         const double pi = x_[pressing(i)], tau = x_[pressing(i) + 1];
-        return std::abs(tau) <= contacts_[i].resting * pi;
+        return std::abs(tau) <=
+               contacts_[i].resting * pi + slack * x_.tail(x_.size() - n_ - m_).cwiseAbs().maxCoeff();
     }
 
     RoughChoice result(const std::vector<RoughMode>& modes) const {
@@ -184,18 +189,30 @@ RoughChoices every_rough_choice(const MatrixXd& M, const VectorXd& momentum, con
     RoughTrial trial(M, momentum, A, b, contacts);
     const auto energy = [&](const VectorXd& rates) { return rates.dot(M * rates); };
     const double before = std::abs(momentum.dot(least_norm(M, momentum).x.col(0)));
+    std::vector<char> clear;  // of each choice, whether rounding could not spoil it
     try_choices(trial, contacts, [&](bool solved, const std::vector<RoughMode>& modes) {
         all.is_complete = all.is_complete && !trial.has_many();
-        if (!solved || !trial.is_consistent(modes)) return true;
+        if (!solved || !trial.is_consistent(modes, RoughTrial::Judged::loosely)) return true;
+        const char is_clear = trial.is_consistent(modes, RoughTrial::Judged::clearly) ? 1 : 0;
         RoughChoice found = trial.result(modes);
         if (slides_too_early(trial, contacts, modes)) return true;
-        if (std::all_of(all.different.begin(), all.different.end(), [&](const RoughChoice& other) {
-                return energy(found.after - other.after) >
-                       alike * (before + energy(found.after) + energy(other.after));
-            }))
+        const auto same = std::find_if(all.different.begin(), all.different.end(), [&](const RoughChoice& other) {
+            return energy(found.after - other.after) <=
+                   alike * (before + energy(found.after) + energy(other.after));
+        });
+        if (same != all.different.end()) {
+            clear[static_cast<std::size_t>(same - all.different.begin())] |= is_clear;
+        } else {
             all.different.push_back(std::move(found));
+            clear.push_back(is_clear);
+        }
         return true;
     });
+    // Beside a choice that is clear, one that rounding may have made consistent is none.
+    if (all.different.size() > 1 && std::count(clear.begin(), clear.end(), 1) < 2) {
+        const auto first = std::max_element(clear.begin(), clear.end());
+        all.different = {all.different[static_cast<std::size_t>(first - clear.begin())]};
+    }
     return all;
 }
 

@@ -154,6 +154,7 @@ private:
             ++further_evaluations_;
         }
         double misfit = 0;
+        bool was_foreseen = true;  // the end of the try before
         while (step_.time() < end_ && !ended()) {
             const double wish = std::min(h, longest);
             h = within_quick_times(wish);
@@ -166,25 +167,34 @@ private:
             step_.attempt(reach < end_ ? step_.time() + h : end_);
             misfit = step_.misfit();
             const double noise = rounding(), allowed = std::max(tolerance_, noise);
-            if (misfit <= allowed && !(finish() && foresees_end())) misfit = HUGE_VAL;
+            bool is_foreseen = true;
+            if (misfit <= allowed && !(finish() && (is_foreseen = foresees_end()))) misfit = HUGE_VAL;
             const bool good = misfit <= allowed;
             if (good)
                 accept();
             else
                 ++result_.statistics.rejected;
             if (step_.time() < end_) h = next_length(control, good, misfit / allowed * certainty(misfit, noise));
-            if (good && is_shrinking(h)) return change_to(*options_.when_stuck, Switch::Why::stuck, 0);
+            if (good && !ended() && is_shrinking(std::min(h, longest)))
+                return change_to(*options_.when_stuck, Switch::Why::stuck, 0);
+            if (good && !was_foreseen) h = std::min(h, 2 * step_.length());  // what is ahead is still there
+            was_foreseen = is_foreseen;
             if constexpr (!requires { step_.next_length(good, misfit); })
                 if (is_held && good) h = std::max(h, wish);  // a step that was shortened on request is no forecast
         }
     }
 
-    /// Whether a power series would take a step so short that the method for this case should go on.
+    /// Whether a power series would take a step so short, in time and in what the state changes in it, that the
+    /// method for this case should go on. (Where a motion is fast, steps are short but the state changes as much.)
     bool is_shrinking(double h) {
         constexpr double small = 0.05;
         if constexpr (!requires { step_.first_length(); }) return false;
+        if (!options_.when_stuck || step_.time() >= end_) return false;
+        double fastest = 0;
+        for (int i = 0; i < result_.dimension; ++i) fastest = std::max(fastest, std::abs(step_.rate()[i]));
         longest_wish_ = std::max(longest_wish_, h);
-        return options_.when_stuck && step_.time() < end_ && h < small * longest_wish_;
+        widest_wish_ = std::max(widest_wish_, h * fastest);
+        return h < small * longest_wish_ && h * fastest < small * widest_wish_;
     }
 
     /// An estimate that is smaller than its rounding says nothing of the error but that it is not larger. A step
@@ -404,6 +414,7 @@ private:
     Pace pace_;
     long mild_steps_ = 0;        ///< the last steps with which the other method would be stable
     double longest_wish_ = 0;    ///< of the lengths that a power series would have taken
+    double widest_wish_ = 0;     ///< of these lengths times the largest rate
     double earlier_length_ = 0;  ///< of the step before the last that was looked at
     Trajectory result_;
     Recorder recorder_;

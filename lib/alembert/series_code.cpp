@@ -110,6 +110,7 @@ void expand_for_code(double t, const double* state, const double* par, int order
     code->first(t, state, par, work, odd);
     code->fix(work);
     std::copy_n(state, at.width, out);
+    if (order == 0) return;
     expand({.code = *code, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
 }
 

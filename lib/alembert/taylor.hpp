@@ -13,12 +13,13 @@
 /// (Jorba & Zou, Experimental Math. 14 (2005) 99-117, §3.2: their ρ e^(−2 − 0.7/(p−1)) is that for p = ⌈1 − ½ ln
 /// tolerance⌉ and a = ½), so that the last terms are a times the tolerance and the omitted terms are smaller. Here
 /// a = 1/20, because the errors of the steps of a long run add up. The step length is proportional to
-/// tolerance^(1/p), and the time of a step is about 1 + c p + d p² (c and d come from the emitted file); p is
+/// tolerance^(1/p), and the time of a step is about 1 + c p + d p² (c and d come with the series); p is
 /// chosen so that the time per length is least. A series knows nothing of what changes fast further on, such as a
 /// pulse or the jump of a steep tanh: a step is repeated with half its length where the rate at its end is not
-/// that of the polynomial. If products of series take all the time, this is Jorba & Zou's order (§3.1), otherwise
-/// it is higher. The polynomial is kept, so that a state within the step only costs its evaluation. `error` is the
-/// last term.
+/// that of the polynomial. (A change that depends on the state and is over before the end is not seen, and steps
+/// of a given length are not checked.) If products of series take all the time, this is Jorba & Zou's order
+/// (§3.1), otherwise it is higher. The polynomial is kept, so that a state within the step only costs its
+/// evaluation. `error` is the last term.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,8 @@
 
 namespace alembert {
 
-inline constexpr double taylor_share = 0.05;  ///< a: the last term as a part of the tolerance
+inline constexpr double shortest_tried = 1e-11;  ///< of t; a jump that is no event cannot be foreseen
+inline constexpr double taylor_share = 0.05;     ///< a: the last term as a part of the tolerance
 
 /// The order that makes (1 + order_cost p + product_cost p²) tolerance^(−1/p) least, at least ⌈1 − ½ ln tolerance⌉
 /// and 4.
@@ -97,7 +99,8 @@ public:
     /// Whether the rate at the end is that of the polynomial. The terms left out change it by about the tolerance
     /// over the length of the step, and rounding by a small part of it.
     bool foresees_end(const Ends& ends) const {
-        constexpr double terms = 30, rounded = 1e-3;
+        constexpr double terms = 30, rounded = 1e-8;
+        if (ends.h < shortest_tried * std::max(1.0, std::abs(ends.t))) return true;  // a jump
         const double allowed = terms * std::exp(log_tolerance_) / taylor_share;
         for (int i = 0; i < ends.controlled; ++i) {
             const auto k = static_cast<std::size_t>(i);
