@@ -23,14 +23,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <new>
 
+#include "alembert/series_sum.hpp"
 #include "alembert/stepper.hpp"
 
 namespace alembert {
 
+inline constexpr double terms_left_out = 30;     ///< what they may change a step by, in tolerances
 inline constexpr double shortest_tried = 1e-11;  ///< of t; a jump that is no event cannot be foreseen
 inline constexpr double taylor_share = 0.05;     ///< a: the last term as a part of the tolerance
 
@@ -58,10 +59,11 @@ public:
 
     Taylor(const Ends& ends, double tolerance)
         : log_tolerance_(std::log(taylor_share * tolerance)),
+          most_missed_(terms_left_out * tolerance),
           order_(
               taylor_order(tolerance, ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost)),
           size_(ends.y.size()),
-          coefficients_(static_cast<std::size_t>(order_ + 1) * size_),
+          coefficients_(static_cast<std::size_t>(order_ + 1) * size_ + room_behind_rows),
           next_(coefficients_.size()),
           slopes_(size_),
           work_(static_cast<std::size_t>(ends.rhs.series.workspace) + 8) {
@@ -82,7 +84,7 @@ public:
     bool increment(Ends& ends, double h, double* change, double*) {
         if (!expanded_) expand(ends, ends.t, ends.y, coefficients_);
         expanded_ = true;
-        add_up<true>(h, change);
+        sum_series(coefficients_.data(), order_, static_cast<int>(size_), h, change, slopes_.data());
         double power = 1, square = h;
         for (int k = order_; k > 0; k /= 2, square *= square)
             if (k % 2 == 1) power *= square;
@@ -99,16 +101,17 @@ public:
     /// Whether the rate at the end is that of the polynomial. The terms left out change it by about the tolerance
     /// over the length of the step, and rounding by a small part of it.
     bool foresees_end(const Ends& ends) const {
-        constexpr double terms = 30, rounded = 1e-8;
+        constexpr double rounded = 1e-8;
         if (ends.h < shortest_tried * std::max(1.0, std::abs(ends.t))) return true;  // a jump
-        const double allowed = terms * std::exp(log_tolerance_) / taylor_share;
-        for (int i = 0; i < ends.controlled; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            const double miss = std::abs(slopes_[k] - ends.h * ends.end_rate[k]);
-            if (miss > allowed * ends.scale(i) &&
-                miss > rounded * ends.h * std::max(std::abs(ends.rate[k]), std::abs(ends.end_rate[k])))
+        const auto miss = [&](std::size_t i) { return std::abs(slopes_[i] - ends.h * ends.end_rate[i]); };
+        const auto count = static_cast<std::size_t>(ends.controlled);
+        double largest = 0;
+        for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, miss(i));
+        if (largest <= most_missed_) return true;
+        for (std::size_t i = 0; i < count; ++i)
+            if (miss(i) > most_missed_ * ends.scale(static_cast<int>(i)) &&
+                miss(i) > rounded * ends.h * std::max(std::abs(ends.rate[i]), std::abs(ends.end_rate[i])))
                 return false;
-        }
         return true;
     }
 
@@ -126,48 +129,13 @@ public:
                    : ends.h * (std::isfinite(ratio) ? std::min(0.8, 0.9 * std::pow(ratio, -1.0 / order_)) : 0.5);
     }
 
-    void interpolate(const Ends& ends, double theta, double* out) {
-        add_up<false>(theta * ends.h, out);
+    void interpolate(const Ends& ends, double theta, double* out) const {
+        sum_series(coefficients_.data(), order_, static_cast<int>(size_), theta * ends.h, out, nullptr);
         for (std::size_t i = 0; i < size_; ++i) out[i] = ends.y[i] + (out[i] + ends.rest[i]);
     }
 
 private:
-    template <std::size_t count>
-    struct Sums {
-        double values[4][count] = {};
-    };
-
     const double* row(int k) const { return coefficients_.data() + static_cast<std::size_t>(k) * size_; }
-
-    /// Σ_{k≥1} c_k h^k, two components at a time, each as four polynomials in h⁴, so that fewer operations wait
-    /// for each other; with slopes, also Σ k c_k h^k.
-    template <bool with_slopes>
-    void add_up(double h, double* change) {
-        const double h2 = h * h, h4 = h2 * h2;
-        const auto part = [&](std::size_t i, auto sum) {
-            auto slope = sum;
-            constexpr std::size_t count = std::size(decltype(sum){}.values[0]);
-            const int top = order_ / 4 * 4;
-            for (int k = top; k >= 0; k -= 4)
-                for (int r = 0; r < 4; ++r)
-                    for (std::size_t j = 0; j < count; ++j) {
-                        const bool there = k + r <= order_ && k + r > 0;
-                        const double term = there ? row(k + r)[i + j] : 0;
-                        sum.values[r][j] = h4 * sum.values[r][j] + term;
-                        if constexpr (with_slopes) slope.values[r][j] = h4 * slope.values[r][j] + (k + r) * term;
-                    }
-            const auto total = [&](const auto& of, std::size_t j) {
-                return (of.values[0][j] + h2 * of.values[2][j]) + h * (of.values[1][j] + h2 * of.values[3][j]);
-            };
-            for (std::size_t j = 0; j < count; ++j) {
-                change[i + j] = total(sum, j);
-                if constexpr (with_slopes) slopes_[i + j] = total(slope, j);
-            }
-        };
-        std::size_t i = 0;
-        for (; i + 2 <= size_; i += 2) part(i, Sums<2>());
-        if (i < size_) part(i, Sums<1>());
-    }
 
     void expand(Ends& ends, double t, const std::vector<double>& y, std::vector<double>& out) {
         ends.rhs.series(t, y.data(), order_, out.data(), aligned_);
@@ -198,7 +166,7 @@ private:
         return result;
     }
 
-    double log_tolerance_, effort_ = 0;
+    double log_tolerance_, most_missed_, effort_ = 0;
     int order_;
     std::size_t size_;
     std::vector<double> coefficients_, next_;
