@@ -33,7 +33,7 @@ constexpr double loose = 3e-5;
 struct Strict {
     double free, constrained;
 };
-constexpr Strict in_memory{1.01e-8, 1.01e-8}, by_compiler{0.99e-10, 0.99e-12};
+constexpr Strict in_memory{1.01e-6, 1.01e-6}, by_compiler{0.99e-10, 0.99e-12};
 
 /// The number of Cauchy products at each order; nothing if there is no series.
 std::optional<double> products_of_series(const Program& program, const Derived& d) {

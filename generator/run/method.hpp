@@ -15,7 +15,7 @@
 /// | a step, energy separable, 10 000 steps or more | kahanli8: its energy does not drift |
 /// | a step | rk4 |
 /// | a tolerance above 3e-5 | dop853 |
-/// | 1e-8 or below, with a power series that is not too long and predicted to be faster | taylor |
+/// | 1e-6 or below, with a power series that is not too long and predicted to be faster | taylor |
 /// | any other, without constraints | verner98 |
 /// | any other, with constraints | dop853 to 1e-12, verner98 below |
 ///

@@ -12,7 +12,7 @@
 ///
 /// (Jorba & Zou, Experimental Math. 14 (2005) 99-117, §3.2: their ρ e^(−2 − 0.7/(p−1)) is that for p = ⌈1 − ½ ln
 /// tolerance⌉ and a = ½), so that the last terms are a times the tolerance and the omitted terms are smaller. Here
-/// a = 1/20, because the errors of the steps of a long run add up. The step length is proportional to
+/// a = 1/200, because the errors of the steps of a long run add up. The step length is proportional to
 /// tolerance^(1/p), and the time of a step is about 1 + c p + d p² (c and d come with the series); p is
 /// chosen so that the time per length is least. A series knows nothing of what changes fast further on, such as a
 /// pulse or the jump of a steep tanh: a step is repeated with half its length where the rate at its end is not
@@ -33,7 +33,7 @@ namespace alembert {
 
 inline constexpr double terms_left_out = 30;     ///< what they may change a step by, in tolerances
 inline constexpr double shortest_tried = 1e-11;  ///< of t; a jump that is no event cannot be foreseen
-inline constexpr double taylor_share = 0.05;     ///< a: the last term as a part of the tolerance
+inline constexpr double taylor_share = 0.005;    ///< a: the last term as a part of the tolerance
 
 /// The order that makes (1 + order_cost p + product_cost p²) tolerance^(−1/p) least, at least ⌈1 − ½ ln tolerance⌉
 /// and 4.
