@@ -33,9 +33,10 @@ double compiling(const Program& program) {
     return 0.07 + 0.27e-3 * program.size();
 }
 
-/// Likewise, of a series in memory.
+/// Of the file of a series, from the cost of that in memory: nine scenes took 0.13 to 0.6 s, those with packs of
+/// equal products a quarter of this, the others a half to twice.
 double compiling(const alembert_series_table& series) {
-    return 0.2 + 0.6 * series.order_cost;
+    return 0.1 + 0.4 * series.order_cost;
 }
 
 }  // namespace

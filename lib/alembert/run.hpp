@@ -27,6 +27,7 @@
 #include "alembert/pace.hpp"
 #include "alembert/recorder.hpp"
 #include "alembert/rounding.hpp"
+#include "alembert/shrinking.hpp"
 #include "alembert/step.hpp"
 #include "alembert/step_size.hpp"
 #include "alembert/stiffness.hpp"
@@ -184,17 +185,12 @@ private:
         }
     }
 
-    /// Whether a power series would take a step so short, in time and in what the state changes in it, that the
-    /// method for this case should go on. (Where a motion is fast, steps are short but the state changes as much.)
     bool is_shrinking(double h) {
-        constexpr double small = 0.05;
         if constexpr (!requires { step_.first_length(); }) return false;
         if (!options_.when_stuck || step_.time() >= end_) return false;
         double fastest = 0;
         for (int i = 0; i < result_.dimension; ++i) fastest = std::max(fastest, std::abs(step_.rate()[i]));
-        longest_wish_ = std::max(longest_wish_, h);
-        widest_wish_ = std::max(widest_wish_, h * fastest);
-        return h < small * longest_wish_ && h * fastest < small * widest_wish_;
+        return shrinking_.shrinks(h, fastest);
     }
 
     /// An estimate that is smaller than its rounding says nothing of the error but that it is not larger. A step
@@ -413,8 +409,7 @@ private:
     StiffnessWatch stiffness_;
     Pace pace_;
     long mild_steps_ = 0;        ///< the last steps with which the other method would be stable
-    double longest_wish_ = 0;    ///< of the lengths that a power series would have taken
-    double widest_wish_ = 0;     ///< of these lengths times the largest rate
+    ShrinkingSteps shrinking_;   ///< of a power series
     double earlier_length_ = 0;  ///< of the step before the last that was looked at
     Trajectory result_;
     Recorder recorder_;

@@ -31,7 +31,7 @@
 
 namespace alembert {
 
-inline constexpr double terms_left_out = 30;     ///< what they may change a step by, in tolerances
+inline constexpr double terms_left_out = 30;     ///< what may change the slope of a step, in tolerances
 inline constexpr double shortest_tried = 1e-11;  ///< of t; a jump that is no event cannot be foreseen
 inline constexpr double taylor_share = 0.005;    ///< a: the last term as a part of the tolerance
 
@@ -98,8 +98,10 @@ public:
         std::copy_n(next_.data() + size_, size_, ends.end_rate.data());
     }
 
-    /// Whether the rate at the end is that of the polynomial. The terms left out change it by about the tolerance
-    /// over the length of the step, and rounding by a small part of it.
+    /// Whether the rate at the end is that of the polynomial. Times the length of the step, the terms left out
+    /// change it by about p a tolerances, and what moves the end onto constraints by hL, at most
+    /// stable_interval(): together by less than terms_left_out tolerances. Rounding changes it by a small part of
+    /// itself.
     bool foresees_end(const Ends& ends) const {
         constexpr double rounded = 1e-8;
         if (ends.h < shortest_tried * std::max(1.0, std::abs(ends.t))) return true;  // a jump
