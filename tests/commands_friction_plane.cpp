@@ -20,6 +20,8 @@ using namespace alembert::test;
 
 namespace {
 
+constexpr double pi = 3.14159265358979323846;
+
 std::string scene_of(const std::string& name) {
     return source_path("scenes/friction/" + name + ".toml");
 }
@@ -37,6 +39,101 @@ void check_balance(const Json& motion) {
 }
 
 }  // namespace
+
+TEST_CASE("friction in a plane: both ends of a dragged rod give way when no forces hold it any more") {
+    // Statics: the moment about Q leaves F sin(phi0) across the rod at P; along it both ends bear at most
+    // √(B² − F² sin²) + B = F cos, B = mu m g/2.
+    const double phi = 0.5, force = 0.3 * g * std::cos(phi), time = force / (20 * 0.1);
+    const Json motion = simulated(scene_of("dragged_rod"));
+    const auto slips = of_kind(motion, "slip");
+    REQUIRE(slips.size() == 2);
+    CHECK(slips[0]["name"] == "at_P");
+    CHECK(slips[1]["name"] == "at_Q");
+    for (const Json& slip : slips) {
+        CHECK(value(slip, "time") == near(time));
+        const double across = slip["name"] == "at_P" ? -phi : phi;
+        CHECK(std::abs(slip["direction"][0].get<double>() - std::cos(across)) < 1e-6);
+        CHECK(std::abs(slip["direction"][1].get<double>() - std::sin(across)) < 1e-6);
+    }
+    CHECK(of_kind(motion, "stick").size() == 2);  // at the start
+    check_balance(motion);
+
+    // The same with forces −mu N v/√(v² + eps²), which need no choice of modes: it differs by about eps times the
+    // duration.
+    std::string smooth = contents(scene_of("dragged_rod"));
+    smooth.erase(smooth.find("[[friction]]"), smooth.find("[simulation]") - smooth.find("[[friction]]"));
+    smooth += R"toml(
+[definitions]
+px = "dot(vel(P), ex(N))"
+py = "dot(vel(P), ey(N))"
+qx = "dot(vel(Q), ex(N))"
+qy = "dot(vel(Q), ey(N))"
+p = "mu*m*g/2/sqrt(px^2 + py^2 + 1e-12)"
+q = "mu*m*g/2/sqrt(qx^2 + qy^2 + 1e-12)"
+[forces]
+x = "-p*px - q*qx"
+y = "-p*py - q*qy"
+phi = "a*(p*(px*sin(phi) - py*cos(phi)) - q*(qx*sin(phi) - qy*cos(phi)))"
+)toml";
+    const Json other =
+        simulated(temporary("smooth_rod.toml", smooth), {"--method", "radau", "--tolerance", "1e-9"});
+    for (const char* q : {"x", "y", "phi"}) CHECK(std::abs(coordinate(motion, q) - coordinate(other, q)) < 1e-5);
+}
+
+TEST_CASE("friction in a plane: a table on four feet, pulled at its middle, sticks and slips as a block does") {
+    // Held forces are not determined, and static friction exceeds the sliding one. With w = v t − x − mu m g/k the
+    // block obeys w'' = −k w/m, from w = (static − mu) m g/k and w' = v to w' = v again.
+    std::string table = R"toml(
+[coordinates]
+x = 0
+y = 0
+phi = 0
+[[frame]]
+name = "B"
+rotate = [["z", "phi"]]
+[[body]]
+name = "table"
+mass = 4
+frame = "B"
+position = ["x", "y"]
+inertia = 0.33
+[energy]
+potential = "50*((x - 0.1*t)^2 + y^2)/2"
+[simulation]
+duration = 4.5
+tolerance = 1e-12
+)toml";
+    for (const auto& [name, x, y] :
+         {std::tuple{"A", 0.49, 0.1}, {"B", -0.1, 0.49}, {"C", -0.49, -0.1}, {"D", 0.1, -0.49}})
+        table += fmt::format(R"toml(
+[[point]]
+name = "{0}"
+from = "table"
+axes = "B"
+offset = [{1}, {2}]
+[[friction]]
+name = "at_{0}"
+coefficient = 0.3
+static = 0.36
+slip = ["dot(vel({0}), ex(N))", "dot(vel({0}), ey(N))"]
+normal = 9.81
+)toml",
+                             name, x, y);
+    const Json motion = simulated(temporary("table.toml", table));
+    const double w = std::sqrt(50.0 / 4), begins = 0.36 * 4 * g / (50 * 0.1), start = 0.06 * 4 * g / 50,
+                 lasts = 2 * (pi - std::atan(start * w / 0.1)) / w;
+    const auto slips = of_kind(motion, "slip"), sticks = of_kind(motion, "stick");
+    REQUIRE(slips.size() == 4);
+    REQUIRE(sticks.size() == 8);
+    for (const Json& slip : slips) {
+        CHECK(value(slip, "time") == near(begins));
+        CHECK(std::abs(slip["direction"][1].get<double>()) < 1e-12);
+    }
+    for (std::size_t k = 4; k < 8; ++k) CHECK(value(sticks[k], "time") == near(begins + lasts));
+    CHECK(coordinate(motion, "x") == near(0.1 * lasts + 2 * start));
+    CHECK(std::abs(coordinate(motion, "phi")) < 1e-12);
+    check_balance(motion);
+}
 
 TEST_CASE("friction in a plane: a struck billiard ball moves on a parabola and rolls after 2 |u|/(7 mu g)") {
     const double r = 0.028575, mu = 0.2, v0 = 2, wx = 40, wy = -25, end = 1.5;

@@ -124,6 +124,42 @@ TEST_CASE("gimbal lock: a gyroscope that passes through it ten times ends where 
     }
 }
 
+TEST_CASE("gimbal lock: beside it the angles are those of a run that stays in them, at every tolerance") {
+    // radau stays in the angles. Six times the body passes the lock at 0.02 to 0.03.
+    const std::string scene = temporary("beside_lock.toml", R"toml(
+[coordinates]
+psi = { initial = 0.3, rate = 0.02 }
+theta = { initial = 1, rate = 1 }
+phi = { initial = 0, rate = 0.001 }
+[[frame]]
+name = "F"
+rotate = [["z", "psi"], ["x", "theta"], ["z", "phi"]]
+[[body]]
+name = "body"
+mass = 1
+frame = "F"
+position = [0, 0, 0]
+inertia = [1, 2, 2.5]
+)toml");
+    const auto end = [&](const char* method, const char* tolerance) {
+        return json_of({"simulate", scene, "--duration", "50", "--method", method, "--tolerance", tolerance});
+    };
+    const Json in_angles = end("radau", "1e-13");
+    CHECK_FALSE(in_angles.contains("charts"));
+    for (const char* tolerance : {"1e-4", "1e-7", "1e-10", "1e-13"})
+        for (const char* method : {"verner98", "taylor"}) {
+            CAPTURE(tolerance);
+            CAPTURE(method);
+            const Json run = end(method, tolerance);
+            CHECK(run["charts"].size() == 6);
+            for (const char* name : {"psi", "theta", "phi"})
+                CHECK(std::abs(run["final"]["coordinates"][name].get<double>() -
+                               in_angles["final"]["coordinates"][name].get<double>()) <
+                      100 * std::stod(tolerance) + 1e-9);
+            CHECK(run["error_estimate"]["value"].get<double>() < 1000 * std::stod(tolerance) + 1e-9);
+        }
+}
+
 TEST_CASE("gimbal lock: a gyroscope that constraints or a joint hold passes through it too") {
     const Swing swing{1e-3};
     const Json quaternion = simulated(swing.by_quaternion());

@@ -5,6 +5,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <random>
+
+#include "alembert/even_shares.hpp"
 
 namespace runtime_switching {
 
@@ -146,6 +149,51 @@ TEST_CASE("switching: two blocks that rub at once stick together and one by one"
     CHECK(std::abs(motion.final_state()[0]) < 1e-14);
     CHECK(motion.final_state()[1] == doctest::Approx(2));
     CHECK(motion.final_state()[3] == doctest::Approx(2));
+}
+
+TEST_CASE("even shares: the largest share is the least that a search by golden section finds") {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    const auto matrix = [&](Eigen::Index rows, Eigen::Index columns) {
+        return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); }));
+    };
+    for (int trial = 0; trial < 50; ++trial) {
+        CAPTURE(trial);
+        const std::vector<ShareOfContact> contacts = {{0, 2, 1.0}, {2, 1, 1.5}, {3, 2, 0.7}, {5, 2, 1.2}};
+        const Eigen::VectorXd given = matrix(7, 1);
+        const Eigen::MatrixXd free = matrix(7, 2);
+        const auto largest = [&](const Eigen::VectorXd& alpha) {
+            double share = 0;
+            for (const ShareOfContact& c : contacts)
+                share = std::max(share, alpha.segment(c.first, c.size).norm() / c.bound);
+            return share;
+        };
+        // The least of a convex function between −50 and 50.
+        const auto least = [](const auto& function) {
+            const double part = (std::sqrt(5.0) - 1) / 2;
+            double low = -50, high = 50;
+            while (high - low > 1e-9) {
+                const double a = high - part * (high - low), b = low + part * (high - low);
+                (function(a) < function(b) ? high : low) = function(a) < function(b) ? b : a;
+            }
+            return function((low + high) / 2);
+        };
+        const double found = least([&](double z0) {
+            return least([&](double z1) { return largest(given + free * Eigen::Vector2d(z0, z1)); });
+        });
+        const Eigen::VectorXd even = even_shares(given, free, contacts);
+        CHECK(largest(even) == doctest::Approx(found).epsilon(1e-7));
+        CHECK(largest(even) <= found * (1 + 1e-12));
+        // It is reached within what is free.
+        const Eigen::MatrixXd onto = free * (free.transpose() * free).inverse() * free.transpose();
+        CHECK((even - given - onto * (even - given)).norm() < 1e-9 * (1 + even.norm()));
+    }
+    CHECK(even_shares(Eigen::Vector2d(3, 4), Eigen::MatrixXd(2, 0), {{0, 2, 1.0}}) == Eigen::Vector2d(3, 4));
+    // Two equal contacts share a load, whatever they had.
+    const Eigen::VectorXd two =
+        even_shares(Eigen::Vector4d(0.3, 0.1, 1.7, -0.1),
+                    (Eigen::MatrixXd(4, 2) << 1, 0, 0, 1, -1, 0, 0, -1).finished(), {{0, 2, 2.0}, {2, 2, 2.0}});
+    CHECK((two - Eigen::Vector4d(1, 0, 1, 0)).norm() < 1e-7);
 }
 
 }  // namespace runtime_switching

@@ -44,6 +44,28 @@ double turned_towards(double angle, double near) {
     return angle + turn * std::round((near - angle) / turn);
 }
 
+/// The two triples of angles of a rotation, each with the whole turns that bring it nearest to `near`. In the
+/// first the sine of the middle angle is not negative (its cosine, where the three axes differ).
+std::array<Vector3d, 2> both_triples(const AnglesOfFrame& of, const Quaternion& e, const Vector3d& near) {
+    const Matrix3d R = e.normalized().toRotationMatrix();
+    const auto [i, j, k] = of.axes;
+    const double sign = (j - i + 3) % 3 == 1 ? 1 : -1;
+    std::array<Vector3d, 2> both;
+    if (of.is_proper()) {
+        const int l = 3 - i - j;
+        both[0] = {std::atan2(R(j, i), -sign * R(l, i)), std::atan2(std::hypot(R(j, i), R(l, i)), R(i, i)),
+                   std::atan2(R(i, j), sign * R(i, l))};
+        both[1] = {both[0][0] + std::numbers::pi, -both[0][1], both[0][2] + std::numbers::pi};
+    } else {
+        both[0] = {std::atan2(-sign * R(j, k), R(k, k)), std::atan2(sign * R(i, k), std::hypot(R(i, i), R(i, j))),
+                   std::atan2(-sign * R(i, j), R(i, i))};
+        both[1] = {both[0][0] + std::numbers::pi, std::numbers::pi - both[0][1], both[0][2] + std::numbers::pi};
+    }
+    for (Vector3d& angles : both)
+        for (int n = 0; n < 3; ++n) angles[n] = turned_towards(angles[n], near[n]);
+    return both;
+}
+
 }  // namespace
 
 double AnglesOfFrame::evenness(const double* q) const {
@@ -157,24 +179,21 @@ TurnedFrame::TurnedFrame(const std::array<int, 3>& axes, const Vector3d& angle) 
     }
 }
 
-Vector3d angles_near(const AnglesOfFrame& of, const Quaternion& e, const Vector3d& near) {
+Eigen::Vector2d AnglesOfFrame::from_lock(const Quaternion& e) const {
     const Matrix3d R = e.normalized().toRotationMatrix();
-    const auto [i, j, k] = of.axes;
-    const double sign = (j - i + 3) % 3 == 1 ? 1 : -1;
-    std::array<Vector3d, 2> both;
-    if (of.is_proper()) {
-        const int l = 3 - i - j;
-        both[0] = {std::atan2(R(j, i), -sign * R(l, i)), std::atan2(std::hypot(R(j, i), R(l, i)), R(i, i)),
-                   std::atan2(R(i, j), sign * R(i, l))};
-        both[1] = {both[0][0] + std::numbers::pi, -both[0][1], both[0][2] + std::numbers::pi};
-    } else {
-        both[0] = {std::atan2(-sign * R(j, k), R(k, k)), std::atan2(sign * R(i, k), std::hypot(R(i, i), R(i, j))),
-                   std::atan2(-sign * R(i, j), R(i, i))};
-        both[1] = {both[0][0] + std::numbers::pi, std::numbers::pi - both[0][1], both[0][2] + std::numbers::pi};
-    }
-    for (Vector3d& angles : both)
-        for (int n = 0; n < 3; ++n) angles[n] = turned_towards(angles[n], near[n]);
-    return (both[0] - near).norm() <= (both[1] - near).norm() ? both[0] : both[1];
+    const auto [i, j, k] = axes;
+    return is_proper() ? Eigen::Vector2d(R(j, i), R(3 - i - j, i)) : Eigen::Vector2d(R(j, k), R(k, k));
+}
+
+Vector3d angles_near(const AnglesOfFrame& of, const Quaternion& e, const Vector3d& near) {
+    const auto [first, second] = both_triples(of, e, near);
+    return (first - near).norm() <= (second - near).norm() ? first : second;
+}
+
+Vector3d angles_on_side(const AnglesOfFrame& of, const Quaternion& e, const Vector3d& near) {
+    const auto [first, second] = both_triples(of, e, near);
+    const double side = of.is_proper() ? std::sin(near[1]) : std::cos(near[1]);
+    return side >= 0 ? first : second;
 }
 
 }  // namespace alembert

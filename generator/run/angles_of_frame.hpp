@@ -23,6 +23,8 @@ struct AnglesOfFrame {
     }
     /// |sin b| or |cos b|.
     double evenness(const double* q) const;
+    /// A vector of that length, whose direction the first angle turns.
+    Eigen::Vector2d from_lock(const Eigen::Quaterniond& e) const;
 };
 
 /// The angles of each frame that three coordinates turn about axes x, y or z of which no two neighbours are the
@@ -47,5 +49,8 @@ struct TurnedFrame {
 
 /// The angles of a rotation that are the nearest to given ones.
 Eigen::Vector3d angles_near(const AnglesOfFrame& of, const Eigen::Quaterniond& e, const Eigen::Vector3d& near);
+
+/// The nearest of those whose middle angle is on the same side of gimbal lock as that of `near`.
+Eigen::Vector3d angles_on_side(const AnglesOfFrame& of, const Eigen::Quaterniond& e, const Eigen::Vector3d& near);
 
 }  // namespace alembert

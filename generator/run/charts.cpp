@@ -10,6 +10,7 @@
 #include "alembert/project.hpp"
 #include "alembert/run.hpp"
 #include "language/say.hpp"
+#include "run/angles_along.hpp"
 #include "run/solver_code.hpp"
 
 namespace alembert {
@@ -90,6 +91,9 @@ public:
 private:
     static constexpr double tolerance_of_time = 2.3e-16;
 
+    /// A motion that comes nearer to the lock than the error of its rotation cannot be told from one through it.
+    static double through(double tolerance) { return std::clamp(10 * tolerance, 1e-6, to_quaternion / 2); }
+
     Events leaving() const {
         return make_events({{.name = "lock", .stop = true, .direction = -1}},
                            [this](double, const double* y, const double*, double* g) {
@@ -127,26 +131,31 @@ private:
         return z;
     }
 
-    /// The state in the scene's coordinates, with the angles nearest to those of `before`.
-    std::vector<double> to_scene(const double* z, std::size_t size, const std::vector<double>& before) const {
+    Turning turning(double t, const std::vector<double>& z) const {
+        std::vector<double> rate(z.size());
+        rhs_(t, z.data(), rate.data());
+        const double* const e = z.data() + others_.size();
+        const std::size_t half = others_.size() + 4;
+        return {t, Eigen::Vector4d(e), Eigen::Vector4d(e + half),
+                Eigen::Vector4d(rate.data() + others_.size() + half)};
+    }
+
+    /// The state in the scene's coordinates, with these angles.
+    std::vector<double> to_scene(const std::vector<double>& z, const Vector3d& angle) const {
         const auto half = others_.size() + 4;
-        std::vector<double> y(before.size());
+        std::vector<double> y(2 * static_cast<std::size_t>(n_));
         for (std::size_t k = 0; k < others_.size(); ++k) {
             y[static_cast<std::size_t>(others_[k])] = z[k];
             y[static_cast<std::size_t>(n_ + others_[k])] = z[half + k];
         }
-        const Quaternion e = turn_of(z), change = turn_of(z + half);
-        Vector3d near;
-        for (int k = 0; k < 3; ++k)
-            near[k] = before[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])];
-        const Vector3d angle = angles_near(angles_, e, near);
+        const Quaternion e = turn_of(z.data()), change = turn_of(z.data() + half);
         const Quaternion w = change * e.conjugate();
         const Vector3d rate = TurnedFrame(angles_.axes, angle).rates.inverse() * (2 * w.vec());
         for (int k = 0; k < 3; ++k) {
             y[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])] = angle[k];
             y[static_cast<std::size_t>(n_ + angles_.angles[static_cast<std::size_t>(k)])] = rate[k];
         }
-        std::copy(z + 2 * half, z + size, y.begin() + 2 * n_);
+        y.insert(y.end(), z.begin() + static_cast<std::ptrdiff_t>(2 * half), z.end());
         return y;
     }
 
@@ -161,15 +170,21 @@ private:
         const Events back = make_events(
             {{.name = "regular", .stop = true, .direction = 1}},
             [this](double, const double* z, const double*, double* g) { g[0] = evenness(z) - to_angles; });
-        Trajectory motion = integrate(rhs_, to_other(state), options, back);
+        const std::vector<double> first = to_other(state);
+        Trajectory motion = integrate(rhs_, first, options, back);
         passes.push_back({motion.times.front(), motion.times.back()});
+        Vector3d start;
+        for (int k = 0; k < 3; ++k)
+            start[k] = state[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])];
+        AnglesAlong along(angles_, start, turning(options.start, first), through(options.tolerance));
         std::vector<double> states, last = state;
         std::size_t step = 0;
         for (std::size_t row = 0; row < motion.rows(); ++row) {
             for (; step < steps.size() && steps[step].first < motion.times[row]; ++step)
-                last = to_scene(steps[step].second.data(), steps[step].second.size(), last);
-            const auto z = motion.state(row);
-            last = to_scene(z.data(), z.size(), last);
+                along.go_to(turning(steps[step].first, steps[step].second));
+            const std::vector<double> z(motion.state(row).begin(), motion.state(row).end());
+            along.go_to(turning(motion.times[row], z));
+            last = to_scene(z, along.angles());
             states.insert(states.end(), last.begin(), last.end());
         }
         if (motion.failure) motion.failure->state = last;

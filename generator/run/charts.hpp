@@ -11,9 +11,9 @@
 ///
 /// The smallness of the map from the rates of the angles a, b, c to the angular velocity is |sin b| where the
 /// first axis is the third again (z-x-z), else |cos b|. Below `to_quaternion` the other description takes over,
-/// above `to_angles` the angles do. What the run gives is always in the scene's coordinates: at each step the
-/// nearest of the two triples of angles, with whole turns, that describe the same rotation. Where the motion goes
-/// exactly through the lock, b passes through it smoothly; beside it a and c turn by about π in a short time.
+/// above `to_angles` the angles do. What the run gives is always in the scene's coordinates, which continue
+/// (angles_along.hpp): where the motion goes exactly through the lock, b passes through it smoothly; beside it b
+/// turns back, and a and c turn by about π in a short time.
 ///
 /// Not for scenes whose other parts name the angles (they are the only place where the frame's turning is said),
 /// with contacts, dry friction, events or generalized speeds, nor for methods with a fixed step.

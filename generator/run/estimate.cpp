@@ -14,7 +14,7 @@ namespace alembert {
 namespace {
 
 constexpr double no_digit = 0.1, suspicious = 1000, saturated = 1e-2, beside = 1e-8;
-// The better of two runs has an error too: true error / difference is at most 2.5 in 95 % of runs (honesty.py).
+// The better of two runs has an error too: true error / difference is at most 2.5 in 95 % of runs (honesty.sh).
 constexpr double margin = 2.5;
 
 struct Separation {
@@ -145,7 +145,13 @@ double difference(const PhasedMotion& a, const PhasedMotion& b, const Components
                      apart(rates_a, rates_b, rates_a.size()), later(a, b)});
 }
 
-/// The error from rounding the state `steps` times if nothing amplifies it: a random walk.
+/// The relative error of a number that is rounded in each step if nothing amplifies it: a random walk.
+double rounding_of_steps(const PhasedMotion& motion) {
+    const double steps = static_cast<double>(motion.statistics.steps);
+    return (4 + std::sqrt(steps)) * std::numeric_limits<double>::epsilon();
+}
+
+/// What rounding adds to ErrorEstimate::value.
 double rounding_of(const PhasedMotion& motion, const Components& components) {
     double size = 1;
     const auto& first = motion.phases.front().motion;
@@ -153,8 +159,16 @@ double rounding_of(const PhasedMotion& motion, const Components& components) {
         const double end = std::max(1.0, std::abs(motion.final_state()[i]));
         size = std::max(size, std::abs(first.state(0)[i]) / end);
     }
-    const double steps = static_cast<double>(motion.statistics.steps);
-    return size * (4 + std::sqrt(steps)) * std::numeric_limits<double>::epsilon();
+    return size * rounding_of_steps(motion);
+}
+
+/// What rounding adds to ErrorEstimate::scaled: more digits are lost the less a component moves beside its size.
+double rounding_of(const PhasedMotion& motion, const std::vector<double>& extent) {
+    const auto first = motion.phases.front().motion.state(0), last = motion.final_state();
+    double size = 0;
+    for (std::size_t i = 0; i < extent.size(); ++i)
+        size = std::max(size, std::max(std::abs(first[i]), std::abs(last[i])) / extent[i]);
+    return size * rounding_of_steps(motion);
 }
 
 /// The runs with which the first is compared.
@@ -235,13 +249,15 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     const double elapsed = motion.final_time() - given.start;
     estimate.scaled =
         margin * std::max(apart_of(motion.final_state(), second->final_state(), extent),
-                          elapsed > 0 ? std::abs(motion.final_time() - second->final_time()) / elapsed : 0);
+                          elapsed > 0 ? std::abs(motion.final_time() - second->final_time()) / elapsed : 0) +
+        rounding_of(motion, extent);
     if (fixed && motion.statistics.steps < few_steps) {
         options.step /= 2;
         const PhasedMotion finer = run(options, initial);
         if (finer.ending != Ending::failed)
             estimate.scaled =
-                std::max(*estimate.scaled, margin * apart_of(motion.final_state(), finer.final_state(), extent));
+                std::max(*estimate.scaled, margin * apart_of(motion.final_state(), finer.final_state(), extent) +
+                                               rounding_of(motion, extent));
     }
     if (*estimate.value < (fixed ? 1e-6 : suspicious * given.tolerance)) return estimate;
 

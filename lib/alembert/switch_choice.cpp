@@ -2,6 +2,7 @@
 #include "alembert/switch_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "alembert/switch_sides.hpp"
@@ -10,10 +11,12 @@ namespace alembert {
 
 namespace {
 
-constexpr int directions = 48;      // tried all around, to find those in which a pair may begin to slide
-constexpr int most_halvings = 60;   // until neighbouring directions are equal in double precision
-constexpr int most_sweeps = 30;     // over several pairs that begin to slide together
-constexpr double held_back = 1e-9;  // ġ relative to what it would be alone, if others that stick hold it
+constexpr std::size_t directions = 48;  // tried all around, to find those in which a pair may begin to slide
+constexpr int most_places = 60;         // in which a zero is looked for
+constexpr int most_sweeps = 30;         // over several pairs that begin to slide together
+constexpr double settled = 1e-14;       // a sweep that turns no direction by more was the last one
+constexpr double at_bound = 1e-9;       // how near to its bound a share counts as at it, relative to it
+constexpr double held_back = 1e-9;      // ġ relative to what it would be alone, if others that stick hold it
 
 /// Changes the sides of a function or of a pair.
 void set_side(SideSet& sides, int k, int side) {
@@ -21,18 +24,70 @@ void set_side(SideSet& sides, int k, int side) {
     if (sides.is_pair(k)) sides[static_cast<std::size_t>(k) + 1] = side;
 }
 
+struct ValueAt {
+    double x, value;
+};
+
+/// A zero of a function between two places at which its signs differ, by false position in the Illinois form
+/// (Dowell & Jarratt, BIT 11 (1971) 168).
+double zero_between(const std::function<double(double)>& function, ValueAt low, ValueAt high) {
+    int stays = 0;  // the end that the last place left as it was: -1 the low one, 1 the high one
+    for (int n = 0; n < most_places && low.value != 0 && high.value != 0; ++n) {
+        double x = (low.x * high.value - high.x * low.value) / (high.value - low.value);
+        if (!(x > low.x && x < high.x)) x = (low.x + high.x) / 2;
+        if (x == low.x || x == high.x) break;
+        const ValueAt middle{x, function(x)};
+        const bool is_low = (middle.value > 0) == (low.value > 0);
+        (is_low ? low : high) = middle;
+        if (stays == (is_low ? 1 : -1)) (is_low ? high : low).value /= 2;
+        stays = is_low ? 1 : -1;
+    }
+    return std::abs(low.value) < std::abs(high.value) ? low.x : high.x;
+}
+
+/// δ with which what rounding leaves of a velocity does not reverse the direction.
+double least_grain(double speed) {
+    return 8 * speed + 1e-15;
+}
+/// δ with which a velocity does not change the direction.
+double large_grain(double speed) {
+    return 1e6 * (1 + speed);
+}
+
+/// begin_to_slide for several pairs, whose directions depend on each other.
+void begin_to_slide_together(const Switching& system, SideSet& sides, const std::vector<int>& pairs, double t,
+                             const std::vector<double>& state) {
+    if (pairs.size() == 1) begin_to_slide(system, sides, pairs[0], t, state);
+    if (pairs.size() <= 1) return;
+    SwitchSides at(system, sides, static_cast<int>(state.size()));
+    at.evaluate(t, state.data());
+    const auto grain = [&](int k) -> double& { return sides.slides[static_cast<std::size_t>(k / 2)].grain; };
+    for (const int k : pairs) grain(k) = large_grain(at.velocity(k).norm());
+    double turned = 1;
+    for (int sweep = 0; sweep < most_sweeps && turned > settled; ++sweep) {
+        turned = 0;
+        for (const int k : pairs) {
+            const SideSet::Slide before = sides.slides[static_cast<std::size_t>(k / 2)];
+            begin_to_slide(system, sides, k, t, state);
+            const SideSet::Slide& slide = sides.slides[static_cast<std::size_t>(k / 2)];
+            turned = std::max(turned, std::hypot(slide.along - before.along, slide.across - before.across));
+            grain(k) = large_grain(at.velocity(k).norm());
+        }
+    }
+    for (const int k : pairs) grain(k) = least_grain(at.velocity(k).norm());
+}
+
 class SideJudge {
 public:
     SideJudge(const Switching& system, double t, const std::vector<double>& state)
         : system_(system), t_(t), state_(state) {}
 
-    /// Chooses the directions of pairs that begin to slide; several depend on each other.
+    /// Chooses the directions of pairs that begin to slide.
     void direct(SideSet& sides, const std::vector<int>& open) const {
         std::vector<int> pairs;
         for (const int k : open)
             if (sides.is_pair(k) && sides[static_cast<std::size_t>(k)] != 0) pairs.push_back(k);
-        for (int sweep = 0; sweep < (pairs.size() > 1 ? most_sweeps : 1); ++sweep)
-            for (const int k : pairs) begin_to_slide(system_, sides, k, t_, state_);
+        begin_to_slide_together(system_, sides, pairs, t_, state_);
     }
 
     /// How consistent a choice is. In a consistent one every g moves to its chosen side and every α lies between
@@ -145,38 +200,59 @@ SideSet Switching::start() const {
 double begin_to_slide(const Switching& system, SideSet& sides, int pair, double t,
                       const std::vector<double>& state) {
     SideSet::Slide& slide = sides.slides[static_cast<std::size_t>(pair / 2)];
-    double speed = 0, rate = 0;  // v'·d
+    SwitchSides here(system, sides, static_cast<int>(state.size()));
+    here.evaluate(t, state.data());
+    const double speed = here.velocity(pair).norm();
+    double rate = 0;  // v'·d
     const auto across = [&](double angle) {
-        slide = {std::cos(angle), std::sin(angle), 1};
-        SwitchSides at(system, sides, static_cast<int>(state.size()));
-        at.evaluate(t, state.data());
-        const Eigen::Vector2d e(slide.along, slide.across), v = at.velocity(pair);
-        slide.grain = 1e6 * (1 + v.norm());  // so that v does not change the direction
+        slide = {std::cos(angle), std::sin(angle), large_grain(speed)};
         SwitchSides there(system, sides, static_cast<int>(state.size()));
         there.evaluate(t, state.data());
-        const Eigen::Vector2d a = there.acceleration(pair);
-        speed = v.norm();
+        const Eigen::Vector2d e(slide.along, slide.across), a = there.acceleration(pair);
         rate = a.dot(e);
         return e[0] * a[1] - e[1] * a[0];
     };
     constexpr double turn = 6.283185307179586476925;
+    std::array<double, directions> all;  // each is asked once, so that rounding hides no change of sign
+    for (std::size_t i = 0; i < directions; ++i) all[i] = across(turn * static_cast<double>(i) / directions);
     double best = -HUGE_VAL, direction = 0;
-    for (int i = 0; i < directions; ++i) {
-        double low = turn * i / directions, high = turn * (i + 1) / directions;
-        const double at_low = across(low);
-        if ((at_low > 0) == (across(high) > 0)) continue;
-        for (int n = 0; n < most_halvings; ++n) {
-            const double middle = (low + high) / 2;
-            ((across(middle) > 0) == (at_low > 0) ? low : high) = middle;
-        }
-        across(high);
+    for (std::size_t i = 0; i < directions; ++i) {
+        const double low = all[i], high = all[(i + 1) % directions];
+        if ((low > 0) == (high > 0)) continue;
+        const double width = turn / directions, first = width * static_cast<double>(i);
+        const double zero = zero_between(across, {first, low}, {first + width, high});
+        across(zero);
         if (rate > best) {
             best = rate;
-            direction = high;
+            direction = zero;
         }
     }
-    slide = {std::cos(direction), std::sin(direction), 8 * speed + 1e-15};
+    slide = {std::cos(direction), std::sin(direction), least_grain(speed)};
     return best;
+}
+
+std::vector<int> give_way(const Switching& system, SideSet& sides, int pair, double t,
+                          const std::vector<double>& state) {
+    SwitchSides at(system, sides, static_cast<int>(state.size()));
+    at.evaluate(t, state.data());
+    at.find_bounds(t, state.data());
+    std::vector<int> pairs;
+    bool falls = false;  // whether friction is less once they slide
+    for (const int k : at.sliding()) {
+        if (!sides.is_pair(k) || k % 2 == 1) continue;
+        if (k != pair && !(at.shares_are_free() && at.share(k) >= (1 - at_bound) * at.bound(k))) continue;
+        pairs.push_back(k);
+        falls = falls || at.bound(k) > 1;
+    }
+    for (const int k : pairs) {
+        set_side(sides, k, 1);
+        const Eigen::Vector2d against = Eigen::Vector2d(at.sign(k), at.sign(k + 1)).normalized();
+        sides.slides[static_cast<std::size_t>(k / 2)] = {against[0], against[1],
+                                                         least_grain(at.velocity(k).norm())};
+    }
+    // Several with equal coefficients begin to slide without a jump, and against the forces that held them.
+    if (pairs.size() == 1 || falls) begin_to_slide_together(system, sides, pairs, t, state);
+    return pairs;
 }
 
 std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,

@@ -26,4 +26,9 @@ std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, con
 double begin_to_slide(const Switching& system, SideSet& sides, int pair, double t,
                       const std::vector<double>& state);
 
+/// Lets the pair, which has reached its bound, slide, and all those that reach theirs with it because the forces
+/// of neither are determined. Returns the pairs.
+std::vector<int> give_way(const Switching& system, SideSet& sides, int pair, double t,
+                          const std::vector<double>& state);
+
 }  // namespace alembert

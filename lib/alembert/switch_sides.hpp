@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "alembert/dense.hpp"
+#include "alembert/even_shares.hpp"
 #include "alembert/switching.hpp"
 
 namespace alembert {
@@ -120,10 +121,28 @@ public:
             for (Eigen::Index j = 0; j < s; ++j) held(j) = std::numeric_limits<double>::quiet_NaN();
     }
 
-    /// To be called after `evaluate` at the same state.
+    /// To be called after `evaluate` at the same state. Where pairs stick and the motion does not determine their
+    /// σ, the even ones are taken (even_shares.hpp), with which the motion is the same.
     void find_bounds(double t, const double* y) {
-        if (system_.bounds) system_.bounds(t, y, sigma_.data(), f_.data(), bounds_.data());
+        if (!system_.bounds) return;
+        system_.bounds(t, y, sigma_.data(), f_.data(), bounds_.data());
+        shares_are_free_ = false;
+        const auto is_pair = [&](int k) { return sides_.is_pair(k); };
+        if (sliding_.size() < 3 || std::none_of(sliding_.begin(), sliding_.end(), is_pair)) return;
+        const SingularValues parts = singular_values(B_.transpose());
+        const auto rank = (parts.values.array() > dependent * parts.values[0]).count(), s = B_.rows();
+        if (rank == s || !B_.allFinite()) return;
+        shares_are_free_ = true;
+        std::vector<ShareOfContact> contacts;
+        for (std::size_t j = 0; j < sliding_.size(); j += static_cast<std::size_t>(contacts.back().size))
+            contacts.push_back({static_cast<Eigen::Index>(j), is_pair(sliding_[j]) ? 2 : 1, bound(sliding_[j])});
+        Eigen::VectorXd alpha(s);
+        for (Eigen::Index j = 0; j < s; ++j) alpha[j] = held(j);
+        alpha = even_shares(alpha, parts.left.rightCols(s - rank), contacts);
+        for (Eigen::Index j = 0; j < s; ++j) held(j) = alpha[j];
     }
+    /// Whether `find_bounds` has chosen among several σ.
+    bool shares_are_free() const { return shares_are_free_; }
 
     /// Moves the state to where the g of sliding functions are zero, along the directions in which their σ change
     /// the motion.
@@ -185,6 +204,7 @@ private:
     std::vector<int> sliding_;
     std::vector<double> sigma_, f_, g_, bounds_;
     Eigen::MatrixXd B_;
+    bool shares_are_free_ = false;
 };
 
 }  // namespace alembert

@@ -230,14 +230,16 @@ private:
             const Watched& w = watched[i];
             if (w.what == Watched::What::normal) return fail_negative(w.index);
             if (w.what == Watched::What::bound) {  // α has reached a bound: the motion leaves to that side
-                sides_[w.index] = w.sign < 0 ? 1 : -1;
-                if (sides_.is_pair(w.index)) {
-                    sides_[w.index + 1] = 1;
-                    begin_to_slide(system_, sides_, w.index, t_, state_);
-                    seed(w.index);
-                }
-                tell(w.index, SideChange::Kind::leaving);
                 gone = true;
+                if (!sides_.is_pair(w.index)) {
+                    sides_[w.index] = w.sign < 0 ? 1 : -1;
+                    tell(w.index, SideChange::Kind::leaving);
+                } else if (sides_[w.index] == 0) {  // it may have given way together with one before it
+                    for (const int pair : give_way(system_, sides_, w.index, t_, state_)) {
+                        seed(pair);
+                        tell(pair, SideChange::Kind::leaving);
+                    }
+                }
             } else if (w.what == Watched::What::grain) {
                 direct(w.index, 0);
             } else if (w.what == Watched::What::turn && direct(w.index, stopped(w.index))) {

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Is the error that `simulate` tells at least the true one? Every method on every scene at several tolerances.
 
-    tests/bench/honesty.py PROGRAM [--scenes GLOB] [--methods LIST] [--tolerances LIST] [--duration SECONDS] [--csv FILE]
+    tests/bench/honesty.sh [--scenes GLOB] [--methods LIST] [--tolerances LIST] [--duration SECONDS] [--csv FILE] [BUILD]
 
 The truth is the distance from the reference of `bench` (binary128, digits that two methods agree on), as the largest
 |y - reference| / max(1, |reference|) over coordinates and rates at the end; the told value is `error_estimate.value`.
