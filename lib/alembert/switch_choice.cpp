@@ -92,26 +92,30 @@ public:
 
     /// How consistent a choice is. In a consistent one every g moves to its chosen side and every α lies between
     /// −1 and 1.
-    SideChoice judged(const SideSet& sides, const std::vector<int>& open) const {
+    SideChoice judged(const SideSet& sides, const std::vector<int>& open, const std::vector<int>& resting) const {
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
         at.find_bounds(t_, state_.data());
         SideChoice choice{.sides = sides, .margin = HUGE_VAL, .jumps = false};
+        const auto allow = [&](double margin) {
+            choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
+        };
+        for (const int k : resting) allow(1 - at.share(k) / at.bound(k));
         for (const int k : open) {
             if (sides.is_pair(k)) {
-                const double margin = margin_of_pair(at, k);
-                choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
+                allow(margin_of_pair(at, k));
                 continue;
             }
             SideSet one = sides, other = sides;
+            for (const int still : resting)
+                one[still] = other[still] = 1;  // no σ of theirs changes their own rates
             one[k] = 1;
             other[k] = -1;
             const double up = slope_of(one, k), down = slope_of(other, k);
             const double size = std::abs(up) + std::abs(down);
             double margin;
             if (size <= held_back * size_alone(sides, k)) {  // others that stick hold it
-                margin = sides[k] == 0 ? 1 - at.share(k) / at.bound(k) : 0;
-                choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
+                allow(sides[k] == 0 ? 1 - at.share(k) / at.bound(k) : 0);
                 continue;
             }
             const bool jump = std::abs(up - down) > 1e-9 * size;
@@ -123,7 +127,7 @@ public:
             else
                 margin = 1 - at.share(k) / at.bound(k);
             if (sides[k] != 0 && jump && up < down && can_stick(sides, k)) margin = -HUGE_VAL;
-            choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
+            allow(margin);
         }
         return choice;
     }
@@ -256,8 +260,9 @@ std::vector<int> give_way(const Switching& system, SideSet& sides, int pair, dou
 }
 
 std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
-                                     double t, const std::vector<double>& state) {
+                                     double t, const std::vector<double>& state, const std::vector<int>& resting) {
     const SideJudge judge(system, t, state);
+    for (const int k : resting) sides[k] = 0;
     std::vector<SideChoice> found;
     std::size_t count = 1;
     for (const int k : open) count *= sides.is_pair(k) ? 2 : 3;
@@ -269,7 +274,7 @@ std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, con
             rest /= kinds;
         }
         judge.direct(sides, open);
-        found.push_back(judge.judged(sides, open));
+        found.push_back(judge.judged(sides, open, resting));
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const SideChoice& a, const SideChoice& b) { return a.margin > b.margin; });

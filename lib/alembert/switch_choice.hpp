@@ -17,9 +17,11 @@ struct SideChoice {
 
 /// All choices of sides for the `open` functions, the most consistent first; the other functions have their sides
 /// as in `sides`. A pair, of which `open` has the first function, may stick, or slide in the direction that it
-/// takes. There are 3 to the power of the number of open functions, with 2 for a pair.
+/// takes. There are 3 to the power of the number of open functions, with 2 for a pair. In all choices those of
+/// `resting`, whose rates are zero and do not depend on σ, stay zero with a σ within their bounds.
 std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
-                                     double t, const std::vector<double>& state);
+                                     double t, const std::vector<double>& state,
+                                     const std::vector<int>& resting = {});
 
 /// Gives a pair that begins to slide its direction d, for which v' = r d, and returns r; the other functions have
 /// their sides. If there are several, that with the largest r is taken, and r is negative if there is none.

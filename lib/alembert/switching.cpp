@@ -218,8 +218,8 @@ private:
     bool pass(const std::vector<Watched>& watched, const std::vector<int>& hit) {
         // A step may reach beyond the zero that ends it, to where another value is undefined.
         if (*undefined_ <= t_ + 1e-12 * std::max(std::abs(t_), options_.duration)) return fail_undefined();
-        in_one_place_ =
-            t_ - last_change_ > 1e-13 * std::max(std::abs(t_), options_.duration) ? 0 : in_one_place_ + 1;
+        since_change_ = t_ - last_change_;
+        in_one_place_ = since_change_ > 1e-13 * std::max(std::abs(t_), options_.duration) ? 0 : in_one_place_ + 1;
         last_change_ = t_;
         if (in_one_place_ > most_in_one_place)
             return fail(fmt::format("the sign of {} changes without end at t = {}: no side of it is consistent",
@@ -249,6 +249,7 @@ private:
             }
         }
         if (!open.empty()) open_what_has_stopped(open);
+        if (!open.empty() && !gone && come_to_rest(open)) return true;
         if (!open.empty() ||
             (gone && system_.bounds)) {  // a contact that has opened may change the normal forces of others
             for (int k = 0; k < system_.count(); ++k)
@@ -268,6 +269,58 @@ private:
             if (sides_[pair] != 0 && std::find(open.begin(), open.end(), pair) == open.end() &&
                 std::hypot(value_of(pair), value_of(pair + 1)) <= times * stopped(pair))
                 open.push_back(pair);
+    }
+
+    /// Functions that the tolerance does not tell from zero, or that do not come nearer to it from one change to
+    /// the next, and that do not move either.
+    std::vector<int> resting(const std::vector<int>& open) {
+        SwitchSides here(system_, sides_, dimension());
+        here.evaluate(t_, state_.data());
+        std::vector<int> found;
+        for (int k = 0; k < system_.count(); ++k) {
+            if (sides_[k] == 0 || sides_.is_pair(k) || std::find(open.begin(), open.end(), k) != open.end())
+                continue;
+            const double size = std::abs(here.value(k));
+            Swing& swing = swings_[static_cast<std::size_t>(k)];
+            swing.most = std::max(swing.most, size);
+            swing.rounds = size < 0.99 * swing.least ? 0 : swing.rounds + 1;
+            swing.least = std::min(swing.least, size);
+            const double little = std::max(options_.tolerance, 256 * tolerance::epsilon) * swing.most;
+            const bool is_over = size <= little || (size <= 1e-6 * swing.most && swing.rounds >= 8);
+            if (is_over && std::abs(here.slope(k)) * since_change_ <= size + little) found.push_back(k);
+        }
+        return found;
+    }
+
+    /// Lets the open functions and those that rest stay zero if they can: where friction stops a mass at the
+    /// bottom of a groove |x|, sign(x) and sign(x') have changed ever faster.
+    bool come_to_rest(const std::vector<int>& open) {
+        const std::vector<int> still = resting(open);
+        if (still.empty() || open.size() + still.size() > most_undecided) return false;
+        const SideChoice best = side_choices(system_, sides_, open, t_, state_, still)[0];
+        const auto moves = [&](int k) { return best.sides[k] != 0; };
+        if (!(best.margin > clear_margin) || std::any_of(open.begin(), open.end(), moves)) return false;
+        sides_ = best.sides;
+        for (const int k : still) bring_to_zero(k);
+        for (const auto* list : {&open, &still})
+            for (const int k : *list) tell(k, SideChange::Kind::sliding);
+        return true;
+    }
+
+    /// Moves the state to g = 0 along the gradient of g, which is found by differences.
+    void bring_to_zero(int k) {
+        const double g = value_of(k);
+        std::vector<double> gradient(state_.size());
+        double square = 0;
+        for (std::size_t i = 0; i < state_.size(); ++i) {
+            const double y = state_[i], step = 1e-7 * std::max(1.0, std::abs(y));
+            state_[i] = y + step;
+            gradient[i] = (value_of(k) - g) / step;
+            square += gradient[i] * gradient[i];
+            state_[i] = y;
+        }
+        if (square > 0)
+            for (std::size_t i = 0; i < state_.size(); ++i) state_[i] -= g * gradient[i] / square;
     }
 
     /// Chooses sides for the open functions; the others keep theirs.
@@ -359,8 +412,16 @@ private:
     std::shared_ptr<std::vector<double>> sizes_;                              ///< the largest |g_k| so far
     std::shared_ptr<std::vector<double>> normals_;                            ///< the largest normal forces
     std::shared_ptr<double> undefined_ = std::make_shared<double>(HUGE_VAL);  ///< when some g_k was NaN in a piece
+    /// How far a function is from zero where others change their signs: at most, at least, and since how many
+    /// changes that has not become less.
+    struct Swing {
+        double most = 0, least = HUGE_VAL;
+        int rounds = 0;
+    };
+    std::vector<Swing> swings_{sizes_->size()};
     int in_one_place_ = 0;
-    double last_change_ = -HUGE_VAL;
+    double last_change_ = -HUGE_VAL,
+           since_change_ = HUGE_VAL;  ///< the time of the last change; from it to that before
     Trajectory result_;
 };
 
