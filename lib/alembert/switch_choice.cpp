@@ -10,10 +10,13 @@ namespace alembert {
 
 namespace {
 
-constexpr int directions = 48;      // tried all around, to find those in which a pair may begin to slide
-constexpr int most_halvings = 60;   // until neighbouring directions are equal in double precision
-constexpr int most_sweeps = 30;     // over several pairs that begin to slide together
-constexpr double held_back = 1e-9;  // ġ relative to what it would be alone, if others that stick hold it
+constexpr int directions = 48;          // tried all around, to find those in which a pair may begin to slide
+constexpr int most_halvings = 60;       // until neighbouring directions are equal in double precision
+constexpr int most_sweeps = 30;         // over several pairs that begin to slide together
+constexpr double settled = 1e-14;       // of directions, between two sweeps
+constexpr double sticks_surely = 1e-6;  // the margin above which nothing else is tried
+constexpr double least_grain = 1e-150;  // δ is not zero, nor is its square
+constexpr double held_back = 1e-9;      // ġ relative to what it would be alone, if others that stick hold it
 
 /// Changes the sides of a function or of a pair.
 void set_side(SideSet& sides, int k, int side) {
@@ -31,8 +34,16 @@ public:
         std::vector<int> pairs;
         for (const int k : open)
             if (sides.is_pair(k) && sides[static_cast<std::size_t>(k)] != 0) pairs.push_back(k);
-        for (int sweep = 0; sweep < (pairs.size() > 1 ? most_sweeps : 1); ++sweep)
-            for (const int k : pairs) begin_to_slide(system_, sides, k, t_, state_);
+        for (int sweep = 0; sweep < (pairs.size() > 1 ? most_sweeps : 1); ++sweep) {
+            double turned = 0;
+            for (const int k : pairs) {
+                const SideSet::Slide& slide = sides.slides[static_cast<std::size_t>(k / 2)];
+                const Eigen::Vector2d before(slide.along, slide.across);
+                begin_to_slide(system_, sides, k, t_, state_);
+                turned = std::max(turned, (Eigen::Vector2d(slide.along, slide.across) - before).norm());
+            }
+            if (turned < settled) return;
+        }
     }
 
     /// How consistent a choice is. In a consistent one every g moves to its chosen side and every α lies between
@@ -51,7 +62,11 @@ public:
             SideSet one = sides, other = sides;
             one[k] = 1;
             other[k] = -1;
-            const double up = slope_of(one, k), down = slope_of(other, k);
+            double up = slope_of(one, k), down = slope_of(other, k);
+            if (!std::isfinite(up) || !std::isfinite(down)) {  // others that stick cannot hold against a side
+                up = slope_alone(sides, k, 1);
+                down = slope_alone(sides, k, -1);
+            }
             const double size = std::abs(up) + std::abs(down);
             double margin;
             if (size <= held_back * size_alone(sides, k)) {  // others that stick hold it
@@ -104,15 +119,15 @@ private:
         return at.slope(k);
     }
 
-    /// |ġ| at both sides of the function while nothing else sticks.
-    double size_alone(SideSet sides, int k) const {
-        for (int& side : sides.of) side = side == 0 ? 1 : side;
-        double size = 0;
-        for (const int side : {-1, 1}) {
-            sides[static_cast<std::size_t>(k)] = side;
-            size += std::abs(slope_of(sides, k));
-        }
-        return size;
+    /// ġ at a side of the function while nothing else sticks.
+    double slope_alone(SideSet sides, int k, int side) const {
+        for (int& other : sides.of) other = other == 0 ? 1 : other;
+        sides[static_cast<std::size_t>(k)] = side;
+        return slope_of(sides, k);
+    }
+
+    double size_alone(const SideSet& sides, int k) const {
+        return std::abs(slope_alone(sides, k, -1)) + std::abs(slope_alone(sides, k, 1));
     }
 
     const Switching& system_;
@@ -151,7 +166,7 @@ double begin_to_slide(const Switching& system, SideSet& sides, int pair, double 
         SwitchSides at(system, sides, static_cast<int>(state.size()));
         at.evaluate(t, state.data());
         const Eigen::Vector2d e(slide.along, slide.across), v = at.velocity(pair);
-        slide.grain = 1e6 * (1 + v.norm());  // so that v does not change the direction
+        slide.grain = v.norm() > 0 ? 1e15 * v.norm() : 1;  // so that v does not change the direction
         SwitchSides there(system, sides, static_cast<int>(state.size()));
         there.evaluate(t, state.data());
         const Eigen::Vector2d a = there.acceleration(pair);
@@ -175,13 +190,20 @@ double begin_to_slide(const Switching& system, SideSet& sides, int pair, double 
             direction = high;
         }
     }
-    slide = {std::cos(direction), std::sin(direction), 8 * speed + 1e-15};
+    slide = {std::cos(direction), std::sin(direction), std::max(8 * speed, least_grain)};
     return best;
 }
 
 std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state) {
     const SideJudge judge(system, t, state);
+    // In a plane what can stick sticks, and no direction of sliding has to be looked for.
+    if (std::all_of(open.begin(), open.end(), [&](int k) { return sides.is_pair(k); })) {
+        SideSet still = sides;
+        for (const int k : open) set_side(still, k, 0);
+        const SideChoice all_stick = judge.judged(still, open);
+        if (all_stick.margin > sticks_surely) return {all_stick};
+    }
     std::vector<SideChoice> found;
     std::size_t count = 1;
     for (const int k : open) count *= sides.is_pair(k) ? 2 : 3;

@@ -17,7 +17,8 @@ struct SideChoice {
 
 /// All choices of sides for the `open` functions, the most consistent first; the other functions have their sides
 /// as in `sides`. A pair, of which `open` has the first function, may stick, or slide in the direction that it
-/// takes. There are 3 to the power of the number of open functions, with 2 for a pair.
+/// takes. There are 3 to the power of the number of open functions, with 2 for a pair. If all of them are pairs
+/// that may stick together with some margin, that choice is the only one.
 std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state);
 
