@@ -317,7 +317,9 @@ duration = 0.001
                 } else if (b > 0) {
                     ++told;
                     CHECK(result.err.find("more than one contact mode is consistent at t = 0, with different "
-                                          "accelerations: floor: slip | floor: open") != std::string::npos);
+                                          "accelerations: floor: slip " +
+                                          std::string(speed > 0 ? "+" : "-") + " | floor: open") !=
+                          std::string::npos);
                 } else {
                     CHECK(result.err.find("no mode of friction 'tip' is consistent") != std::string::npos);
                 }
@@ -402,12 +404,15 @@ TEST_CASE("friction: cvode and ida stick and slip at the times of the closed for
             CHECK(std::abs(value(slips[n], "time") - value(slips[n - 1], "time") - period) < 1e-7);
         CHECK(motion["work_balance"].get<double>() < 1e-6);
     }
-    const Json exact = simulated(scene_of("trammel")),
-               motion = simulated(scene_of("trammel"), {"--method", "cvode", "--tolerance", "1e-10"});
-    REQUIRE(motion["contacts"].size() == exact["contacts"].size());
-    for (std::size_t k = 0; k < exact["contacts"].size(); ++k) {
-        CHECK(motion["contacts"][k]["event"] == exact["contacts"][k]["event"]);
-        CHECK(std::abs(value(motion["contacts"][k], "time") - value(exact["contacts"][k], "time")) < 1e-6);
+    for (const char* const method : {"cvode", "ida"}) {
+        const Json exact = simulated(scene_of("trammel")),
+                   motion = simulated(scene_of("trammel"), {"--method", method, "--tolerance", "1e-10"});
+        CAPTURE(method);
+        REQUIRE(motion["contacts"].size() == exact["contacts"].size());
+        for (std::size_t k = 0; k < exact["contacts"].size(); ++k) {
+            CHECK(motion["contacts"][k]["event"] == exact["contacts"][k]["event"]);
+            CHECK(std::abs(value(motion["contacts"][k], "time") - value(exact["contacts"][k], "time")) < 1e-6);
+        }
     }
 }
 
@@ -417,10 +422,6 @@ TEST_CASE("friction: verbs and methods that do not support it say so") {
         CHECK(result.exit == 3);
         return result.err;
     };
-    for (const char* const method : {"cvode", "ida"})
-        CHECK(told({"simulate", scene_of("billiard_ball"), "--method", method}).find("contacts") !=
-              std::string::npos);
-    CHECK(told({"simulate", scene_of("trammel"), "--method", "ida"}).find("take cvode") != std::string::npos);
     for (const char* verb : {"linearize", "inverse", "impact"})
         CHECK(told({verb, scene_of("billiard_ball")}).find("'cloth'") != std::string::npos);
 }

@@ -252,11 +252,6 @@ TEST_CASE("sundials: rows fall on the grid, the error is estimated, and a used-u
     const auto small = run({"simulate", scene, "--method", "ida", "--budget", "100", "--no-estimate"});
     CHECK(small.exit == 4);
     CHECK(small.err.find("100 right-hand sides were not enough") != std::string::npos);
-    for (const std::string other : {"bouncing_ball"}) {
-        const auto refused = run({"simulate", textbook(other), "--method", "cvode"});
-        CHECK(refused.exit == 3);
-        CHECK(refused.err.find("contacts") != std::string::npos);
-    }
 }
 
 TEST_CASE("sundials: a program without the back end beside it says what to install") {

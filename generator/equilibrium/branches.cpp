@@ -9,6 +9,7 @@
 #include "alembert/error.hpp"
 #include "equilibrium/follow.hpp"
 #include "language/say.hpp"
+#include "state/left_out.hpp"
 
 namespace alembert {
 
@@ -30,7 +31,8 @@ public:
           names_(names(options)),
           starts_(result.mechanism, names_),
           problem_(result.mechanism, result.equations, start_at((options.from + options.to) / 2)),
-          conservative_(is_conservative(result.mechanism, problem_.residuals())) {
+          conservative_(is_conservative(result.mechanism, problem_.residuals())),
+          left_out_(result.mechanism) {
         check_name();
     }
 
@@ -47,6 +49,7 @@ public:
             if (found.rates == Rates::free) continue;
             const Tracer tracer(problem_, path, options_.to - options_.from);
             for (const SteadyRoot& root : found.roots) {
+                left_out_.check(problem_.start_at(start_at(p), root.at));
                 if (!root.isolated || is_known(tracer.place(root.at, p))) continue;
                 if (const auto start = tracer.at_parameter(root.at, p)) follow_from(tracer, *start);
             }
@@ -173,6 +176,7 @@ private:
     Starts starts_;
     SteadyProblem problem_;
     bool conservative_;
+    LeftOut left_out_;
     std::vector<std::vector<Column>> curves_;
     std::vector<std::pair<TracedPoint, BranchCrossing>> crossings_;
     std::vector<std::pair<PointKind, Column>> told_;

@@ -131,6 +131,7 @@ struct Implicit {
     CountedSystem system;
     const Module& module;
     const std::vector<double>& par;
+    bool has_signs;    ///< the accelerations are then those of the Rhs
     std::size_t n, m;  ///< coordinates; constraints, which are 0 if the equations are those of the Rhs
     std::vector<double> mass, forcing, rows, rate, trial, trial_slope, here, moved;
 
@@ -144,28 +145,41 @@ struct Implicit {
             return 0;
         }
         if (system.is_over_budget()) return unrecoverable;
-        ++system.evaluations;
         const alembert_solver_table& table = module.table();
         const double *lambda = y + states(), *mu = lambda + m;
-        table.mass_forcing(t, y, par.data(), mass.data(), forcing.data());
+        if (has_signs) {
+            if (const int failed = system.rate(t, y, rate.data())) return failed;
+            for (std::size_t i = 0; i < n; ++i) out[n + i] = slope[n + i] - rate[n + i];
+            if (states() > 2 * n) out[2 * n] = slope[2 * n] - rate[2 * n];
+        } else {
+            newton(t, y, slope, out);
+        }
         table.constraints_at(t, y, par.data(), out + states(), out + states() + m, rows.data());
         for (std::size_t i = 0; i < n; ++i) {
             out[i] = slope[i] - y[n + i];
-            out[n + i] = -forcing[i];
-            for (std::size_t j = 0; j < n; ++j) out[n + i] += mass[i * n + j] * slope[n + j];
             for (std::size_t k = 0; k < m; ++k) {
                 out[i] -= rows[k * n + i] * mu[k];
                 out[n + i] -= rows[k * n + i] * lambda[k];
             }
         }
-        if (states() > 2 * n) {
-            double energy[4], jacobi = 0;
-            std::copy_n(y + n, n, rate.begin());
-            std::copy_n(slope + n, n, rate.begin() + static_cast<std::ptrdiff_t>(n));
-            table.energy(t, y, rate.data(), par.data(), energy, &jacobi);
-            out[2 * n] = slope[2 * n] - energy[3];
-        }
         return is_finite(out, size()) ? 0 : recoverable;
+    }
+
+    /// M u' − f, and the rate of the work.
+    void newton(double t, const double* y, const double* slope, double* out) {
+        ++system.evaluations;
+        const alembert_solver_table& table = module.table();
+        table.mass_forcing(t, y, par.data(), mass.data(), forcing.data());
+        for (std::size_t i = 0; i < n; ++i) {
+            out[n + i] = -forcing[i];
+            for (std::size_t j = 0; j < n; ++j) out[n + i] += mass[i * n + j] * slope[n + j];
+        }
+        if (states() == 2 * n) return;
+        double energy[4], jacobi = 0;
+        std::copy_n(y + n, n, rate.begin());
+        std::copy_n(slope + n, n, rate.begin() + static_cast<std::ptrdiff_t>(n));
+        table.energy(t, y, rate.data(), par.data(), energy, &jacobi);
+        out[2 * n] = slope[2 * n] - energy[3];
     }
 
     /// ∂F/∂y + c ∂F/∂y' by differences, column by column.
@@ -188,13 +202,14 @@ struct Implicit {
     }
 };
 
-Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rhs& rhs,
+Trajectory by_ida(const Module& module, const std::vector<double>& par, bool has_signs, const Rhs& rhs,
                   const std::vector<double>& initial, const Options& options, const Events& events) {
     const alembert_solver_table& table = module.table();
     const auto n = static_cast<std::size_t>(table.coordinates), m = static_cast<std::size_t>(table.constraints);
     Implicit f{.system = {.rhs = rhs, .options = options},
                .module = module,
                .par = par,
+               .has_signs = has_signs,
                .n = n,
                .m = m,
                .mass = std::vector<double>(n * n),
@@ -210,7 +225,7 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
     std::fill_n(y, f.size(), 0.0);
     std::copy(initial.begin(), initial.end(), y);
     f.system.rate(options.start, y, slope);
-    if (m > 0) table.multipliers_at(options.start, initial.data(), par.data(), y + f.states());
+    if (m > 0 && !has_signs) table.multipliers_at(options.start, initial.data(), par.data(), y + f.states());
 
     void* memory = IDACreate(w.context);
     IDAInit(
@@ -279,15 +294,14 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
     return motion;
 }
 
-const Backend backend{.version = backend_version,
-                      .cvode = [](const Module&, const std::vector<double>&) -> Integrator { return by_cvode; },
-                      .ida = [](const Module& module, const std::vector<double>& parameters) -> Integrator {
-                          return [module, par = prepared(module, parameters)](
-                                     const Rhs& rhs, const std::vector<double>& initial, const Options& options,
-                                     const Events& events) {
-                              return by_ida(module, par, rhs, initial, options, events);
-                          };
-                      }};
+const Backend backend{
+    .version = backend_version,
+    .cvode = []() -> Integrator { return by_cvode; },
+    .ida = [](const Module& module, const std::vector<double>& parameters, bool has_signs) -> Integrator {
+        return [module, has_signs, par = prepared(module, parameters)](
+                   const Rhs& rhs, const std::vector<double>& initial, const Options& options,
+                   const Events& events) { return by_ida(module, par, has_signs, rhs, initial, options, events); };
+    }};
 
 }  // namespace
 

@@ -12,6 +12,9 @@
 ///
 ///     q' = u + Aᵀμ,   M u' = f + Aᵀλ,   0 = f(q, t),   0 = A u + b
 ///
+/// Where signs are held, among them those of friction that changes λ, the second equation is u' = a + Aᵀλ instead,
+/// with the accelerations a of the Rhs; λ is then 0 but for errors.
+///
 /// Events are looked for in the polynomial of each step, and located on it, as in the runtime's own methods.
 ///
 /// Local errors are compared with tolerance · max(1, |y|) in SUNDIALS' norm, the root of the mean square.
@@ -25,12 +28,13 @@ namespace alembert {
 
 struct Backend {
     int version;
-    Integrator (*cvode)(const Module& module, const std::vector<double>& parameters);
-    /// `parameters` as for make_rhs. The state is (q, q'), followed by the work if the Rhs has it.
-    Integrator (*ida)(const Module& module, const std::vector<double>& parameters);
+    Integrator (*cvode)();
+    /// `parameters` as for make_rhs. The state is (q, q'), followed by the work if the Rhs has it. With
+    /// `has_signs` the last parameters are signs, which the Rhs knows and these do not.
+    Integrator (*ida)(const Module& module, const std::vector<double>& parameters, bool has_signs);
 };
 
-inline constexpr int backend_version = 2;  ///< raised whenever this struct, Rhs, Options or Trajectory changes
+inline constexpr int backend_version = 3;  ///< raised whenever this struct, Rhs, Options or Trajectory changes
 inline constexpr const char* backend_function = "alembert_backend";
 
 }  // namespace alembert

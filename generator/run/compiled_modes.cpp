@@ -11,7 +11,6 @@
 #include "run/canonical.hpp"
 #include "run/first_accelerations.hpp"
 #include "run/sides.hpp"
-#include "run/sundials_methods.hpp"
 
 namespace alembert {
 
@@ -30,13 +29,6 @@ std::optional<Differentiated> affordable_derivatives(const Program& program, Wor
 /// Processor time of this thread and of compilers that have ended.
 double own_seconds() {
     return thread_seconds() + children_seconds();
-}
-
-/// Whether signs are not held constant: rattle calculates with momenta, and ida with constraints calls other
-/// functions than the right-hand side.
-bool takes_signs_as_they_are(const MethodChoice& method, const Derived& derived) {
-    return needs_canonical(method.method) ||
-           (!method.sundials.empty() && !follows_signs(method.sundials, derived.mechanism));
 }
 
 }  // namespace
@@ -141,7 +133,8 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
     Program program = free_ && is_own ? *std::move(free_) : lowered(derived).program;
     if (program.singular) need_accelerations(derived, program, first);
     std::optional<Switched> jumps;
-    if (!takes_signs_as_they_are(method_, derived)) jumps = switched(program);
+    // rattle calculates with momenta, in which signs are not held constant.
+    if (!needs_canonical(method_.method)) jumps = switched(program);
     const Program& smooth = jumps ? jumps->program : program;
     std::optional<Differentiated> derivatives =
         uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;

@@ -16,7 +16,6 @@
 #include "run/held_state.hpp"
 #include "state/assemble.hpp"
 #include "state/diagnose.hpp"
-#include "state/redundancy.hpp"
 
 namespace alembert {
 
@@ -75,7 +74,6 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     Start start = start_of(e.mechanism, options.at);
     e.adjusted = assemble(start, e.mechanism, lower_constraints(e.mechanism), options.at);
     State<double> state = state_of(start, e.mechanism, e.equations);
-    LeftOut(e.mechanism).check(state);
     const Mechanism& m = e.mechanism;
     std::vector<int> closed;
     if (!m.unilateral.empty()) {

@@ -223,7 +223,8 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
         mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
     // The work must balance the energy, so it is integrated with the same tolerance as the state, if there is one.
     if (made.derived.mechanism.unilateral.empty() && !has_fixed_step(method.method)) mode->contact.rhs.extra = 0;
-    if (!method.sundials.empty()) mode->contact.by = sundials_integrator(method.sundials, module, values);
+    if (!method.sundials.empty())
+        mode->contact.by = sundials_integrator(method.sundials, module, values, jumps.has_value());
     LoadedMode* const self = mode.get();
     if (jumps) hold_signs(*self, events);
     if (constrained) {

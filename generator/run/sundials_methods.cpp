@@ -42,33 +42,16 @@ bool is_sundials(std::string_view method) {
 }
 
 void need_sundials(const Derived& d, std::string_view method) {
-    const Mechanism& m = d.mechanism;
-    const auto refuse = [&](const std::string& why, const std::string& others) {
-        throw ModelError(say("method '{}' does not follow {}; take {}", method, why, others));
-    };
-    if (!m.unilateral.empty())
-        refuse(
-            say("contacts ([[unilateral]]), at which it would have to begin anew with steps more exact than its "
-                "lowest order allows"),
-            say("radau (stiff) or dop853"));
-    if (method != ida || m.constraints.empty()) return;
-    if (!m.frictions.empty())
-        refuse(
-            say("dry friction ([[friction]]) of a scene with constraints, whose multipliers it calculates itself"),
-            say("cvode, radau (stiff both) or dop853"));
-    if (!d.equations.speeds_are_rates())
-        refuse(say("constraints in generalized speeds (the formalism 'routh' has them in rates)"),
-               say("cvode, radau (stiff both) or dop853"));
-}
-
-bool follows_signs(std::string_view method, const Mechanism& m) {
-    return method != ida || m.constraints.empty();
+    if (method == ida && !d.mechanism.constraints.empty() && !d.equations.speeds_are_rates())
+        throw ModelError(say("method '{}' does not follow {}; take {}", method,
+                             say("constraints in generalized speeds (the formalism 'routh' has them in rates)"),
+                             say("cvode, radau (stiff both) or dop853")));
 }
 
 Integrator sundials_integrator(std::string_view method, const Module& module,
-                               const std::vector<double>& parameters) {
+                               const std::vector<double>& parameters, bool has_signs) {
     const Backend& own = backend(method);
-    return (method == ida ? own.ida : own.cvode)(module, parameters);
+    return method == ida ? own.ida(module, parameters, has_signs) : own.cvode();
 }
 
 }  // namespace alembert

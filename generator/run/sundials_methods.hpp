@@ -16,15 +16,12 @@ namespace alembert {
 
 bool is_sundials(std::string_view method);
 
-/// Throws ModelError for a scene that they do not support: with contacts, and for ida with constraints where there
-/// is friction, too, or where they are in generalized speeds.
+/// Throws ModelError for ida with constraints in generalized speeds.
 void need_sundials(const Derived& derived, std::string_view method);
 
-/// Whether the method goes from one zero of a sign to the next.
-bool follows_signs(std::string_view method, const Mechanism& mechanism);
-
-/// Throws CompileError if this build has no SUNDIALS.
+/// Throws CompileError if this build has no SUNDIALS. With `has_signs` some of the module's parameters are signs,
+/// which the right-hand sides hold.
 Integrator sundials_integrator(std::string_view method, const Module& module,
-                               const std::vector<double>& parameters);
+                               const std::vector<double>& parameters, bool has_signs);
 
 }  // namespace alembert

@@ -75,8 +75,8 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     options_ = phased ? options_of_phased() : options_for();
     s_.method = name(options_.method);
     constraints_ = lower_constraints(m);
-    if (!m.redundant.empty()) left_out_.emplace(m);
-    is_assembled_ = !m.constraints.empty() || !m.speeds.empty();
+    left_out_.emplace(m);
+    is_assembled_ = !m.constraints.empty() || !m.speeds.empty() || !m.redundant.empty();
     if (phased) {
         phased_.emplace(s_, wishes_, choice_, options_, !s_.along.empty());
     } else {
@@ -235,12 +235,11 @@ std::optional<Member> Sweeper::member(std::size_t k, const SweepDesk& desk) {
         if (is_assembled_) {
             Overrides held;
             for (std::size_t i = 0; i < values.size(); ++i) held.emplace_back(s_.grid.axes[i].name, values[i]);
-            assemble(start, s_.mechanism, constraints_, held);
+            assemble(start, s_.mechanism, constraints_, held, *left_out_);
         }
         if (phased_)
             if (const std::optional<std::string> why = phased_->obstacle(start)) throw ModelError(*why);
         const State<double> first = state_of(start, s_.mechanism, s_.equations);
-        if (left_out_) left_out_->check(first);
         Member member{.index = k,
                       .state = first.q,
                       .parameters = start.parameters,

@@ -23,7 +23,7 @@
 #include "run/phased_members.hpp"
 #include "run/sweep.hpp"
 #include "state/inertia_check.hpp"
-#include "state/redundancy.hpp"
+#include "state/left_out.hpp"
 
 namespace alembert {
 

@@ -13,6 +13,7 @@
 #include "lower/lower.hpp"
 #include "model/friction.hpp"
 #include "stability/periodic.hpp"
+#include "state/left_out.hpp"
 
 namespace alembert {
 
@@ -116,7 +117,7 @@ Spectra::Spectra(Scene scene, const StabilityOptions& options, const std::vector
     const auto d = std::make_shared<const Derived>(derived(std::move(scene), {.by = options.by}));
     need_given_normal_forces(d->mechanism, "stability");
     if (periodic)
-        take_motion(d, options);
+        take_motion(d, options, all(middle));
     else
         take_equilibrium(d, all(middle));
 }
@@ -162,6 +163,8 @@ void Spectra::take_equilibrium(const std::shared_ptr<const Derived>& d, const st
                 "stays closed"));
     const auto starts = std::make_shared<const Starts>(d->mechanism, names_);
     const auto problem = std::make_shared<const SteadyProblem>(d->mechanism, d->equations, starts->at(middle));
+    Instant<long double> between = problem->start();
+    if (problem->settle_at(between)) LeftOut(d->mechanism).check(problem->start_at(starts->at(middle), between));
     at_ = [held = held_, d, starts, problem](const std::vector<double>& values) -> std::optional<Roots> {
         std::vector<double> given = held;
         given.insert(given.end(), values.begin(), values.end());
@@ -174,9 +177,12 @@ void Spectra::take_equilibrium(const std::shared_ptr<const Derived>& d, const st
     };
 }
 
-void Spectra::take_motion(const std::shared_ptr<const Derived>& d, const StabilityOptions& options) {
+void Spectra::take_motion(const std::shared_ptr<const Derived>& d, const StabilityOptions& options,
+                          const std::vector<double>& middle) {
     of_ = SpectrumOf::multipliers;
     const auto starts = std::make_shared<const Starts>(d->mechanism, names_);
+    if (const Possible<Start> between = starts->possible(middle); between.exists())
+        LeftOut(d->mechanism).check(between.value());
     const auto system = std::make_shared<const PeriodicSystem>(*d);
     at_ = [held = held_, d, starts, system,
            period = options.period](const std::vector<double>& values) -> std::optional<Roots> {

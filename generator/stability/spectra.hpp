@@ -47,7 +47,8 @@ public:
 
 private:
     void take_polynomial(const Scene& scene, const StabilityOptions& options);
-    void take_motion(const std::shared_ptr<const Derived>& derived, const StabilityOptions& options);
+    void take_motion(const std::shared_ptr<const Derived>& derived, const StabilityOptions& options,
+                     const std::vector<double>& middle);
     void take_equilibrium(const std::shared_ptr<const Derived>& derived, const std::vector<double>& middle);
     std::vector<double> all(const std::vector<double>& values) const;
 

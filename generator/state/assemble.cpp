@@ -205,8 +205,16 @@ double size_of_terms(const Program& program, int id, const std::vector<double>& 
 
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, bool rates_must_obey) {
-    if (mechanism.constraints.empty() && start.speeds.empty()) return {};
-    return Assembly(start, mechanism, program, held).go(rates_must_obey);
+    return assemble(start, mechanism, program, held, LeftOut(mechanism), rates_must_obey);
+}
+
+std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
+                                  const Overrides& held, const LeftOut& left_out, bool rates_must_obey) {
+    std::vector<std::string> moved;
+    if (!mechanism.constraints.empty() || !start.speeds.empty())
+        moved = Assembly(start, mechanism, program, held).go(rates_must_obey);
+    left_out.check(start);
+    return moved;
 }
 
 Start admissible_start(const Mechanism& m) {

@@ -11,6 +11,7 @@
 
 #include "lower/start.hpp"
 #include "program/program.hpp"
+#include "state/left_out.hpp"
 
 namespace alembert {
 
@@ -21,9 +22,14 @@ namespace alembert {
 /// cannot reach the constraints, or follow from the speeds only. The program is lower_constraints(mechanism).
 /// Throws IntegrationError if guesses do not converge or the speeds lose rank at the start, ModelError if a
 /// constraint is broken by more than 1e-9 of the sum of the sizes of its terms (and, where something moves, by
-/// more than rounding) and nothing may move, or if the initial speeds are impossible.
+/// more than rounding) and nothing may move, if the initial speeds are impossible, or if a constraint that was
+/// left out does not hold with these values (left_out.hpp).
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, bool rates_must_obey = true);
+
+/// The same for many starts of one mechanism, with its LeftOut(mechanism).
+std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
+                                  const Overrides& held, const LeftOut& left_out, bool rates_must_obey = true);
 
 /// The initial state with its guesses adjusted. Where the given values break the constraints (a contact that
 /// closes later), all others move too. If no state is found that obeys them, the initial values as they stand.

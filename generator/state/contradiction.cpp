@@ -18,6 +18,7 @@ std::vector<State<double>> states_that_obey(const Mechanism& mechanism, const St
     loose.q_is_guess.assign(mechanism.q.size(), true);
     loose.qdot_is_guess.assign(mechanism.q.size(), true);
     const Program program = lower_constraints(loose);
+    const LeftOut left_out(loose);
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> away(-1, 1);
     std::vector<State<double>> result;
@@ -27,7 +28,7 @@ std::vector<State<double>> states_that_obey(const Mechanism& mechanism, const St
         for (double& q : start.q) q += reach * away(random) * (1 + std::abs(q));
         for (double& u : start.qdot) u += reach * away(random);
         try {
-            assemble(start, loose, program, {});
+            assemble(start, loose, program, {}, left_out);
             result.push_back(start.state());
         } catch (const std::runtime_error&) {
             continue;
@@ -51,7 +52,9 @@ Mechanism with_constraints(const Mechanism& mechanism, const std::vector<int>& p
     std::vector<int> others;
     for (int k = 0; k < static_cast<int>(mechanism.constraints.size()); ++k)
         if (std::find(positions.begin(), positions.end(), k) == positions.end()) others.push_back(k);
-    return without_constraints(mechanism, others);
+    Mechanism result = without_constraints(mechanism, others);
+    result.redundant = mechanism.redundant;
+    return result;
 }
 
 }  // namespace alembert

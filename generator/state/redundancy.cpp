@@ -255,37 +255,4 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
     }
 }
 
-namespace {
-
-Mechanism with_what_was_left_out(Mechanism m) {
-    m.constraints = std::move(m.redundant);
-    m.redundant.clear();
-    m.speeds.clear();
-    return m;
-}
-
-}  // namespace
-
-LeftOut::LeftOut(const Mechanism& m) : program_(lower_constraints(with_what_was_left_out(m))) {}
-
-void LeftOut::check(const State<double>& state) const {
-    // The constraints that are kept may each be off by the tolerance, and those that follow from them by more.
-    constexpr double looser = 1e3;
-    if (std::equal(state.parameters.begin(), state.parameters.end(), program_.parameters.begin(),
-                   program_.parameters.end(),
-                   [](double value, const Quantity& parameter) { return value == parameter.value; }))
-        return;
-    const std::vector<double> value = interpret(program_, state), rounded = rounding_errors(program_, state);
-    for (const Root& root : program_.roots) {
-        if (root.group != Group::position) continue;
-        const double misfit = std::abs(value[root.node]);
-        if (misfit > looser * tolerance::initial_values * size_of_terms(program_, root.node, value) +
-                         rounded[static_cast<std::size_t>(root.node)])
-            throw ModelError(
-                say("constraint '{}' follows from the others at the values of the scene, but is off by {:.6g} at "
-                    "these: what was added or left out for the scene does not hold there",
-                    root.name, misfit));
-    }
-}
-
 }  // namespace alembert

@@ -9,7 +9,6 @@
 
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
-#include "program/program.hpp"
 
 namespace alembert {
 
@@ -42,17 +41,5 @@ Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& posit
 /// positions hold? Throws ModelError if not, as for x' = y*z' together with x' = y*z' + z: both require z = 0,
 /// which is a further constraint.
 void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant);
-
-/// The constraints that were left out follow from the others at the scene's values of the parameters. At other
-/// values they may not hold.
-class LeftOut {
-public:
-    explicit LeftOut(const Mechanism& mechanism);
-    /// Throws ModelError if a position is off by more than initial values may be.
-    void check(const State<double>& state) const;
-
-private:
-    Program program_;
-};
 
 }  // namespace alembert

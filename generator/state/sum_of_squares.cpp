@@ -16,8 +16,13 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double largest_tree = 2000;  // nodes of a constraint; one of a distance in space has about 30
+constexpr double largest_tree = 2000;    // nodes of a constraint; one of a distance in space has about 30
+constexpr std::size_t most_atoms = 128;  // which take a few seconds, if the matrix is that of distances
+// Nodes of an entry of the matrix: those of a ring of 32 symbols have about 100, and one that is larger takes
+// seconds.
+constexpr std::size_t largest_entry = 1000;
 constexpr long largest_denominator = 1000;
+constexpr double surely_not_zero = 1e-9;  // of the terms of a pivot; rounding leaves about 1e-16 of them
 constexpr double same_share = 1e-4;  // positions on a double root are known to √ε, and λ is not better known
 
 using SymbolicMatrix = std::vector<std::vector<ex>>;
@@ -129,11 +134,22 @@ struct Squares {
     ex last = 0;            ///< the pivot of 1, before which all others are eliminated
 };
 
-/// Nothing if the elimination meets a zero pivot in a row that is not zero.
+bool is_large(const ex& e) {
+    std::size_t nodes = 0;
+    for (auto part = e.preorder_begin(); part != e.preorder_end(); ++part)
+        if (++nodes > largest_entry) return true;
+    return false;
+}
+
+/// Nothing if entries grow beyond what is worth its time, as they do for many symbols, or if the elimination meets
+/// a zero pivot in a row that is not zero, or one whose number is zero as far as rounding shows, but not its
+/// symbols (√(5 + 2√6) − √2 − √3): as a square it would hold what nothing holds.
 std::optional<Squares> eliminated(SymbolicMatrix G, std::vector<ex> atoms, const Values& values) {
     const std::size_t n = atoms.size();
     atoms.emplace_back(1);
     Squares result;
+    std::vector<double> terms;  // the sum of the sizes of those that have made G_kk
+    for (std::size_t k = 0; k < n; ++k) terms.push_back(std::abs(values.number(G[k][k])));
     for (std::size_t k = 0; k < n; ++k) {
         const ex pivot = G[k][k];
         if (values.is_zero(pivot)) {
@@ -141,12 +157,22 @@ std::optional<Squares> eliminated(SymbolicMatrix G, std::vector<ex> atoms, const
                 if (!values.is_zero(G[k][j])) return std::nullopt;
             continue;
         }
+        const double number = values.number(pivot);
+        if (!(std::abs(number) > surely_not_zero * terms[k])) return std::nullopt;
+        for (std::size_t j = k + 1; j < n; ++j) {
+            const double entry = values.number(G[k][j]);
+            terms[j] += entry * entry / std::abs(number);
+        }
         ex form = atoms[k];
         for (std::size_t j = k + 1; j <= n; ++j) form += (G[k][j] / pivot).normal() * atoms[j];
-        result.pivots.push_back(values.number(pivot));
+        result.pivots.push_back(number);
         result.forms.push_back(form);
         for (std::size_t i = k + 1; i <= n; ++i)
-            for (std::size_t j = k + 1; j <= n; ++j) G[i][j] = (G[i][j] - G[k][i] * G[k][j] / pivot).normal();
+            for (std::size_t j = k + 1; j <= n; ++j) {
+                if (G[k][i].is_zero() || G[k][j].is_zero()) continue;
+                G[i][j] = (G[i][j] - G[k][i] * G[k][j] / pivot).normal();
+                if (is_large(G[i][j])) return std::nullopt;
+            }
     }
     result.last = G[n][n];
     return result;
@@ -247,6 +273,7 @@ std::optional<std::vector<ex>> sum_of_squares(const Mechanism& m, const std::vec
     for (const ex& atom : names.all())
         if (std::any_of(polynomials.begin(), polynomials.end(), [&](const ex& p) { return p.has(atom); }))
             atoms.push_back(atom);
+    if (atoms.size() > most_atoms) return std::nullopt;
     std::vector<SymbolicMatrix> G;
     for (const ex& polynomial : polynomials) {
         std::optional<SymbolicMatrix> matrix = matrix_of(polynomial, atoms);

@@ -80,13 +80,19 @@ bool add_friction(RoughRows& row, const Situation::Rough& rough) {
     return true;
 }
 
-std::vector<std::string> modes_of(const RoughChoice& choice, const std::vector<RoughRows>& rows) {
+/// Sliding has the side that it has already, or else the one to which it begins; in a plane it has none.
+std::vector<std::string> modes_of(const RoughChoice& choice, const std::vector<RoughRows>& rows,
+                                  const std::vector<bool>& in_plane) {
     std::vector<std::string> modes;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        modes.emplace_back(!choice.closed[i]                      ? "open"
-                           : rows[i].slip.size() == 0             ? "closed"
-                           : rows[i].side != 0 || choice.moves[i] ? "slip"
-                                                                  : "stick");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const int side = rows[i].side != 0 ? rows[i].side : choice.moves[i];
+        modes.emplace_back(!choice.closed[i]          ? "open"
+                           : rows[i].slip.size() == 0 ? "closed"
+                           : side == 0                ? "stick"
+                           : in_plane[i]              ? "slip"
+                           : side > 0                 ? "slip +"
+                                                      : "slip -");
+    }
     return modes;
 }
 
@@ -95,15 +101,20 @@ Lasting lasting_with_friction(const Situation& here, const std::vector<int>& can
     Lasting lasting;
     if (candidates.size() > most_rough_contacts) return lasting;
     std::vector<RoughRows> rows;
+    std::vector<bool> in_plane;
     bool any = false;
     for (const int k : candidates) {
+        in_plane.push_back(false);
         rows.push_back({.normal = here.contacts.rows.row(k),
                         .offset = -here.contacts.acceleration[k],
                         .slip = {},
                         .slip_offset = 0});
         int frictions = 0;
-        for (const Situation::Rough& rough : here.rough)
-            if (rough.contact == k && (++frictions > 1 || !add_friction(rows.back(), rough))) return lasting;
+        for (const Situation::Rough& rough : here.rough) {
+            if (rough.contact != k) continue;
+            if (++frictions > 1 || !add_friction(rows.back(), rough)) return lasting;
+            in_plane.back() = rough.slip.rows() > 1;
+        }
         any = any || frictions > 0;
     }
     if (!any) return lasting;
@@ -112,7 +123,8 @@ Lasting lasting_with_friction(const Situation& here, const std::vector<int>& can
     if (all.different.empty()) return lasting;
     if (all.different.size() > 1) {
         lasting.failure = "their accelerations differ";
-        for (const RoughChoice& choice : all.different) lasting.several.push_back(modes_of(choice, rows));
+        for (const RoughChoice& choice : all.different)
+            lasting.several.push_back(modes_of(choice, rows, in_plane));
         return lasting;
     }
     const RoughChoice& found = all.different[0];

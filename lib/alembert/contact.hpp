@@ -49,8 +49,8 @@ struct Situation {
 struct Lasting {
     std::string
         failure;  ///< if not empty, the reason why no choice is consistent; the other members are then empty
-    /// If several choices are consistent and differ in q'', the modes of each: `stick`, `slip`, `closed` or `open`
-    /// for each candidate. `failure` says so, too.
+    /// If several choices are consistent and differ in q'', the modes of each: `stick`, `slip +`, `slip -`, `slip`
+    /// (in a plane), `closed` or `open` for each candidate. `failure` says so, too.
     std::vector<std::vector<std::string>> several = {};
     Eigen::VectorXd acceleration = {};  ///< q''
     std::vector<int> closed =

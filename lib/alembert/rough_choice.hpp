@@ -9,12 +9,13 @@
 /// s η ≥ 0), where π ≥ 0, ξ = g x⁺ + c and η = w x⁺ + d (Moreau, Unilateral Contact and Dry Friction in Finite
 /// Freedom Dynamics, 1988; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, 1996, ch. 8). All
 /// choices of modes are tried. With M definite, small μ and μₛ = μ the rates of all consistent ones are the same.
-/// What rests slides only where μₛ does not hold it: with μₛ > μ a choice in which a contact slides, although it
-/// would stick while the others keep their modes, does not count.
+/// What rests slides only where μₛ does not hold it: with μₛ > μ a choice in which a contact slides does not count
+/// beside a consistent one in which this contact sticks, and with it all those with μₛ > μ that stick in the
+/// first.
 ///
-/// Where the forces of a choice are not unique, it is not solved. With μₛ = μ nothing is lost: the forces that it
-/// allows are a polyhedron without lines, and at a corner so many contacts are at their bounds, π = 0 or |τ| = μ
-/// π, that a choice in which these are open or slide has the same rates and unique forces.
+/// Where the forces of a choice are not unique, it is not solved. Nothing is lost: the forces that it allows are a
+/// polyhedron without lines, and at a corner so many contacts are at their bounds, π = 0 or |τ| = μₛ π, that a
+/// choice in which these are open, slide or stick with τ = ±μₛ π has the same rates and unique forces.
 
 #include <Eigen/Dense>
 #include <string>
@@ -36,7 +37,7 @@ struct RoughChoice {
     Eigen::VectorXd normal, tangential;  ///< π and τ of each contact
     Eigen::VectorXd bilateral;           ///< Λ
     std::vector<bool> closed;            ///< which contacts are closed
-    std::vector<bool> moves;             ///< which have a sliding velocity that is not 0
+    std::vector<int> moves;              ///< the sign of η of closed contacts, 0 of the others
 };
 
 /// The consistent choices whose rates differ, the first of those whose rates are the same. M: n×n; `momentum` is
@@ -50,6 +51,6 @@ RoughChoices every_rough_choice(const Eigen::MatrixXd& M, const Eigen::VectorXd&
                                 const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                                 const std::vector<RoughRows>& contacts);
 
-inline constexpr std::size_t most_rough_contacts = 5;  // for which 4⁵ choices are tried
+inline constexpr std::size_t most_rough_contacts = 5;  // for which 4⁵ choices are tried, or 6⁵
 
 }  // namespace alembert

@@ -87,6 +87,7 @@ private:
         Switching made;
         made.names = {"first", "second"};
         made.pairs = 1;
+        made.speed = 1;  // in units of the largest rate
         made.rates = [this](double, const double* y, const double* sigma, double* rate) { rates(y, sigma, rate); };
         made.smooth = [this](const std::vector<double>& sigma) {
             return make_rhs(static_cast<int>(state_.size()), [this, sigma](double, const double* y, double* rate) {

@@ -96,7 +96,7 @@ Together in_lines(const Situation& here, const VectorXd& momentum, const std::ve
         all = every_rough_choice(here.M, momentum, here.bilateral.rows, here.bilateral.drift, rows);
         changed = false;
         for (std::size_t i = 0; i < rows.size() && all.different.size() == 1; ++i) {
-            if (!all.different[0].moves[i] || rows[i].coefficient == contacts[i].coefficient) continue;
+            if (all.different[0].moves[i] == 0 || rows[i].coefficient == contacts[i].coefficient) continue;
             rows[i].coefficient = rows[i].resting = contacts[i].coefficient;
             changed = true;
         }

@@ -16,6 +16,7 @@ constexpr int most_places = 60;         // in which a zero is looked for
 constexpr int most_sweeps = 30;         // over several pairs that begin to slide together
 constexpr double settled = 1e-14;       // a sweep that turns no direction by more was the last one
 constexpr double at_bound = 1e-9;       // how near to its bound a share counts as at it, relative to it
+constexpr double sticks_surely = 1e-6;  // the margin above which nothing else is tried
 constexpr double held_back = 1e-9;      // ġ relative to what it would be alone, if others that stick hold it
 
 /// Changes the sides of a function or of a pair.
@@ -47,11 +48,11 @@ double zero_between(const std::function<double(double)>& function, ValueAt low, 
 
 /// δ with which what rounding leaves of a velocity does not reverse the direction.
 double least_grain(double speed) {
-    return 8 * speed + 1e-15;
+    return std::max(8 * speed, 1e-150);  // δ is not zero, nor is its square
 }
 /// δ with which a velocity does not change the direction.
 double large_grain(double speed) {
-    return 1e6 * (1 + speed);
+    return speed > 0 ? 1e15 * speed : 1;
 }
 
 /// begin_to_slide for several pairs, whose directions depend on each other.
@@ -111,7 +112,11 @@ public:
                 one[still] = other[still] = 1;  // no σ of theirs changes their own rates
             one[k] = 1;
             other[k] = -1;
-            const double up = slope_of(one, k), down = slope_of(other, k);
+            double up = slope_of(one, k), down = slope_of(other, k);
+            if (!std::isfinite(up) || !std::isfinite(down)) {  // others that stick cannot hold against a side
+                up = slope_alone(sides, k, 1);
+                down = slope_alone(sides, k, -1);
+            }
             const double size = std::abs(up) + std::abs(down);
             double margin;
             if (size <= held_back * size_alone(sides, k)) {  // others that stick hold it
@@ -163,15 +168,15 @@ private:
         return at.slope(k);
     }
 
-    /// |ġ| at both sides of the function while nothing else sticks.
-    double size_alone(SideSet sides, int k) const {
-        for (int& side : sides.of) side = side == 0 ? 1 : side;
-        double size = 0;
-        for (const int side : {-1, 1}) {
-            sides[static_cast<std::size_t>(k)] = side;
-            size += std::abs(slope_of(sides, k));
-        }
-        return size;
+    /// ġ at a side of the function while nothing else sticks.
+    double slope_alone(SideSet sides, int k, int side) const {
+        for (int& other : sides.of) other = other == 0 ? 1 : other;
+        sides[static_cast<std::size_t>(k)] = side;
+        return slope_of(sides, k);
+    }
+
+    double size_alone(const SideSet& sides, int k) const {
+        return std::abs(slope_alone(sides, k, -1)) + std::abs(slope_alone(sides, k, 1));
     }
 
     const Switching& system_;

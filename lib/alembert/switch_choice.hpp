@@ -17,8 +17,9 @@ struct SideChoice {
 
 /// All choices of sides for the `open` functions, the most consistent first; the other functions have their sides
 /// as in `sides`. A pair, of which `open` has the first function, may stick, or slide in the direction that it
-/// takes. There are 3 to the power of the number of open functions, with 2 for a pair. In all choices those of
-/// `resting`, whose rates are zero and do not depend on σ, stay zero with a σ within their bounds.
+/// takes. There are 3 to the power of the number of open functions, with 2 for a pair. If all of them are pairs
+/// that may stick together with some margin, that choice is the only one. In all choices those of `resting`, whose
+/// rates are zero and do not depend on σ, stay zero with a σ within their bounds.
 std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state,
                                      const std::vector<int>& resting = {});

@@ -23,8 +23,10 @@ constexpr double most_gathered = 1e3;  // times the error of a step, which a mot
 constexpr int most_in_one_place = 50;  // the most changes without an advance of time
 // Margin within which a choice still counts as consistent, relative to the rates of g on both sides.
 constexpr double slack = 1e-9;
-constexpr double small_normal = 1e-3;  // the least size relative to which a normal force is judged: near zero its
-                                       // sign may be due to rounding of the time
+constexpr double known = 1e-9;        // components of a state are known to this part of themselves, and times to
+constexpr double known_time = 1e-12;  // this part of the run
+constexpr double little = 1e-3;  // of what the load would give within the whole run: a sliding velocity before
+                                 // anything has slid
 // A second consistent choice with at least this margin makes the motion ambiguous.
 constexpr double clear_margin = 1e-6;
 
@@ -79,11 +81,56 @@ private:
         return here.value(k);
     }
 
-    /// The sliding velocity of a pair that rounding may leave of none.
-    double still(int pair) const {
-        double largest = std::max((*sizes_)[pair], (*sizes_)[pair + 1]);
-        for (const double y : state_) largest = std::max(largest, std::abs(y));
-        return 4 * tolerance::epsilon * largest;
+    /// |g| of a function, or of both of a pair.
+    double length(const std::vector<double>& g, int k) const {
+        return sides_.is_pair(k) ? std::hypot(g[k], g[k + 1]) : std::abs(g[k]);
+    }
+
+    /// Σ |∂g/∂y_i| size(y_i): how far a sliding velocity is off where the components of the state are off by these
+    /// sizes.
+    template <typename Size>
+    double moved(int k, const Size& size) const {
+        const std::vector<double> none(state_.size()), sigma = system_.sigma(sides_);
+        std::vector<double> y = state_, here(2 * sides_.size()), there = here;
+        system_.values(t_, y.data(), sigma.data(), none.data(), here.data());
+        double sum = 0;
+        for (std::size_t i = 0; i < y.size(); ++i) {
+            const double off = size(y[i]), kept = y[i];
+            if (off == 0) continue;
+            y[i] += std::max(off, std::sqrt(tolerance::epsilon) * std::abs(kept));
+            const double step = y[i] - kept;
+            system_.values(t_, y.data(), sigma.data(), none.data(), there.data());
+            for (std::size_t j = 0; j < there.size(); ++j) there[j] -= here[j];
+            sum += length(there, k) * off / step;
+            y[i] = kept;
+        }
+        return sum;
+    }
+
+    /// The sliding velocity that rounding may leave of none.
+    double still(int k) const {
+        return 4 * tolerance::epsilon * length(*sizes_, k) +
+               moved(k, [](double y) { return 4 * tolerance::epsilon * std::abs(y); });
+    }
+
+    /// How far the k-th normal force is uncertain because the state and the time are.
+    double uncertain_normal(const SwitchSides& now, int k) const {
+        SwitchSides other(system_, sides_, dimension());
+        std::vector<double> y = state_;
+        const auto change = [&](double t) {
+            other.evaluate(t, y.data());
+            other.find_bounds(t, y.data());
+            return std::abs(other.normal(k) - now.normal(k));
+        };
+        double sum = 0;
+        for (double& x : y) {
+            const double kept = x;
+            x += std::sqrt(tolerance::epsilon) * std::abs(kept);
+            if (x != kept) sum += known * std::abs(kept) / (x - kept) * change(t_);
+            x = kept;
+        }
+        const double later = t_ + std::sqrt(tolerance::epsilon) * std::max(std::abs(t_), options_.duration);
+        return sum + known_time * std::max(std::abs(t_), options_.duration) / (later - t_) * change(later);
     }
 
     /// Lets a pair slide in the direction of its velocity; false if that is not above `least`.
@@ -121,7 +168,8 @@ private:
         now.find_bounds(t_, state_.data());
         for (int k = 0; k < system_.count(); ++k) {
             (*normals_)[k] = std::max((*normals_)[k], std::abs(now.normal(k)));
-            if (now.normal(k) < -clear_margin * std::max((*normals_)[k], small_normal)) return fail_negative(k);
+            if (now.normal(k) < -std::max(clear_margin * (*normals_)[k], uncertain_normal(now, k)))
+                return fail_negative(k);
             if (sides_[k] != 0) (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
         }
         *undefined_ = HUGE_VAL;
@@ -262,13 +310,18 @@ private:
         return true;
     }
 
-    /// Adds the pairs that slide without a velocity: of the feet of a body that stops as a whole rounding may have
-    /// let one go just before.
+    /// Adds the frictions that slide without a velocity: of the feet of a body that stops as a whole rounding may
+    /// have let one go just before, or let it stop just after.
     void open_what_has_stopped(std::vector<int>& open, double times = 1) const {
-        for (int pair = 0; sides_.is_pair(pair); pair += 2)
-            if (sides_[pair] != 0 && std::find(open.begin(), open.end(), pair) == open.end() &&
-                std::hypot(value_of(pair), value_of(pair + 1)) <= times * stopped(pair))
-                open.push_back(pair);
+        SwitchSides here(system_, sides_, dimension());
+        here.evaluate(t_, state_.data());
+        for (int k = 0; k < system_.count(); k += sides_.is_pair(k) ? 2 : 1) {
+            if (!sides_.is_pair(k) && !system_.bounds) continue;  // no friction
+            const double speed = sides_.is_pair(k) ? here.velocity(k).norm() : std::abs(here.value(k));
+            if (sides_[k] != 0 && std::find(open.begin(), open.end(), k) == open.end() &&
+                speed <= times * stopped(k))
+                open.push_back(k);
+        }
     }
 
     /// Functions that the tolerance does not tell from zero, or that do not come nearer to it from one change to
@@ -363,16 +416,34 @@ private:
     /// Gives a pair that begins to slide its δ (switching.hpp).
     void seed(int pair) {
         double& grain = sides_.slides[pair / 2].grain;
-        grain = std::max(grain, std::pow(std::max(options_.tolerance, 1e-13), 2.0 / 3));
+        grain = std::max(grain, speed(pair) * std::pow(std::max(options_.tolerance, 1e-13), 2.0 / 3));
     }
 
-    /// The sliding velocity of a pair below which it counts as having stopped: what the tolerance leaves of none.
-    /// Steps hold errors of rates below it times max(1, |rate|), and a body hands them on from one of its feet to
-    /// the others.
-    double stopped(int pair) const {
-        double largest = 1;
+    /// The size of sliding velocities: the largest so far. Before anything has slid, that to which the load would
+    /// bring the pair without friction in a small part of the run.
+    double speed(int pair) const {
+        double largest = system_.speed;
         for (int k = 0; sides_.is_pair(k); ++k) largest = std::max(largest, (*sizes_)[k]);
-        return std::max(std::max(options_.tolerance, 1e-13) * largest, still(pair));
+        if (system_.speed > 0) return largest;
+        SideSet held = sides_;
+        held[pair] = held[pair + 1] = 0;
+        const std::vector<double> sigma = system_.sigma(held);  // α = 0
+        std::vector<double> rate(state_.size()), g(2 * sides_.size());
+        system_.rates(t_, state_.data(), sigma.data(), rate.data());
+        system_.values(t_, state_.data(), sigma.data(), rate.data(), g.data());
+        const std::size_t slope = sides_.size() + static_cast<std::size_t>(pair);
+        return std::max(largest, little * options_.duration * std::hypot(g[slope], g[slope + 1]));
+    }
+
+    /// The sliding velocity below which a friction counts as having stopped: what the tolerance leaves of none.
+    /// Steps hold the error of a component y below it times max(1, |y|), and a body hands errors on from one of
+    /// its feet to the others.
+    double stopped(int k) const {
+        const double least = std::max(options_.tolerance, 1e-13);
+        double largest = (*sizes_)[k];
+        for (int other = 0; sides_.is_pair(k) && sides_.is_pair(other); ++other)
+            largest = std::max(largest, (*sizes_)[other]);
+        return least * largest + moved(k, [&](double y) { return least * std::max(1.0, std::abs(y)); }) + still(k);
     }
 
     void tell(int k, SideChange::Kind kind) const {

@@ -33,7 +33,8 @@
 /// so that a piece can end exactly at v = 0; e is chosen anew where v has turned by 60° from it. The small δ gives
 /// a direction to a contact that begins to slide: that d for which v' = r d with r > 0. Where r = 0, as with equal
 /// coefficients, the direction follows the load at a rate like 1/|v|, which δ bounds; it is dropped as soon as |v|
-/// is a thousand times larger. With δ = ε^(2/3) for the tolerance ε the error in position is about ε.
+/// is a thousand times larger. With δ = ε^(2/3) V for the tolerance ε and the size V of sliding velocities the
+/// error in position is about ε of the distances that go with V.
 
 #include <array>
 #include <functional>
@@ -75,6 +76,8 @@ struct Switching {
     std::vector<std::string> names = {};  ///< the names of the g_k, for messages
     /// The number of pairs; the pair c has the functions 2c and 2c + 1.
     int pairs = 0;
+    /// The size of the sliding velocities of pairs, if it is known before the run; else 0.
+    double speed = 0;
     /// f for given σ, each between −1 and 1. With pairs σ begins with two numbers for each: 0 and 1 while it
     /// sticks, 1 and δ while it slides; and its two functions have α_1, α_2 or e for their σ.
     std::function<void(double t, const double* y, const double* sigma, double* rate)> rates = {};

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A constraint a·q' + b = 0 follows from A q' + c = 0 if (a, b) = σᵀ(A, c) with some σ, wherever the positions
+// hold. A relation of analytic functions that holds at places chosen at random holds everywhere (but for chance).
+#include "state/left_out.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "alembert/dense.hpp"
+#include "alembert/tolerances.hpp"
+#include "language/say.hpp"
+#include "lower/lower.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr int states_around = 3;
+constexpr double reach =
+    1e-2;  // of a coordinate: small, because another branch of the positions is another mechanism
+constexpr double farthest = 10;  // in units of the change that was asked for; farther away lies another branch
+constexpr double looser = 1e3;   // what is kept may be off by a tolerance each, and what follows from it by more
+
+/// A state near this one, for numbers of any size: each coordinate changes by a part of itself, and one that is
+/// zero by as much as the smallest other.
+std::vector<double> changes(const std::vector<double>& q, std::mt19937_64& random) {
+    std::uniform_real_distribution<double> part(-reach, reach);
+    double least = HUGE_VAL;
+    for (const double x : q)
+        if (x != 0) least = std::min(least, std::abs(x));
+    if (!std::isfinite(least)) least = 1;
+    std::vector<double> result;
+    for (const double x : q) result.push_back(part(random) * (x != 0 ? std::abs(x) : least));
+    return result;
+}
+
+double size_of(const std::vector<double>& list) {
+    double result = 0;
+    for (const double x : list) result = std::max(result, std::abs(x));
+    return result;
+}
+
+}  // namespace
+
+LeftOut::LeftOut(const Mechanism& m) {
+    if (m.redundant.empty()) return;
+    Mechanism kept = m;
+    kept.redundant.clear();
+    kept.speeds.clear();
+    kept.q_is_guess.assign(m.q.size(), true);
+    kept.qdot_is_guess.assign(m.q.size(), true);
+    Mechanism all = kept;
+    all.constraints.insert(all.constraints.end(), m.redundant.begin(), m.redundant.end());
+    std::vector<std::string> names;
+    for (const Mechanism::Constraint& c : all.constraints) names.push_back(c.name);
+    Program program = lower_constraints(all), kept_program = lower_constraints(kept);
+    std::set<int> parameters;
+    for (int id = 0; id < static_cast<int>(program.size()); ++id)
+        if (program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::parameter)
+            parameters.insert(program[id].variable.index);
+    both_.emplace(Both{.kept = std::move(kept),
+                       .kept_program = std::move(kept_program),
+                       .program = std::move(program),
+                       .count_kept = static_cast<int>(m.constraints.size()),
+                       .count = static_cast<int>(m.constraints.size() + m.redundant.size()),
+                       .names = std::move(names),
+                       .parameters = std::move(parameters)});
+}
+
+void LeftOut::check(const Start& start) const {
+    if (!both_) return;
+    Start here = start;
+    if (!move_onto_kept(here)) return;
+    check_position(here.state());
+    if (!has_other_parameters(here)) return;
+    check_row(here.state());
+    std::mt19937_64 random(3);
+    for (int k = 0; k < states_around; ++k) {
+        Start other = here;
+        other.t += reach * (k + 1);
+        const std::vector<double> asked = changes(here.q, random);
+        for (std::size_t i = 0; i < asked.size(); ++i) other.q[i] += asked[i];
+        if (!move_onto_kept(other)) continue;
+        std::vector<double> moved;
+        for (std::size_t i = 0; i < asked.size(); ++i) moved.push_back(other.q[i] - here.q[i]);
+        if (size_of(moved) > farthest * size_of(asked)) continue;
+        check_position(other.state());
+        check_row(other.state());
+    }
+}
+
+bool LeftOut::move_onto_kept(Start& start) const {
+    start.speeds.clear();
+    try {
+        assemble(start, both_->kept, both_->kept_program, {}, false);
+        return true;
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
+bool LeftOut::has_other_parameters(const Start& start) const {
+    return std::any_of(both_->parameters.begin(), both_->parameters.end(), [&](int k) {
+        const auto at = static_cast<std::size_t>(k);
+        return start.parameters[at] != both_->program.parameters[at].value;
+    });
+}
+
+void LeftOut::check_position(const State<double>& state) const {
+    const Program& p = both_->program;
+    const std::vector<double> value = interpret(p, state);
+    const std::vector<int> nodes = p.nodes_of(Group::position), rows = p.nodes_of(Group::row);
+    for (int k = both_->count_kept; k < both_->count; ++k) {
+        const int node = nodes[static_cast<std::size_t>(k)];
+        double row = 0;  // the terms may all be zero, and their rounding is that of the coordinates
+        for (std::size_t i = 0; i < state.q.size(); ++i)
+            row +=
+                std::abs(value[static_cast<std::size_t>(rows[static_cast<std::size_t>(k) * state.q.size() + i])]);
+        const double misfit = std::abs(value[static_cast<std::size_t>(node)]);
+        if (misfit > looser * tolerance::initial_values * (size_of_terms(p, node, value) + row * size_of(state.q)))
+            refuse(k, misfit);
+    }
+}
+
+void LeftOut::check_row(const State<double>& state) const {
+    const Program& p = both_->program;
+    const std::vector<double> value = interpret(p, state);
+    const std::vector<int> rows = p.nodes_of(Group::row), rates = p.nodes_of(Group::velocity);
+    const auto n = static_cast<Eigen::Index>(state.q.size());
+    Eigen::MatrixXd A(both_->count, n);
+    Eigen::VectorXd drift(both_->count), size(both_->count);
+    for (Eigen::Index k = 0; k < both_->count; ++k) {
+        const int node = rates[static_cast<std::size_t>(k)];
+        double carried = 0;
+        for (Eigen::Index i = 0; i < n; ++i) {
+            A(k, i) = value[static_cast<std::size_t>(rows[static_cast<std::size_t>(k * n + i)])];
+            carried += A(k, i) * state.qdot[static_cast<std::size_t>(i)];
+        }
+        drift[k] = value[static_cast<std::size_t>(node)] - carried;
+        size[k] = size_of_terms(p, node, value);
+    }
+    if (!A.allFinite() || !drift.allFinite()) return;  // a pole, of which others tell
+    const Eigen::MatrixXd kept = A.topRows(both_->count_kept);
+    for (Eigen::Index k = both_->count_kept; k < both_->count; ++k) {
+        const Eigen::RowVectorXd row = A.row(k);
+        const Eigen::VectorXd share = least_norm(kept.transpose(), row.transpose()).x;
+        const double apart = (row.transpose() - kept.transpose() * share).norm();
+        if (apart > looser * tolerance::dependent_row * row.norm() + tolerance::vanished_row * A.norm())
+            refuse(static_cast<int>(k), apart);
+        const double early = std::abs(drift[k] - share.dot(drift.head(both_->count_kept)));
+        const double terms = size[k] + share.cwiseAbs().dot(size.head(both_->count_kept));
+        if (early > looser * tolerance::initial_values * terms) refuse(static_cast<int>(k), early);
+    }
+}
+
+void LeftOut::refuse(int constraint, double misfit) const {
+    throw ModelError(
+        say("constraint '{}' follows from the others at the values of the scene, but is off by {:.6g} at these: "
+            "what was added or left out for the scene does not hold there",
+            both_->names[static_cast<std::size_t>(constraint)], misfit));
+}
+
+}  // namespace alembert
