@@ -186,6 +186,24 @@ TEST_CASE(
     CHECK(rattle.err.find("rattle") != std::string::npos);
 }
 
+// x = k/10 cos wt. A step of the series is up to 5/w long, a sixteenth of that 0.3/w; there the polynomial of
+// fifth degree errs by 0.3⁶/46080 of the amplitude, that of third degree by 0.3⁴/384 of the rate's. Over whole
+// steps nothing of the extremes would be known.
+TEST_CASE("sweep: --along looks within the long steps of taylor, side by side and one by one") {
+    const std::string scene = temporary("spring.toml", spring);
+    for (const char* code : {"auto", "compiled"}) {
+        const Json table = swept({scene, "--vary", "k=2:9:15", "--method", "taylor", "--tolerance", "1e-9",
+                                  "--along", "min,mean", "--code", code});
+        for (const Json& row : table["rows"]) {
+            const double k = row["varied"]["k"], w = std::sqrt(k), size = k / 10;
+            const auto along = [&](const char* name) { return row["along"][name].get<double>(); };
+            CHECK(std::abs(along("min_x") + size) < 1e-7 * size);
+            CHECK(std::abs(along("min_x'") + size * w) < 1e-4 * size * w);
+            CHECK(std::abs(along("mean_x") - size * std::sin(3 * w) / (3 * w)) < 1e-7 * size);
+        }
+    }
+}
+
 // x = 1 - t²/2: a scene with plain numbers only has no parameters to pass on.
 TEST_CASE("sweep: a scene without parameters is swept, side by side and by every packed method") {
     const std::string scene =

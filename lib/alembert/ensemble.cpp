@@ -124,6 +124,27 @@ void check(const Ensemble& e, const Options& options) {
                   longest);
 }
 
+/// A state within a step.
+struct Passing {
+    double t;
+    std::vector<double> state, rate;
+};
+
+/// The states at the ends of the pieces of a step of a series, but the last.
+std::vector<Passing> passed(const Rhs& rhs, const Stretch& step) {
+    std::vector<Passing> list;
+    for (int piece = 1; piece < Along::pieces_of_series; ++piece) {
+        const double theta = static_cast<double>(piece) / Along::pieces_of_series;
+        const auto size = static_cast<std::size_t>(rhs.dimension);
+        Passing one{step.start + theta * (step.end - step.start), std::vector<double>(size),
+                    std::vector<double>(size)};
+        step.interpolate(theta, one.state.data());
+        rhs(one.t, one.state.data(), one.rate.data());
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
 /// The threads that integrate the members of a feed.
 class Crew {
 public:
@@ -217,9 +238,19 @@ private:
         if (member.quick_times != nullptr) options.quick_times = *member.quick_times;
         options.sample = member.duration;  // no rows but the end
         Along along(table.coordinates, table.coordinates + table.speeds);
+        std::vector<Passing> passing;
+        if (e_.along && needs_series(options.method))
+            options.on_stretch = [&](const Stretch& step) {
+                passing = passed(rhs, step);
+                return false;
+            };
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             drift(table, par, t, y, rate);
-            if (e_.along) along(t, y.data(), rate.data());
+            if (!e_.along) return;
+            for (const Passing& one : passing)
+                if (one.t < t) along(one.t, one.state.data(), one.rate.data());
+            passing.clear();
+            along(t, y.data(), rate.data());
         };
         std::optional<Projection> projection;
         if (table.constraints > 0)

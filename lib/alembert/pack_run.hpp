@@ -48,6 +48,7 @@ class PackRun {
         StepSize control{1};
         Drift drift{0, 0, false};
         Along along;
+        Rhs rhs = {};  ///< of this member alone, if there are states within steps to look at
         Outcome outcome;
     };
 
@@ -166,7 +167,7 @@ private:
             ++(is_good ? lane.outcome.steps : lane.outcome.rejected);
             if (!is_good) continue;
             note_energy(i);
-            if (ensemble_.along) note_state(i);
+            if (ensemble_.along) note_state(i, length[i]);
             if (step_.time[i] == lane.end) complete(i);
         }
     }
@@ -202,7 +203,16 @@ private:
                            extra_ == 1 ? step_.state(dimension_ - 1, i) : 0);
     }
 
-    void note_state(int i) {
+    /// At the end of a step; where steps are as long as those of a series, also within.
+    void note_state(int i, double length) {
+        if constexpr (has_own_lengths)
+            for (int piece = 1; piece < Along::pieces_of_series; ++piece) {
+                const double h = length * piece / Along::pieces_of_series;
+                const double t = step_.time[i] - (length - h);
+                step_.within(i, h, state_);
+                lane_[i].rhs(t, state_.data(), rate_.data());
+                lane_[i].along(t, state_.data(), rate_.data());
+            }
         for (int k = 0; k < dimension_; ++k) {
             state_[static_cast<std::size_t>(k)] = step_.state(k, i);
             rate_[static_cast<std::size_t>(k)] = step_.rate(k, i);
@@ -237,6 +247,7 @@ private:
                     .control = StepSize(std::max(1, order())),
                     .drift = Drift(0, 0, false),
                     .along = {},
+                    .rhs = {},
                     .outcome = {}};
             if (!begin(i, lane)) {
                 source_.again(lane.member);
@@ -274,6 +285,7 @@ private:
         if (ensemble_.along) {
             lane.along = Along(table.coordinates, dimension_ - extra_);
             lane.along(member.start, state.data(), rate_.data());
+            if constexpr (has_own_lengths) lane.rhs = rhs;
         }
         const std::vector<double> par = prepared(ensemble_.module, member.parameters);
         step_.put(i, member.start, state.data(), rate_.data(), par);

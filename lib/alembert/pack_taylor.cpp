@@ -224,6 +224,15 @@ double PackTaylor::shorter_length(double h, double ratio) const {
     return h * shorter_taylor_step(order_, ratio);
 }
 
+/// The series of that step stand where those of the next ends will.
+void PackTaylor::within(int lane, double h, std::vector<double>& state) const {
+    for (int b = 0; b < dimension_; ++b) {
+        double value = 0;
+        for (int k = order_; k >= 0; --k) value = value * h + next_coefficients_[place(k * dimension_ + b)][lane];
+        state[place(b)] = value;
+    }
+}
+
 void PackTaylor::energies(Lanes (&energy)[5]) const {
     pack_.energy(reals(&time), reals(y_.data()), reals(series_now() + dimension_), reals(par_.data()),
                  reals(energy), reals(&energy[4]));

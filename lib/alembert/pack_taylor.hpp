@@ -47,6 +47,8 @@ public:
     double state(int component, int lane) const { return y_[place(component)][lane]; }
     double rate(int component, int lane) const { return series_now()[dimension_ + component][lane]; }
     void energies(Lanes (&energy)[5]) const;
+    /// The state at h after the start of the lane's last accepted step.
+    void within(int lane, double h, std::vector<double>& state) const;
 
     Lanes time, end, misfit;
 

@@ -23,9 +23,9 @@ struct Expansion {
     int order;
     Lanes *out, *fixed, *given[2], *rows;
 
-    /// Σ a_j b_(k−j) over 0 < j < k, and of the next order the terms whose factors are known, 1 < j < k: the two
-    /// share their factors, so that one is loaded for each term instead of two. The terms of a square are taken
-    /// once. Sums side by side, so that few additions wait for each other.
+    /// For an odd k: Σ a_j b_(k−j) over 0 < j < k, and of the next order the terms whose factors are known, 1 < j
+    /// < k. The two share their factors, so that one is loaded for each term instead of two. The terms of a square
+    /// are taken once. Sums side by side, so that few additions wait for each other.
     template <int k>
     [[gnu::always_inline]] static void convolve(const Wide* a, const Wide* b, Wide& sum, Wide& ahead) {
         Wide now[3] = {}, next[3] = {};
@@ -39,8 +39,7 @@ struct Expansion {
             sum += sum;
             ahead = next[0] + (next[1] + next[2]);
             ahead += ahead;
-            if constexpr (k % 2 == 0) sum += a[k / 2] * a[k / 2];
-            if constexpr (k % 2 == 1 && k > 1) ahead += a[k / 2 + 1] * a[k / 2 + 1];
+            if constexpr (k > 1) ahead += a[k / 2 + 1] * a[k / 2 + 1];
             return;
         }
 #pragma GCC unroll 32
