@@ -19,10 +19,11 @@
 ///     integrate(ensemble, EnsembleFeed{.next = [&] { return more(); }, .done = [&](auto& m, auto& o, auto y) { …
 ///     }}, options);
 ///
-/// The step control is that of `integrate`, so that a member differs from a single run only by rounding. If a
-/// member fails, its own Outcome says why and holds its last good state; the others are not affected. Events that
-/// do not stop, rows and Options::on_step are not supported. Throws std::invalid_argument for sizes that do not
-/// fit and for options that make no sense.
+/// The step control is that of `integrate`, so that a member differs from a single run only by rounding; the order
+/// of `taylor` side by side is the one that is best there, so that its steps are others. If a member fails, its
+/// own Outcome says why and holds its last good state; the others are not affected. Events that do not stop, rows
+/// and Options::on_step are not supported. Throws std::invalid_argument for sizes that do not fit and for options
+/// that make no sense.
 
 #include <cstddef>
 #include <functional>
