@@ -144,6 +144,66 @@ TEST_CASE("sweep: mistakes in --vary are reported, with exit code 3") {
           std::string::npos);
 }
 
+// Loads that depend on time and drag do work, which is one more component of the series.
+TEST_CASE("sweep: taylor ends where verner98 and the closed form do, and its rows balance energy and work") {
+    const Json springs = swept({temporary("spring.toml", spring), "--vary", "k=1:9:21", "--method", "taylor"});
+    CHECK(springs["method"] == "taylor");
+    for (const Json& row : springs["rows"]) {
+        const double k = row["varied"]["k"], w = std::sqrt(k);
+        CHECK(std::abs(row["final"]["coordinates"]["x"].get<double>() - k / 10 * std::cos(3 * w)) < 1e-12);
+        CHECK(std::abs(row["final"]["rates"]["x"].get<double>() + k / 10 * w * std::sin(3 * w)) < 1e-12);
+    }
+    CHECK(springs["states_per_second"].get<double>() > 0);
+    const std::string driven = source_path("scenes/textbook/double_pendulum.toml");
+    const auto rows = [&](const char* method) {
+        return swept({driven, "--vary", "theta1=0.1:1:5", "--vary", "t=0:2:3", "--duration", "4", "--tolerance",
+                      "1e-12", "--method", method})["rows"];
+    };
+    const Json series = rows("taylor"), expected = rows("verner98");
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        for (const char* name : {"theta1", "theta2"})
+            CHECK(std::abs(series[k]["final"]["coordinates"][name].get<double>() -
+                           expected[k]["final"]["coordinates"][name].get<double>()) < 1e-9);
+        CHECK(series[k]["work_balance"].get<double>() < 1e-12);
+    }
+}
+
+TEST_CASE(
+    "sweep: taylor with constraints is that of simulate, and auto leaves it where it does not go side by side") {
+    const std::string bar = source_path("scenes/textbook/cartesian_pendulum.toml"),
+                      plain = temporary("spring.toml", spring);
+    const Json table = swept({bar, "--vary", "g=5:9.81:2", "--duration", "1", "--method", "taylor"});
+    CHECK(table["side_by_side"] == 1);
+    const Json whole =
+        Json::parse(run({"simulate", bar, "--json", "--duration", "1", "--method", "taylor"}).out)["final"];
+    CHECK(table["rows"][1]["final"]["coordinates"] == whole["coordinates"]);
+    CHECK(swept({plain, "--vary", "k=1:2:2", "--code", "compiled"})["method"] == "verner98");
+    CHECK(swept({plain, "--vary", "k=1:2:2", "--along", "max"})["method"] == "dop853");
+    CHECK(swept({plain, "--vary", "k=1:2:2", "--tolerance", "1e-4"})["method"] == "dop853");
+    CHECK(swept({plain, "--vary", "k=1:2:2", "--method", "taylor", "--code", "compiled"})["side_by_side"] == 1);
+    const auto rattle = run({"sweep", plain, "--vary", "k=1:2:2", "--method", "rattle"});
+    CHECK(rattle.exit == 3);
+    CHECK(rattle.err.find("rattle") != std::string::npos);
+}
+
+// x = k/10 cos wt. A step of the series is up to 5/w long, a sixteenth of that 0.3/w; there the polynomial of
+// fifth degree errs by 0.3⁶/46080 of the amplitude, that of third degree by 0.3⁴/384 of the rate's. Over whole
+// steps nothing of the extremes would be known.
+TEST_CASE("sweep: --along looks within the long steps of taylor, side by side and one by one") {
+    const std::string scene = temporary("spring.toml", spring);
+    for (const char* code : {"auto", "compiled"}) {
+        const Json table = swept({scene, "--vary", "k=2:9:15", "--method", "taylor", "--tolerance", "1e-9",
+                                  "--along", "min,mean", "--code", code});
+        for (const Json& row : table["rows"]) {
+            const double k = row["varied"]["k"], w = std::sqrt(k), size = k / 10;
+            const auto along = [&](const char* name) { return row["along"][name].get<double>(); };
+            CHECK(std::abs(along("min_x") + size) < 1e-7 * size);
+            CHECK(std::abs(along("min_x'") + size * w) < 1e-4 * size * w);
+            CHECK(std::abs(along("mean_x") - size * std::sin(3 * w) / (3 * w)) < 1e-7 * size);
+        }
+    }
+}
+
 // x = 1 - t²/2: a scene with plain numbers only has no parameters to pass on.
 TEST_CASE("sweep: a scene without parameters is swept, side by side and by every packed method") {
     const std::string scene =

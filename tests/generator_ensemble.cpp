@@ -7,8 +7,15 @@
 #include "alembert/drift.hpp"
 #include "alembert/ensemble.hpp"
 #include "emit/emit.hpp"
+#include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
+#include "machine/encoder.hpp"
+#include "machine/memory_series.hpp"
+#include "machine/memory_series_packs.hpp"
+#include "machine/memory_solver.hpp"
+#include "program/recurrence.hpp"
+#include "random_scene.hpp"
 #include "scenes.hpp"
 #include "state/prepared.hpp"
 
@@ -18,11 +25,14 @@ using namespace alembert;
 
 namespace {
 
-Module module_of(const std::string& scene, bool batch = true) {
+Program program_of(const std::string& scene) {
     const Mechanism mechanism = prepared(read_scene(test::source_path(scene))).mechanism;
-    const Program program =
-        choose(mechanism, formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism))
-            .program;
+    return choose(mechanism, formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism))
+        .program;
+}
+
+Module module_of(const std::string& scene, bool batch = true) {
+    const Program program = program_of(scene);
     return load(compile(emit(program, {.batch = batch}).text, program.name, {}).object);
 }
 
@@ -42,6 +52,27 @@ Ensemble random_members(const Module& module, int count) {
     return e;
 }
 
+/// A series that takes the steps of those in packs: its order follows from the costs of an order.
+SeriesModule with_costs_of(const SeriesPacks& packs, const SeriesModule& own) {
+    struct WithCosts {
+        SeriesModule own;
+        alembert_series_table table;
+    };
+    const auto series = std::make_shared<WithCosts>(WithCosts{own, *own});
+    series->table.order_cost = packs.order_cost;
+    series->table.product_cost = packs.product_cost;
+    return {series, &series->table};
+}
+
+/// With the power series of the motions, alone and in packs; false where there is no such code.
+bool add_series(Ensemble& e, const std::string& scene) {
+    if (!machine::can_run() || !machine::can_run(lanes)) return false;
+    const Program program = program_of(scene);
+    e.series_packs = memory_series_packs(program, e.work == Work::integrated);
+    e.series = with_costs_of(*e.series_packs, memory_series(program, e.work == Work::integrated)->module);
+    return true;
+}
+
 Trajectory alone(const Ensemble& e, std::size_t k, Options options, Drift* drift = nullptr) {
     const alembert_solver_table& table = e.module.table();
     const auto part = [&](const std::vector<double>& all, int size) {
@@ -58,7 +89,9 @@ Trajectory alone(const Ensemble& e, std::size_t k, Options options, Drift* drift
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             (*drift)(table, par, t, y, rate);
         };
-    return integrate(make_rhs(e.module, part(e.parameters, table.parameters), e.work), state, options);
+    Rhs rhs = make_rhs(e.module, part(e.parameters, table.parameters), e.work);
+    if (e.series) rhs.series = make_series(e.series, part(e.parameters, table.parameters));
+    return integrate(rhs, state, options);
 }
 
 double distance(std::span<const double> a, std::span<const double> b) {
@@ -103,10 +136,115 @@ TEST_CASE(
     }
 }
 
+// The two sum the same series in another order, so that their coefficients, and with them the lengths of steps,
+// differ by rounding. A step more or less is taken where the last one ends just before or after the end.
+TEST_CASE("ensemble: power series in packs take the steps of a single run, with loads, parameters and starts") {
+    for (const char* scene : {"scenes/textbook/double_pendulum.toml", "scenes/textbook/elastic_pendulum.toml"}) {
+        CAPTURE(scene);
+        const Module module = module_of(scene);
+        Ensemble e = random_members(module, 21);
+        e.work = Work::integrated;
+        if (!add_series(e, scene)) return;
+        for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
+            CAPTURE(tolerance);
+            const Options options{.method = Method::taylor, .tolerance = tolerance};
+            const Outcomes ends = integrate(e, options);
+            REQUIRE(ends.packed);
+            for (std::size_t k = 0; k < e.count(); ++k) {
+                CAPTURE(k);
+                Drift drift(module.table().coordinates, module.table().speeds, true);
+                const Trajectory one = alone(e, k, options, &drift);
+                const Outcome& outcome = ends.members[k];
+                CHECK(distance(ends.state(k), one.final_state().first(ends.state(k).size())) < tolerance);
+                CHECK(outcome.failure.empty() == !one.failure);
+                CHECK(outcome.time == e.starts[k] + e.durations[k]);
+                CHECK(std::abs(outcome.steps - one.statistics.steps) <= 1);
+                CHECK(std::abs(outcome.evaluations - one.statistics.evaluations) <= 2);
+                CHECK(std::abs(outcome.work_balance - drift.balance()) < tolerance);
+            }
+        }
+    }
+}
+
+// The local errors of both are below 1e-10, and a motion of a second lets a difference grow some hundred times:
+// the stiffest spring, k/m = 20, may have either sign.
+TEST_CASE("ensemble: power series in packs end where verner98 does, in scenes at random") {
+    if (!machine::can_run() || !machine::can_run(lanes)) return;
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> value(-0.8, 0.8);
+    int compared = 0;
+    for (unsigned seed = 0; seed < 80; ++seed) {
+        CAPTURE(seed);
+        const Mechanism m = build(parse_scene(test::random_scene(seed), "random.toml"));
+        if (!m.constraints.empty() || !m.unilateral.empty() || (!m.speeds.empty() && !masses_are_known(m)))
+            continue;
+        const Program program = choose(m, formalism(m.speeds.empty() ? "lagrange" : "kane").derive(m)).program;
+        if (program.singular || obstacle_to_recurrences(program)) continue;
+        Ensemble e{.module = memory_solver(program, true)->module};
+        e.series = memory_series(program)->module;
+        e.series_packs = memory_series_packs(program);
+        const int width = e.module.table().coordinates + e.module.table().speeds;
+        for (int i = 0; i < 11 * width; ++i) e.states.push_back(value(random));
+        const Outcomes expected = integrate(e, {.method = Method::verner98, .duration = 1, .tolerance = 1e-12}),
+                       ends = integrate(e, {.method = Method::taylor, .duration = 1, .tolerance = 1e-11});
+        REQUIRE(ends.packed);
+        for (std::size_t k = 0; k < e.count(); ++k) {
+            CAPTURE(k);
+            if (!expected.members[k].failure.empty() || !ends.members[k].failure.empty()) continue;
+            ++compared;
+            for (int i = 0; i < width; ++i) {
+                const double there = expected.state(k)[static_cast<std::size_t>(i)];
+                CHECK(std::abs(ends.state(k)[static_cast<std::size_t>(i)] - there) <
+                      1e-8 * std::max(1.0, std::abs(there)));
+            }
+        }
+    }
+    CHECK(compared > 200);
+}
+
+// The series knows nothing of a jump ahead: the rate at the end is not that of the polynomial, and the step is
+// repeated. In each lane that comes at another time.
+TEST_CASE("ensemble: power series in packs see steep changes of loads as a single run does, each lane its own") {
+    if (!machine::can_run() || !machine::can_run(lanes)) return;
+    const Mechanism m = build(
+        parse_scene("[parameters]\nwhen = 1\n[coordinates]\nx = 0.5\n[energy]\nkinetic = \"x'^2/2\"\npotential = "
+                    "\"x^2/2\"\n[forces]\nx = \"0.3*tanh(400*(t - when))\"\n",
+                    "jump.toml"));
+    const Program program = choose(m, formalism("lagrange").derive(m)).program;
+    Ensemble e{.module = memory_solver(program, true)->module};
+    e.series_packs = memory_series_packs(program);
+    e.series = with_costs_of(*e.series_packs, memory_series(program)->module);
+    for (int k = 0; k < 19; ++k) {
+        e.states.insert(e.states.end(), {0.5, 0.1 * k});
+        e.parameters.push_back(0.15 * k);
+        e.starts.push_back(0);
+        e.durations.push_back(4);
+    }
+    const Options options{.method = Method::taylor, .tolerance = 1e-9};
+    const Outcomes ends = integrate(e, options),
+                   again = integrate(e, {.method = Method::verner98, .tolerance = 1e-11});
+    REQUIRE(ends.packed);
+    for (std::size_t k = 1; k < e.count(); ++k) {
+        CAPTURE(k);
+        const Trajectory one = alone(e, k, options);
+        CHECK(ends.members[k].rejected > 0);
+        CHECK(std::abs(ends.members[k].steps - one.statistics.steps) <= 1);
+        CHECK(std::abs(ends.members[k].rejected - one.statistics.rejected) <= 1);
+        CHECK(distance(ends.state(k), one.final_state()) < 1e-9);
+        CHECK(distance(ends.state(k), again.state(k)) < 1e-7);
+    }
+}
+
 TEST_CASE("ensemble: no bit depends on the number of threads or on the neighbours") {
-    const Module module = module_of("scenes/textbook/elastic_pendulum.toml");
+    const char* const scene = "scenes/textbook/elastic_pendulum.toml";
+    const Module module = module_of(scene);
     Ensemble e = random_members(module, 37);
-    const Options options{.tolerance = 1e-10};
+    Options options{.tolerance = 1e-10};
+    SUBCASE("dop853") {}
+    SUBCASE("taylor") {
+        if (!add_series(e, scene)) return;
+        options.method = Method::taylor;
+    }
     e.threads = 1;
     const Outcomes reference = integrate(e, options);
     for (const int threads : {2, 3, 7}) {
@@ -123,7 +261,9 @@ TEST_CASE("ensemble: no bit depends on the number of threads or on the neighbour
                            .states = {e.states.begin() + at * width, e.states.begin() + (at + 1) * width},
                            .parameters = {e.parameters.begin() + at * p, e.parameters.begin() + (at + 1) * p},
                            .starts = {e.starts[k]},
-                           .durations = {e.durations[k]}};
+                           .durations = {e.durations[k]},
+                           .series = e.series,
+                           .series_packs = e.series_packs};
         const Outcomes end = integrate(one, options);
         CHECK(distance(end.state(0), reference.state(k)) == 0);
         CHECK(same(end.members[0], reference.members[k]));
@@ -131,9 +271,15 @@ TEST_CASE("ensemble: no bit depends on the number of threads or on the neighbour
 }
 
 TEST_CASE("ensemble: a member that fails says why, as in a single run, and changes no bit of another") {
-    const Module module = module_of("scenes/textbook/elastic_pendulum.toml");
+    const char* const scene = "scenes/textbook/elastic_pendulum.toml";
+    const Module module = module_of(scene);
     Ensemble e = random_members(module, 20);
-    const Options options{.tolerance = 1e-10, .budget = 5000};
+    Options options{.tolerance = 1e-10, .budget = 5000};
+    SUBCASE("dop853") {}
+    SUBCASE("taylor") {
+        if (!add_series(e, scene)) return;
+        options.method = Method::taylor;
+    }
     const Outcomes good = integrate(e, options);
     const auto width = static_cast<std::size_t>(good.dimension);
     e.states[4 * width] = std::nan("");

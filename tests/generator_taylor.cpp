@@ -18,6 +18,7 @@
 #include "lower/choose.hpp"
 #include "machine/encoder.hpp"
 #include "machine/memory_series.hpp"
+#include "machine/memory_series_packs.hpp"
 #include "program/quad.hpp"
 #include "program/recurrence.hpp"
 #include "scenes.hpp"
@@ -48,13 +49,56 @@ std::vector<long double> coefficients(const std::function<Complex(Complex)>& f, 
     return result;
 }
 
+/// The coefficients at a state: out[k · width + i].
+using Coefficients = std::function<std::vector<double>(double t, const std::vector<double>& state, int order)>;
+
+std::vector<double> series_of(const SeriesModule& module, double t, const std::vector<double>& state, int order) {
+    const Series series = make_series(module);
+    std::vector<double> out(static_cast<std::size_t>((order + 1) * series.width)),
+        work(static_cast<std::size_t>(series.workspace));
+    series(t, state.data(), order, out.data(), work.data());
+    return out;
+}
+
+/// Those in the given lane; the other lanes have states and times nearby.
+std::vector<double> series_of(const SeriesPacks& packs, const std::vector<double>& parameters, double t,
+                              const std::vector<double>& state, int order, int lane) {
+    std::vector<double> own = parameters;
+    own.resize(static_cast<std::size_t>(packs.parameters + packs.constants));
+    packs.prepare(own.data());
+    Lanes times;
+    std::vector<Lanes> y(state.size()), par(own.size()),
+        out(static_cast<std::size_t>((order + 1) * packs.places.width)), work(packs.workspace());
+    for (int other = 0; other < lanes; ++other) {
+        times[other] = t + 0.1 * (other - lane);
+        for (std::size_t i = 0; i < y.size(); ++i) y[i][other] = state[i] * (1 + 0.01 * (other - lane));
+        for (std::size_t i = 0; i < par.size(); ++i) par[i][other] = own[i];
+    }
+    expand(packs, times, y.data(), par.data(), order, out.data(), work.data());
+    std::vector<double> result;
+    for (const Lanes& pack : out) result.push_back(pack[lane]);
+    return result;
+}
+
 struct Emitted {
     Mechanism mechanism;
     Program program;
     SeriesModule module;
-    SeriesModule in_memory;  ///< null where the processor has no such code
-    std::vector<SeriesModule> all() const {
-        return in_memory ? std::vector{module, in_memory} : std::vector{module};
+    SeriesModule in_memory;                    ///< null where the processor has no such code
+    std::shared_ptr<const SeriesPacks> packs;  ///< likewise
+    std::vector<Coefficients> all() const {
+        std::vector<Coefficients> result;
+        for (const SeriesModule& one : {module, in_memory})
+            if (one)
+                result.emplace_back([one](double t, const std::vector<double>& state, int order) {
+                    return series_of(one, t, state, order);
+                });
+        if (packs)
+            result.emplace_back([this](double t, const std::vector<double>& state, int order) {
+                return series_of(*packs, {module->parameter_values, module->parameter_values + module->parameters},
+                                 t, state, order, 5);
+            });
+        return result;
     }
 };
 
@@ -68,16 +112,10 @@ Emitted emitted(const Scene& scene, bool quad) {
                                       {.compiler = {}, .extra_flags = flags, .fast_math = false, .cache = {}});
     const std::optional<MemorySeries> memory = memory_series(program);
     REQUIRE(memory.has_value() == machine::can_run());
+    std::shared_ptr<const SeriesPacks> packs = memory_series_packs(program);
+    REQUIRE((packs != nullptr) == (machine::can_run() && machine::can_run(lanes)));
     return {std::move(m), std::move(program), load_series(compiled.object),
-            memory ? memory->module : SeriesModule()};
-}
-
-std::vector<double> series_of(const SeriesModule& module, double t, const std::vector<double>& state, int order) {
-    const Series series = make_series(module);
-    std::vector<double> out(static_cast<std::size_t>((order + 1) * series.width)),
-        work(static_cast<std::size_t>(series.workspace));
-    series(t, state.data(), order, out.data(), work.data());
-    return out;
+            memory ? memory->module : SeriesModule(), std::move(packs)};
 }
 
 /// x'' = f(t): the coefficients of x are those of f, integrated twice.
@@ -94,8 +132,8 @@ void check_function(const std::string& text, const std::function<Complex(Complex
     for (int j = 0; j < 200; ++j)
         largest = std::max(
             largest, std::abs(f(Complex(t) + std::polar(radius, 2 * std::numbers::pi_v<long double> * j / 200))));
-    for (const SeriesModule& module : one.all()) {
-        const std::vector<double> out = series_of(module, t, {0, 0}, order);
+    for (const Coefficients& series : one.all()) {
+        const std::vector<double> out = series(t, {0, 0}, order);
         for (int k = 0; k + 2 <= order; ++k) {
             CAPTURE(k);
             // Cauchy's bound for a coefficient is largest/radius^k; recurrences of a few steps at each order keep
@@ -116,7 +154,7 @@ const std::string g_text = "(0.3 + 0.2*sin(t) + 0.1*t)";
 // off by k c_k h^(k−1) there, with h as long as a step at tolerance 1e-14, where all terms are seen. The right
 // side comes from the interpreter. Allowed: rounding of 1e-12 of the largest rate, and the terms left out, (p + 1)
 // c h^p < (p + 1) 1e-14/h.
-void check_polynomial(const Emitted& one, const SeriesModule& module) {
+void check_polynomial(const Emitted& one, const Coefficients& series) {
     const Program& p = one.program;
     Start start = start_of(one.mechanism);
     assemble(start, one.mechanism, lower_constraints(one.mechanism), {});
@@ -127,7 +165,7 @@ void check_polynomial(const Emitted& one, const SeriesModule& module) {
     std::vector<double> y = state.q;
     y.insert(y.end(), state.qdot.begin(), state.qdot.end());
     constexpr int order = 18;
-    const std::vector<double> out = series_of(module, state.t, y, order);
+    const std::vector<double> out = series(state.t, y, order);
     const std::size_t width = y.size(), n = state.q.size();
     double h = 1;
     for (const int k : {order - 1, order})  // if every other coefficient is 0, the last one may be 0
@@ -165,7 +203,7 @@ void check_polynomial(const Emitted& one, const SeriesModule& module) {
 
 void check_polynomial(const Scene& scene) {
     const Emitted one = emitted(scene, false);
-    for (const SeriesModule& module : one.all()) check_polynomial(one, module);
+    for (const Coefficients& series : one.all()) check_polynomial(one, series);
 }
 
 }  // namespace
@@ -292,8 +330,8 @@ TEST_CASE("taylor: the file in doubles and the same file in 34 digits have the s
         table.prepare_quad(par.data());
         table.series_quad(Quad(start.t), state.data(), par.data(), order, exact.data(), work.data());
         const std::size_t width = y.size();
-        for (const SeriesModule& module : one.all()) {
-            const std::vector<double> out = series_of(module, start.t, y, order);
+        for (const Coefficients& series : one.all()) {
+            const std::vector<double> out = series(start.t, y, order);
             for (int k = 1; k <= order; ++k) {
                 double largest = 0, worst = 0;
                 for (std::size_t i = 0; i < width; ++i) {
@@ -305,6 +343,22 @@ TEST_CASE("taylor: the file in doubles and the same file in 34 digits have the s
                 CHECK(worst <= 1e-13 * k * largest);
             }
         }
+    }
+}
+
+TEST_CASE("taylor: no bit of a series in a pack depends on its lane or on the other lanes") {
+    for (const char* name : {"benchmark/pleiades", "textbook/double_pendulum", "textbook/rolling_disc"}) {
+        INFO(name);
+        const Emitted one = emitted(read_scene(test::source_path(fmt::format("scenes/{}.toml", name))), false);
+        if (!one.packs) return;
+        const Start start = start_of(one.mechanism);
+        std::vector<double> y = start.q;
+        y.insert(y.end(), start.qdot.begin(), start.qdot.end());
+        y.resize(static_cast<std::size_t>(one.packs->places.width));
+        const std::vector<double> first = series_of(*one.packs, start.parameters, start.t, y, 20, 0);
+        REQUIRE(std::all_of(first.begin(), first.end(), [](double x) { return std::isfinite(x); }));
+        for (int lane = 1; lane < lanes; ++lane)
+            CHECK(series_of(*one.packs, start.parameters, start.t, y, 20, lane) == first);
     }
 }
 

@@ -94,12 +94,6 @@ public:
     }
 
 private:
-    static std::vector<int> nodes_of(const FunctionTask& task) {
-        std::vector<int> nodes;
-        for (const FunctionResult& result : task.results) nodes.push_back(result.node);
-        return nodes;
-    }
-
     void describe() {
         const Program& p = steps_.at_zero;
         const auto count = [](std::size_t size) { return static_cast<int>(size); };

@@ -119,17 +119,21 @@ private:
 /// The coefficients of all nodes at any further order, from those of lower orders.
 class NextOrder {
 public:
-    NextOrder(const Recurrences& r, const SeriesLanes& lanes, ZeroOrder& zero)
-        : r_(r), lanes_(lanes), zero_(zero), n_(static_cast<int>(r.program.coordinates.size())) {
+    NextOrder(const Recurrences& r, const SeriesLanes& lanes, ZeroOrder& zero, bool in_packs)
+        : r_(r),
+          lanes_(lanes),
+          zero_(zero),
+          n_(static_cast<int>(r.program.coordinates.size())),
+          is_packed_(in_packs) {
         p_.name = r.program.name;
         places_.lanes = static_cast<int>(lanes.padded());
         places_.width = n_ + static_cast<int>(r.accelerations.size()) + (r.work >= 0 ? 1 : 0);
-        if (lanes.has_edges())
+        if (in_packs || lanes.has_edges())
             for (const SeriesLane& lane : lanes.lanes()) {
                 factors_.try_emplace({lane.a, lane.a_rate}, static_cast<int>(factors_.size()));
                 factors_.try_emplace({lane.b, lane.b_rate}, static_cast<int>(factors_.size()));
             }
-        places_.factors = static_cast<int>(factors_.size());
+        if (!in_packs) places_.factors = static_cast<int>(factors_.size());
         for (int id = 0; id < static_cast<int>(r_.nodes.size()); ++id) values_.push_back(value(id));
     }
 
@@ -153,12 +157,20 @@ public:
             put("out", i, state(i));
             put("next", places_.rates() + i, values_[rate_node(r_, i)]);
         }
-        for (const auto& [factor, place] : factors_)
-            put("next", places_.before() + place, now(factor.first, factor.second));
-        for (int l = 0; const SeriesLane& lane : lanes_.lanes()) {
-            put("row", l, now(lane.a, lane.a_rate));
-            put("row", places_.lanes + l++, now(lane.b, lane.b_rate));
+        if (is_packed_) {
+            for (const auto& [factor, place] : factors_)
+                put("row", SeriesPacks::place_of_factor(place), now(factor.first, factor.second));
+            for (const SeriesLane& lane : lanes_.lanes())
+                steps.pairs.push_back({factors_.at({lane.a, lane.a_rate}), factors_.at({lane.b, lane.b_rate})});
+        } else {
+            for (const auto& [factor, place] : factors_)
+                put("next", places_.before() + place, now(factor.first, factor.second));
+            for (int l = 0; const SeriesLane& lane : lanes_.lanes()) {
+                put("row", l, now(lane.a, lane.a_rate));
+                put("row", places_.lanes + l++, now(lane.b, lane.b_rate));
+            }
         }
+        steps.factors = static_cast<int>(factors_.size());
         FunctionTask& first = steps.first;
         first = {.name = "first",
                  .about = {},
@@ -211,7 +223,7 @@ private:
     /// The sum of a product over all lower orders but 0.
     void add_inner(std::vector<Program::Term>& terms, const SeriesProduct& x) {
         terms.emplace_back(1, product(x.weight, {{given(lanes_.number_of(x)), 1}}));
-        if (factors_.empty()) return;
+        if (places_.factors == 0) return;
         const SeriesLane lane = SeriesLanes::lane_of(x);
         const int a = factors_.at({lane.a, lane.a_rate}), b = factors_.at({lane.b, lane.b_rate});
         const auto one = [&](int factor) { return given(places_.ones() + factor); };
@@ -302,6 +314,7 @@ private:
     const SeriesLanes& lanes_;
     ZeroOrder& zero_;
     int n_;
+    bool is_packed_;
     Program p_;
     GivenPlaces places_;
     std::map<std::pair<int, bool>, int> factors_;  // a node, and whether its rate is meant
@@ -311,12 +324,18 @@ private:
 
 }  // namespace
 
-SeriesSteps series_steps(const Recurrences& recurrences) {
+std::vector<int> nodes_of(const FunctionTask& task) {
+    std::vector<int> nodes;
+    for (const FunctionResult& result : task.results) nodes.push_back(result.node);
+    return nodes;
+}
+
+SeriesSteps series_steps(const Recurrences& recurrences, bool in_packs) {
     const SeriesLanes lanes(recurrences, false);
     ZeroOrder zero(recurrences);
     SeriesSteps steps;
     steps.products = lanes.products_eight_wide();
-    NextOrder(recurrences, lanes, zero).finish(steps);
+    NextOrder(recurrences, lanes, zero, in_packs).finish(steps);
     return steps;
 }
 

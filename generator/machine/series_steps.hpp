@@ -10,7 +10,7 @@
 /// The values that stay fixed are the parameters of `next`: what depends on them alone, such as the factors of
 /// the linear system, is computed once for all orders.
 
-#include "alembert/series_code.hpp"
+#include "alembert/series_packs.hpp"
 #include "emit/function.hpp"
 #include "program/recurrence.hpp"
 
@@ -21,10 +21,16 @@ struct SeriesSteps {
     FunctionTask first;  ///< (t, state, par, fixed, given): given gets the rates
     FunctionTask next;   ///< (k, par, given, next, row, out): par are the fixed values
     GivenPlaces places;
+    int factors = 0;                            ///< different ones, of products
+    std::vector<SeriesPacks::Product> pairs{};  ///< in packs: the products, by the numbers of their factors
     double products = 0;  ///< multiplications of eight lanes, divided by the square of the order
 };
 
-/// Throws ModelError if the mass matrix is singular at every state.
-SeriesSteps series_steps(const Recurrences& recurrences);
+/// `in_packs`: for eight systems side by side (alembert/series_packs.hpp). Throws ModelError if the mass matrix is
+/// singular at every state.
+SeriesSteps series_steps(const Recurrences& recurrences, bool in_packs = false);
+
+/// What a function gives.
+std::vector<int> nodes_of(const FunctionTask& task);
 
 }  // namespace alembert::machine

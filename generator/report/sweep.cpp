@@ -23,6 +23,11 @@ std::string quoted(std::string text) {
     return result + "\"";
 }
 
+/// At how many states the right-hand side, or the power series, was computed in each second of processor time.
+double states_per_second(const Sweep& s) {
+    return s.timings.integrate > 0 ? s.computed / s.timings.integrate : 0;
+}
+
 }  // namespace
 
 Json as_json(const Sweep& s, const SweepTotals& sum) {
@@ -39,6 +44,7 @@ Json as_json(const Sweep& s, const SweepTotals& sum) {
     result["steps"] = sum.steps;
     result["rejected"] = sum.rejected;
     result["evaluations"] = sum.evaluations;
+    result["states_per_second"] = states_per_second(s);
     result[drift_name(s)] = sum.drift;
     result["seconds"] = {{"derive", s.seconds},
                          {"compile", s.timings.compile},
@@ -94,7 +100,8 @@ std::string as_text(const Sweep& s, const SweepTotals& sum) {
            translated_parts(s.formulation), s.method, s.grid.size(), s.packed ? say(", eight side by side") : "",
            s.threads, s.threads == 1 ? "" : "s", sum.steps, sum.rejected, sum.evaluations, s.operations,
            s.conserved ? say("energy drift") : say("work balance"), sum.drift);
-    say_on(page, "integrated in {:.3f} s of processor time\n", s.timings.integrate);
+    say_on(page, "integrated in {:.3f} s of processor time: {:.3g} states a second\n", s.timings.integrate,
+           states_per_second(s));
     return page;
 }
 

@@ -187,7 +187,7 @@ void run_first(Sweeper& sweeper, SweepQueue& queue, const SweepShelf& shelf, con
         .next = [&] { return queue.next(); },
         .done = [&](SweepPart which,
                     const std::vector<SweptMotion>& motions) { keep(which, shelf.pack(which, motions)); }};
-    double seconds = 0;
+    double seconds = 0, computed = 0;  // of the other processes
     int ended_ones = 0;
     const auto answer = [&](int from, const std::string& message) {
         ByteReader rest(std::string_view(message).substr(1));
@@ -199,6 +199,7 @@ void run_first(Sweeper& sweeper, SweepQueue& queue, const SweepShelf& shelf, con
             keep(which, std::string(rest.rest()));
         } else if (kind_of(message) == Message::ended) {
             seconds += rest.take<double>();
+            computed += rest.take<double>();
             ++ended_ones;
         } else {
             throw CompileError(say("process {}: {}", from, rest.rest()));
@@ -224,6 +225,7 @@ void run_first(Sweeper& sweeper, SweepQueue& queue, const SweepShelf& shelf, con
         }
     }
     sweeper.sweep().timings.integrate += seconds;
+    sweeper.sweep().computed += computed;
 }
 
 void dismiss(const Ranks& ranks) {
@@ -243,6 +245,7 @@ void run_other(const std::function<std::unique_ptr<Sweeper>()>& make,
         integrate_for_first(*sweeper, shelf_of(*sweeper), options.threads, ranks);
         std::string message = message_of(Message::ended);
         put_bytes(message, sweeper->sweep().timings.integrate);
+        put_bytes(message, sweeper->sweep().computed);
         ranks.send(0, message);
     } catch (const std::exception& error) {
         // If the first process has the same error, it is the one to say so, and its end is that of all.

@@ -122,6 +122,11 @@ SolverCode batch_code(const Program& program, const std::string& text, const Run
     }
 }
 
+BatchSeries batch_series(const Program& program, bool with_work, const RunOptions& wishes) {
+    return {.module = series_code(program, with_work, wishes).module,
+            .packs = code_wish(wishes) == CodeWish::compiled ? nullptr : memory_series_packs(program, with_work)};
+}
+
 std::string wished_code(const RunOptions& wishes) {
     constexpr const char* names[] = {"auto", "memory", "compiled"};
     return names[static_cast<int>(code_wish(wishes))];

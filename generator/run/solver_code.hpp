@@ -18,6 +18,7 @@
 
 #include "alembert/compile.hpp"
 #include "machine/memory_series.hpp"
+#include "machine/memory_series_packs.hpp"
 #include "machine/memory_solver.hpp"
 #include "run/options.hpp"
 
@@ -54,6 +55,14 @@ bool needs_compiler_for_series(const RunOptions& wishes);
 /// The functions for one system and for eight at once, which a sweep takes; for one alone where eight need a
 /// compiler and there is none. `text` is the emitted file.
 SolverCode batch_code(const Program& program, const std::string& text, const RunOptions& wishes);
+
+struct BatchSeries {
+    SeriesModule module;
+    std::shared_ptr<const SeriesPacks> packs;  ///< null without code in memory for eight systems
+};
+
+/// The power series of a sweep, likewise. Compiled series are for one system alone.
+BatchSeries batch_series(const Program& program, bool with_work, const RunOptions& wishes);
 
 /// "auto", "memory" or "compiled": what is wished for, whatever comes of it here.
 std::string wished_code(const RunOptions& wishes);

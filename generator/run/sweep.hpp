@@ -37,6 +37,7 @@ struct Sweep : Derived {
         double compile = 0, start = 0, integrate = 0;
     };
     Timings timings = {};  ///< processor time, s
+    double computed = 0;   ///< right-hand sides, or power series, in the time of integrating
 };
 
 /// Motions of a sweep that follow each other.

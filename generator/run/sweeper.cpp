@@ -18,6 +18,7 @@
 #include "run/regularization.hpp"
 #include "run/rows.hpp"
 #include "run/solver_code.hpp"
+#include "run/sweep_method.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -95,23 +96,16 @@ Options Sweeper::options_of_phased() {
     return options_of(wishes_, choice_, start);
 }
 
-Options Sweeper::options_for() const {
+Options Sweeper::options_for() {
     const Start start = start_of(s_.mechanism);
-    const bool steps_given = wishes_.step > 0 || start.step > 0;
-    const Options options = options_of(
-        wishes_, {.method = given_method(wishes_, s_).value_or(steps_given ? Method::rk4 : Method::dop853)},
-        start);
-    if (needs_series(options.method) || needs_canonical(options.method))
-        throw ModelError(
-            say("sweep does not run '{}', which needs more than the right-hand side; take dop853 or gauss",
-                name(options.method)));
-    return options;
+    choice_ = method_for_sweep(wishes_, s_, program_, start, !s_.along.empty());
+    return options_of(wishes_, choice_, start);
 }
 
 void Sweeper::make_key() {
     Fingerprint print;
     for (const std::string& text :
-         {std::string(ALEMBERT_VERSION), s_.scene.text, source_, wishes_.by, s_.method, wished_code(wishes_)})
+         {std::string(ALEMBERT_VERSION), s_.scene.text, source_, wishes_.by, wishes_.method, wished_code(wishes_)})
         print.add(text);
     print.add(fmt::format("{} {} {} {} {} {} {}", wishes_.duration, wishes_.tolerance, wishes_.step,
                           wishes_.max_step, wishes_.budget, wishes_.fast_math, s_.grid.size()));
@@ -160,9 +154,14 @@ void Sweeper::compile_phased() {
 void Sweeper::compile_smooth() {
     const double begin = process_seconds();
     ensemble_.emplace(Ensemble{.module = batch_code(program_, source_, wishes_).module});
-    s_.timings.compile = process_seconds() - begin;
     ensemble_->along = !s_.along.empty();
     ensemble_->work = s_.conserved ? Work::left_out : Work::integrated;
+    if (needs_series(options_.method)) {
+        BatchSeries series = batch_series(program_, !s_.conserved, wishes_);
+        ensemble_->series = std::move(series.module);
+        ensemble_->series_packs = std::move(series.packs);
+    }
+    s_.timings.compile = process_seconds() - begin;
     for (const Mechanism::EventAction& event : s_.mechanism.event_actions) {
         ensemble_->stops.push_back(event.stop);
         ensemble_->directions.push_back(event.direction);
@@ -306,6 +305,7 @@ void Sweeper::keep(std::size_t k, SweptMotion motion, const SweepDesk& desk) {
     const std::lock_guard lock(giving_);
     const auto at = std::prev(open_.upper_bound(k));
     OpenPart& open = at->second;
+    s_.computed += static_cast<double>(motion.evaluations);
     SweptMotion& place = open.motions[k - open.part.first];
     motion.varied = std::move(place.varied);
     place = std::move(motion);

@@ -38,8 +38,8 @@ struct SweepDesk {
 
 class Sweeper {
 public:
-    /// Derives and emits. Throws what `derived` throws; ModelError for methods that need more than the right-hand
-    /// side. `along` is a list of min, max, mean.
+    /// Derives and emits. Throws what `derived` throws; ModelError for methods that do not run in
+    /// sweeps. `along` is a list of min, max, mean.
     Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<std::string> along = {});
     Sweeper(const Sweeper&) = delete;
     Sweeper& operator=(const Sweeper&) = delete;
@@ -67,7 +67,7 @@ private:
         std::size_t left;
     };
 
-    Options options_for() const;
+    Options options_for();
     Options options_of_phased();
     void compile_smooth();
     void compile_phased();
@@ -85,7 +85,7 @@ private:
     Program program_, constraints_;
     std::optional<LeftOut> left_out_;
     std::string source_;
-    MethodChoice choice_;  ///< of motions that are not smooth
+    MethodChoice choice_;
     Options options_;
     bool is_assembled_ = false, has_varied_bodies_ = false;
     std::optional<Starts> starts_;

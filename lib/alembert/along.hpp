@@ -22,6 +22,9 @@ namespace alembert {
 
 class Along {
 public:
+    /// Into how many pieces a step of a power series is divided, which is several times as long as others.
+    static constexpr int pieces_of_series = 16;
+
     Along() = default;
     Along(int coordinates, int size)
         : coordinates_(static_cast<std::size_t>(coordinates)),

@@ -14,6 +14,8 @@
 #include "alembert/along.hpp"
 #include "alembert/dop853.hpp"
 #include "alembert/pack_run.hpp"
+#include "alembert/pack_step.hpp"
+#include "alembert/pack_taylor.hpp"
 #include "alembert/project.hpp"
 #include "alembert/verner.hpp"
 
@@ -22,14 +24,32 @@ namespace {
 
 using Packed = void (*)(const Ensemble&, const Options&, const MemberSource&, int width);
 
+/// How many quadratures there are, and the components of the state with them.
+struct Size {
+    explicit Size(const Ensemble& e)
+        : extra(e.work == Work::integrated ? 1 : 0),
+          dimension(e.module.table().coordinates + e.module.table().speeds + extra) {}
+    int extra, dimension;
+};
+
 template <const auto& tableau>
-void run_packed(const Ensemble& ensemble, const Options& options, const MemberSource& source, int width) {
-    PackRun<tableau>(ensemble, options, source).go(width);
+void run_packed(const Ensemble& e, const Options& options, const MemberSource& source, int width) {
+    const Size size(e);
+    PackRun(e, options, source, PackStep<tableau>(e.module, size.dimension, size.extra)).go(width);
 }
 
-/// The function that runs members side by side; null if the method is no explicit Runge-Kutta method.
-Packed packed_method(Method method) {
-    switch (method) {
+void run_packed_series(const Ensemble& e, const Options& options, const MemberSource& source, int width) {
+    const Size size(e);
+    PackRun(e, options, source,
+            PackTaylor(e.module, *e.series_packs, size.dimension, size.extra, options.tolerance))
+        .go(width);
+}
+
+/// The function that runs members side by side; null if the method cannot.
+Packed packed_method(const Ensemble& e, const Options& options) {
+    switch (options.method) {
+        case Method::taylor:
+            return e.series_packs && options.step == 0 ? run_packed_series : nullptr;
         case Method::euler:
             return run_packed<euler_tableau>;
         case Method::rk2:
@@ -51,6 +71,19 @@ Packed packed_method(Method method) {
 
 void need(bool good, const std::string& message) {
     if (!good) throw std::invalid_argument(message);
+}
+
+/// The system with the parameters of a member.
+Rhs rhs_of(const Ensemble& e, const std::vector<double>& parameters) {
+    Rhs rhs = make_rhs(e.module, parameters, e.work);
+    if (e.series) rhs.series = make_series(e.series, parameters);
+    return rhs;
+}
+
+/// The state with room for the quadratures.
+std::vector<double> with_quadratures(const Ensemble& e, std::vector<double> state) {
+    state.resize(state.size() + static_cast<std::size_t>(Size(e).extra));
+    return state;
 }
 
 void check_events(const Ensemble& e) {
@@ -86,8 +119,30 @@ void check(const Ensemble& e, const Options& options) {
              fmt::format("duration = {}: a finite number, zero or more, is needed", duration));
         longest.duration = std::max(longest.duration, duration);
     }
-    check_options(make_rhs(e.module, {}),
-                  {e.states.begin(), e.states.begin() + static_cast<std::ptrdiff_t>(width)}, longest);
+    check_options(rhs_of(e, {}),
+                  with_quadratures(e, {e.states.begin(), e.states.begin() + static_cast<std::ptrdiff_t>(width)}),
+                  longest);
+}
+
+/// A state within a step.
+struct Passing {
+    double t;
+    std::vector<double> state, rate;
+};
+
+/// The states at the ends of the pieces of a step of a series, but the last.
+std::vector<Passing> passed(const Rhs& rhs, const Stretch& step) {
+    std::vector<Passing> list;
+    for (int piece = 1; piece < Along::pieces_of_series; ++piece) {
+        const double theta = static_cast<double>(piece) / Along::pieces_of_series;
+        const auto size = static_cast<std::size_t>(rhs.dimension);
+        Passing one{step.start + theta * (step.end - step.start), std::vector<double>(size),
+                    std::vector<double>(size)};
+        step.interpolate(theta, one.state.data());
+        rhs(one.t, one.state.data(), one.rate.data());
+        list.push_back(std::move(one));
+    }
+    return list;
 }
 
 /// The threads that integrate the members of a feed.
@@ -99,7 +154,7 @@ public:
         const bool stops = std::any_of(e_.stops.begin(), e_.stops.end(), [](bool stop) { return stop; });
         if (!e_.by && e_.module.pack() != nullptr && e_.module.pack()->lanes == lanes && table.constraints == 0 &&
             !stops)
-            packed_ = packed_method(options.method);
+            packed_ = packed_method(e_, options);
         const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
         threads_ = std::clamp<std::size_t>(e_.threads > 0 ? static_cast<std::size_t>(e_.threads) : cores, 1,
                                            std::max<std::size_t>(1, feed.most));
@@ -159,7 +214,7 @@ private:
         if (e_.by || member.duration <= longest_.load(std::memory_order_relaxed)) return;
         Options options = options_;
         options.duration = member.duration;
-        check_options(make_rhs(e_.module, {}), member.state, options);
+        check_options(rhs_of(e_, {}), with_quadratures(e_, member.state), options);
         longest_ = member.duration;
     }
 
@@ -173,10 +228,9 @@ private:
         }
         const alembert_solver_table& table = e_.module.table();
         const bool works = e_.work == Work::integrated;
-        const Rhs rhs = make_rhs(e_.module, member.parameters, e_.work);
+        const Rhs rhs = rhs_of(e_, member.parameters);
         const std::vector<double> par = prepared(e_.module, member.parameters);
-        std::vector<double> state = member.state;
-        if (works) state.push_back(0);
+        const std::vector<double> state = with_quadratures(e_, member.state);
         Drift drift(table.coordinates, table.speeds, works);
         Options options = options_;
         options.start = member.start;
@@ -184,9 +238,19 @@ private:
         if (member.quick_times != nullptr) options.quick_times = *member.quick_times;
         options.sample = member.duration;  // no rows but the end
         Along along(table.coordinates, table.coordinates + table.speeds);
+        std::vector<Passing> passing;
+        if (e_.along && needs_series(options.method))
+            options.on_stretch = [&](const Stretch& step) {
+                passing = passed(rhs, step);
+                return false;
+            };
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             drift(table, par, t, y, rate);
-            if (e_.along) along(t, y.data(), rate.data());
+            if (!e_.along) return;
+            for (const Passing& one : passing)
+                if (one.t < t) along(one.t, one.state.data(), one.rate.data());
+            passing.clear();
+            along(t, y.data(), rate.data());
         };
         std::optional<Projection> projection;
         if (table.constraints > 0)

@@ -9,20 +9,21 @@
 ///     ends.state(3)[0]; ends.members[3].steps;
 ///
 /// Explicit Runge-Kutta methods take eight members side by side (pack_run.hpp), each with its own time, step and
-/// end; a member that has ended makes room for the next. Other methods, a module emitted without `batch`, and
-/// systems with constraints (each step is projected) or with events that stop go through `integrate`, one member
-/// at a time. All cores are used. A member's result does not depend on its neighbours or on the number of threads,
-/// not even in the last bit.
+/// end; a member that has ended makes room for the next. So does `taylor` without a given step, where there are
+/// series in packs. Other methods, a module emitted without `batch`, and systems with constraints (each step is
+/// projected) or with events that stop go through `integrate`, one member at a time. All cores are used. A
+/// member's result does not depend on its neighbours or on the number of threads, not even in the last bit.
 ///
 /// Members that are too many for memory come one after the other (EnsembleFeed):
 ///
 ///     integrate(ensemble, EnsembleFeed{.next = [&] { return more(); }, .done = [&](auto& m, auto& o, auto y) { …
 ///     }}, options);
 ///
-/// The step control is that of `integrate`, so that a member differs from a single run only by rounding. If a
-/// member fails, its own Outcome says why and holds its last good state; the others are not affected. Events that
-/// do not stop, rows and Options::on_step are not supported. Throws std::invalid_argument for sizes that do not
-/// fit and for options that make no sense.
+/// The step control is that of `integrate`, so that a member differs from a single run only by rounding; the order
+/// of `taylor` side by side is the one that is best there, so that its steps are others. If a member fails, its
+/// own Outcome says why and holds its last good state; the others are not affected. Events that do not stop, rows
+/// and Options::on_step are not supported. Throws std::invalid_argument for sizes that do not fit and for options
+/// that make no sense.
 
 #include <cstddef>
 #include <functional>
@@ -34,6 +35,7 @@
 
 #include "alembert/integrate.hpp"
 #include "alembert/module.hpp"
+#include "alembert/series_packs.hpp"
 
 namespace alembert {
 
@@ -49,6 +51,8 @@ struct Ensemble {
     std::vector<double> durations = {};  ///< one for each member; if empty, Options::duration
     /// `integrated` gives the work balance, for systems whose energy is not conserved.
     Work work = Work::left_out;
+    SeriesModule series = {};  ///< for the method taylor; with the work of loads if that is integrated
+    std::shared_ptr<const SeriesPacks> series_packs = {};  ///< the same for eight members; may be null
     std::vector<bool> stops = {};  ///< which of the module's events end a motion; if empty, none does
     /// One list for each member; if empty, Options::quick_times.
     std::vector<std::vector<QuickTime>> quick_times = {};

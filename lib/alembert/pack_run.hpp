@@ -4,9 +4,11 @@
 /// Eight members of an ensemble side by side, from their starts to their ends; a member that has ended makes room
 /// for the next. `integrate` for ensembles (ensemble.hpp) is made of this; call that function.
 ///
-///     PackRun<dop853_tableau>(ensemble, options, source).go();
+///     PackRun(ensemble, options, source, PackStep<dop853_tableau>(module, dimension, extra)).go(width);
 ///
-/// Each lane has the step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that
+/// A step is a class with the members of PackStep (pack_step.hpp). One that has `next_length(lane)` chooses the
+/// length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp). Each lane has the
+/// step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that
 /// is not finite, a step that underflows, the budget) is handed back with `again`: the member is then run by
 /// itself, and that run reports what went wrong.
 
@@ -15,12 +17,12 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "alembert/along.hpp"
 #include "alembert/drift.hpp"
 #include "alembert/ensemble.hpp"
-#include "alembert/pack_step.hpp"
 #include "alembert/rhs.hpp"
 #include "alembert/step_size.hpp"
 
@@ -34,28 +36,30 @@ struct MemberSource {
     std::function<void()> breathe;  ///< called after each round of steps
 };
 
-template <const auto& tableau>
+template <class Step>
 class PackRun {
-    using Step = PackStep<tableau>;
+    static constexpr bool has_own_lengths = requires(const Step step) { step.next_length(0); };
 
     struct Lane {
         Member member;
         double h = 0, end = 0;
-        long count = 0;  ///< the number of fixed steps
+        bool was_foreseen = true;  ///< the end of the try before
+        long count = 0;            ///< the number of fixed steps
         StepSize control{1};
         Drift drift{0, 0, false};
         Along along;
+        Rhs rhs = {};  ///< of this member alone, if there are states within steps to look at
         Outcome outcome;
     };
 
 public:
-    PackRun(const Ensemble& ensemble, const Options& options, const MemberSource& source)
+    PackRun(const Ensemble& ensemble, const Options& options, const MemberSource& source, Step step)
         : ensemble_(ensemble),
           options_(options),
           source_(source),
           extra_(ensemble.work == Work::integrated ? 1 : 0),
           dimension_(ensemble.module.table().coordinates + ensemble.module.table().speeds + extra_),
-          step_(ensemble.module, dimension_, extra_),
+          step_(std::move(step)),
           lane_(lanes),
           rate_(static_cast<std::size_t>(dimension_)),
           state_(static_cast<std::size_t>(dimension_)) {}
@@ -68,19 +72,31 @@ public:
                 while (is_busy(i) && !aim(i)) give_back(i);
             if (busy_ == 0) break;
             step_.attempt();
-            const unsigned good = accepted();
-            if (good != 0) {
-                step_.finish();
-                settle(accepted());
-            } else {
-                settle(0);
-            }
+            const unsigned finished = accepted();
+            if (finished != 0) finish(finished);
+            settle(finished, finished != 0 ? accepted() : 0);
             source_.breathe();
         }
     }
 
 private:
+    static constexpr int order() {
+        if constexpr (has_own_lengths)
+            return 1;  // not used
+        else
+            return Step::estimate_order;
+    }
+
     bool is_busy(int i) const { return (busy_ >> i & 1U) != 0; }
+
+    /// Finishes the step in some lanes. In the others, which the step cannot leave out, the estimate stays: it
+    /// must not depend on whether there is a lane to finish.
+    void finish(unsigned finished) {
+        const Lanes estimate = step_.misfit;
+        step_.finish();
+        for (int i = 0; i < lanes; ++i)
+            if ((finished >> i & 1U) == 0) step_.misfit[i] = estimate[i];
+    }
 
     unsigned accepted() const {
         unsigned good = 0;
@@ -95,6 +111,8 @@ private:
         Lane& lane = lane_[i];
         const double t = step_.time[i];
         if (lane.outcome.evaluations + Step::most_evaluations > options_.budget) return false;
+        if constexpr (has_own_lengths)
+            if (step_.is_new(i)) return true;
         if constexpr (Step::has_fixed_step) {
             const long k = lane.outcome.steps + 1;
             step_.end[i] = k == lane.count ? lane.end : lane.member.start + static_cast<double>(k) * options_.step;
@@ -124,10 +142,12 @@ private:
         return options_.longest_step > 0 ? options_.longest_step : member.duration;
     }
 
-    /// Accepts or rejects the attempted step, lane by lane.
-    void settle(unsigned good) {
+    /// Accepts or rejects the attempted step, lane by lane. `finished`: the lanes in which the estimate was small
+    /// enough; `good`: those in which the end is good too.
+    void settle(unsigned finished, unsigned good) {
         double length[lanes];
         for (int i = 0; i < lanes; ++i) length[i] = step_.end[i] - step_.time[i];
+        const unsigned begun = new_lanes();
         if (good != 0) {
             step_.advance(good);
             step_.energies(energy_);
@@ -135,35 +155,47 @@ private:
         for (int i = 0; i < lanes; ++i) {
             if (!is_busy(i)) continue;
             Lane& lane = lane_[i];
-            const bool is_good = (good >> i & 1U) != 0;
-            // Evaluations are counted as in step.hpp: the last stage counts only if the step is finished, unless
-            // the estimate needs it.
-            lane.outcome.evaluations += tableau.stages - (is_good || needs_last_stage() ? 0 : 1);
-            if (!is_good && Step::has_fixed_step) {
+            const bool is_good = (good >> i & 1U) != 0, has_begun = (begun >> i & 1U) != 0,
+                       was_finished = (finished >> i & 1U) != 0;
+            lane.outcome.evaluations += Step::evaluations(was_finished);
+            if (!is_good && (Step::has_fixed_step || has_begun)) {
                 give_back(i);
                 continue;
             }
-            if constexpr (!Step::has_fixed_step) {
-                const double ratio = step_.misfit[i] / options_.tolerance;
-                const double wish =
-                    quick_times(lane.member).empty() ? 0 : lane.h;  // a step that had to be short is no forecast
-                if (is_good)
-                    lane.h = std::max(lane.control.after_accepted(length[i], ratio), length[i] < wish ? wish : 0);
-                else
-                    lane.h = lane.control.after_rejected(length[i], ratio);
-            }
+            if constexpr (!Step::has_fixed_step) set_length(i, length[i], was_finished, is_good);
+            if (has_begun) continue;
             ++(is_good ? lane.outcome.steps : lane.outcome.rejected);
             if (!is_good) continue;
             note_energy(i);
-            if (ensemble_.along) note_state(i);
+            if (ensemble_.along) note_state(i, length[i]);
             if (step_.time[i] == lane.end) complete(i);
         }
     }
 
-    static constexpr bool needs_last_stage() {
-        for (const auto& row : tableau.e)
-            if (row[tableau.stages] != 0) return true;
-        return false;
+    /// Those whose step is their first one, without length.
+    unsigned new_lanes() const {
+        unsigned begun = 0;
+        if constexpr (has_own_lengths)
+            for (int i = 0; i < lanes; ++i) begun |= step_.is_new(i) ? 1U << i : 0U;
+        return begun;
+    }
+
+    /// That of the lane's next step, after one of the given length.
+    void set_length(int i, double length, bool was_finished, bool is_good) {
+        Lane& lane = lane_[i];
+        const double ratio = step_.misfit[i] / options_.tolerance;
+        if constexpr (has_own_lengths) {
+            lane.h = is_good ? step_.next_length(i) : step_.shorter_length(length, ratio);
+            if (is_good && !lane.was_foreseen) lane.h = std::min(lane.h, 2 * length);  // it is still ahead
+            lane.was_foreseen = !was_finished || step_.foresees_end(i);
+        } else {
+            const double wish =
+                quick_times(lane.member).empty() ? 0 : lane.h;  // a step that had to be short is no forecast
+            if (is_good)
+                lane.h = std::max(lane.control.after_accepted(length, ratio), length < wish ? wish : 0);
+            else
+                lane.h = lane.control.after_rejected(length, ratio);
+        }
     }
 
     void note_energy(int i) {
@@ -171,7 +203,16 @@ private:
                            extra_ == 1 ? step_.state(dimension_ - 1, i) : 0);
     }
 
-    void note_state(int i) {
+    /// At the end of a step; where steps are as long as those of a series, also within.
+    void note_state(int i, double length) {
+        if constexpr (has_own_lengths)
+            for (int piece = 1; piece < Along::pieces_of_series; ++piece) {
+                const double h = length * piece / Along::pieces_of_series;
+                const double t = step_.time[i] - (length - h);
+                step_.within(i, h, state_);
+                lane_[i].rhs(t, state_.data(), rate_.data());
+                lane_[i].along(t, state_.data(), rate_.data());
+            }
         for (int k = 0; k < dimension_; ++k) {
             state_[static_cast<std::size_t>(k)] = step_.state(k, i);
             rate_[static_cast<std::size_t>(k)] = step_.rate(k, i);
@@ -203,9 +244,10 @@ private:
         while (std::optional<Member> member = source_.next()) {
             Lane& lane = lane_[i];
             lane = {.member = *std::move(member),
-                    .control = StepSize(std::max(1, Step::estimate_order)),
+                    .control = StepSize(std::max(1, order())),
                     .drift = Drift(0, 0, false),
                     .along = {},
+                    .rhs = {},
                     .outcome = {}};
             if (!begin(i, lane)) {
                 source_.again(lane.member);
@@ -228,7 +270,9 @@ private:
         lane.end = member.start + member.duration;
         if (member.duration == 0) return false;
         lane.outcome.evaluations = 1;
-        if constexpr (Step::has_fixed_step) {
+        if constexpr (has_own_lengths) {
+            // by the series at the start
+        } else if constexpr (Step::has_fixed_step) {
             lane.count = std::max(1L, std::lround(std::ceil(member.duration / options_.step * (1 - 1e-12))));
         } else {
             lane.h = options_.step;
@@ -241,6 +285,7 @@ private:
         if (ensemble_.along) {
             lane.along = Along(table.coordinates, dimension_ - extra_);
             lane.along(member.start, state.data(), rate_.data());
+            if constexpr (has_own_lengths) lane.rhs = rhs;
         }
         const std::vector<double> par = prepared(ensemble_.module, member.parameters);
         step_.put(i, member.start, state.data(), rate_.data(), par);

@@ -37,6 +37,11 @@ public:
     static constexpr bool has_fixed_step = tableau.error_rows == 0;
     static constexpr int estimate_order = tableau.estimate_order;
     static constexpr int most_evaluations = tableau.all_stages;
+    /// Of an attempt, as in step.hpp: the last stage counts only if the step is finished, unless the estimate
+    /// needs it.
+    static constexpr int evaluations(bool was_finished) {
+        return tableau.stages - (was_finished || last_stage_in_estimate() ? 0 : 1);
+    }
 
     PackStep(const Module& module, int dimension, int extra)
         : pack_(*module.pack()),
@@ -90,17 +95,17 @@ public:
     Lanes time, end, misfit;
 
 private:
-    struct Kernel {
-        void (*attempt)(PackStep&);
-        void (*finish)(PackStep&);
-        void (*advance)(PackStep&, unsigned accepted);
-    };
-
     static constexpr bool last_stage_in_estimate() {
         for (const auto& row : tableau.e)
             if (row[stages] != 0) return true;
         return false;
     }
+
+    struct Kernel {
+        void (*attempt)(PackStep&);
+        void (*finish)(PackStep&);
+        void (*advance)(PackStep&, unsigned accepted);
+    };
 
     static constexpr int arrays = 5;
     static constexpr int y_ = 0, rest_ = 1, next_ = 2, next_rest_ = 3, trial_ = 4;

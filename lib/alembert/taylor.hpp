@@ -51,6 +51,41 @@ inline double taylor_effort(double order_cost, double product_cost, int order) {
     return other_work * (1 + order_cost * order + product_cost * order * order);
 }
 
+inline double whole_power(double x, int exponent) {
+    double power = 1;
+    for (; exponent > 0; exponent /= 2, x *= x)
+        if (exponent % 2 == 1) power *= x;
+    return power;
+}
+
+/// The length of the step from a state at which term k of the series has the norm `size(k)`; 0 if one of the last
+/// two is not finite. A series may lack most of its powers: a pendulum that is let go horizontally has t², t⁶, t¹⁰
+/// … alone, and its last two terms say nothing. So the six terms before them, with |c_k|^(−1/k) for the radius of
+/// convergence, shorten the step where they say that it is clearly shorter.
+template <typename Size>
+double taylor_length(int order, double log_tolerance, const Size& size) {
+    constexpr double clearly = 0.85;
+    double shortest = HUGE_VAL;  // as a logarithm
+    for (const int k : {order - 1, order}) {
+        const double term = size(k);
+        if (!(term < HUGE_VAL)) return 0;
+        if (term > 0) shortest = std::min(shortest, (log_tolerance - std::log(term)) / k);
+    }
+    const double length = std::exp(shortest), share = log_tolerance / order;
+    const double radius = clearly * length * std::exp(-share);
+    const int first = std::max(2, order - 7);
+    double power = whole_power(radius, first), by_earlier = HUGE_VAL;
+    for (int k = first; k < order - 1; ++k, power *= radius)
+        if (const double term = size(k); term > 0 && term * power > 1)
+            by_earlier = std::min(by_earlier, share - std::log(term) / k);
+    return by_earlier < shortest ? std::exp(by_earlier) : length;
+}
+
+/// By what a step is shortened whose last term is `ratio` times what is allowed, or whose end was not foreseen.
+inline double shorter_taylor_step(int order, double ratio) {
+    return std::isfinite(ratio) ? std::min(0.8, 0.9 * std::pow(ratio, -1.0 / order)) : 0.5;
+}
+
 class Taylor {
 public:
     static constexpr bool has_fixed_step = false;
@@ -85,9 +120,7 @@ public:
         if (!expanded_) expand(ends, ends.t, ends.y, coefficients_);
         expanded_ = true;
         sum_series(coefficients_.data(), order_, static_cast<int>(size_), h, change, slopes_.data());
-        double power = 1, square = h;
-        for (int k = order_; k > 0; k /= 2, square *= square)
-            if (k % 2 == 1) power *= square;
+        const double power = whole_power(h, order_);
         for (std::size_t i = 0; i < size_; ++i) ends.error[i] = row(order_)[i] * power;
         return true;
     }
@@ -126,9 +159,7 @@ public:
     }
 
     double next_length(Ends& ends, bool accepted, double ratio) {
-        return accepted
-                   ? length(ends)
-                   : ends.h * (std::isfinite(ratio) ? std::min(0.8, 0.9 * std::pow(ratio, -1.0 / order_)) : 0.5);
+        return accepted ? length(ends) : ends.h * shorter_taylor_step(order_, ratio);
     }
 
     void interpolate(const Ends& ends, double theta, double* out) const {
@@ -145,27 +176,7 @@ private:
     }
 
     double length(const Ends& ends) const {
-        double shortest = HUGE_VAL;
-        for (const int k : {order_ - 1, order_}) {
-            const double size = ends.norm(row(k));
-            if (!(size < HUGE_VAL)) return 0;
-            if (size > 0) shortest = std::min(shortest, (log_tolerance_ - std::log(size)) / k);
-        }
-        return std::exp(std::min(shortest, by_earlier_terms(ends, shortest)));
-    }
-
-    /// A series may lack most of its powers: a pendulum that is let go horizontally has t², t⁶, t¹⁰ … alone, and
-    /// its last two terms say nothing. The length, as a logarithm, by the six terms before them, |c_k|^(−1/k) for
-    /// the radius of convergence; infinite unless it is clearly shorter.
-    double by_earlier_terms(const Ends& ends, double shortest) const {
-        constexpr double clearly = 0.85;
-        const double share = log_tolerance_ / order_, radius = clearly * std::exp(shortest - share);
-        const int first = std::max(2, order_ - 7);
-        double power = std::pow(radius, first), result = HUGE_VAL;
-        for (int k = first; k < order_ - 1; ++k, power *= radius)
-            if (const double size = ends.norm(row(k)); size > 0 && size * power > 1)
-                result = std::min(result, share - std::log(size) / k);
-        return result;
+        return taylor_length(order_, log_tolerance_, [&](int k) { return ends.norm(row(k)); });
     }
 
     double log_tolerance_, most_missed_, effort_ = 0;

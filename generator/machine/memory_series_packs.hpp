@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The Taylor coefficients of eight motions side by side by machine code in memory.
+///
+///     if (const std::shared_ptr<const SeriesPacks> packs = memory_series_packs(program))
+///         expand(*packs, t, state, par, order, out, work);
+///
+/// Null where memory_solver.hpp returns nothing, and on processors without AVX-512.
+
+#include <memory>
+
+#include "alembert/series_packs.hpp"
+#include "program/program.hpp"
+
+namespace alembert {
+
+/// `with_work`: the power of loads is integrated as one more component. Throws ModelError as emit_taylor does.
+std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, bool with_work = false);
+
+}  // namespace alembert

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/pack_taylor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "alembert/taylor.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Wide [[gnu::vector_size(lanes * sizeof(double)), gnu::may_alias]] = double;
+using Bits [[gnu::vector_size(lanes * sizeof(double)), gnu::may_alias]] = long long;
+
+Wide* wide(std::vector<Lanes>& list) {
+    return reinterpret_cast<Wide*>(list.data());
+}
+Wide& wide(Lanes& one) {
+    return reinterpret_cast<Wide&>(one);
+}
+
+// No function returns a wide number: how that is done depends on the processor.
+
+/// a = the larger of a and |b|
+[[gnu::always_inline]] inline void raise(Wide& a, const Wide& b) {
+    const Wide size = b < 0 ? -b : b;
+    a = a > size ? a : size;
+}
+
+/// Four polynomials in h⁴ side by side, so that few operations wait for each other.
+struct Sums {
+    Wide of[4] = {};
+    [[gnu::always_inline]] void add(int r, const Wide& h4, const Wide& term) { of[r] = of[r] * h4 + term; }
+    [[gnu::always_inline]] void total(const Wide& h, const Wide& h2, Wide& sum) const {
+        sum = h * ((of[0] + h2 * of[2]) + h * (of[1] + h2 * of[3]));
+    }
+};
+
+}  // namespace
+
+/// The arithmetic, compiled for each kind of processor.
+struct PackTaylor::Work {
+    [[gnu::always_inline]] static void attempt(PackTaylor& s) {
+        const Wide h = wide(s.end) - wide(s.time), h2 = h * h, h4 = h2 * h2, none{};
+        const Wide *const rows = wide(s.coefficients_), *const y = wide(s.y_), *const rest = wide(s.rest_);
+        Wide *const ends = wide(s.next_), *const ends_rest = wide(s.next_rest_), *const slopes = wide(s.slopes_);
+        const int n = s.dimension_, order = s.order_;
+        Wide power = none + 1, square = h, largest{}, zero{};
+        for (int k = order; k > 0; k /= 2, square *= square)
+            if (k % 2 == 1) power *= square;
+        for (int b = 0; b < n; ++b) {
+            Sums sums, slope;
+            const auto add = [&](int r, int k) __attribute__((always_inline)) {
+                const Wide term = rows[k * n + b];
+                sums.add(r, h4, term);
+                slope.add(r, h4, term * static_cast<double>(k));
+            };
+            int k = (order - 1) / 4 * 4;
+            for (int r = 0; r < 4; ++r)
+                if (k + r < order) add(r, k + r + 1);
+            while ((k -= 4) >= 0) add(0, k + 1), add(1, k + 2), add(2, k + 3), add(3, k + 4);
+            slope.total(h, h2, slopes[b]);
+            Wide sum, scale = none + 1;
+            sums.total(h, h2, sum);
+            const Wide change = (h == 0 ? none : sum) + rest[b], start = y[b], next = start + change,
+                       taken = next - start;
+            ends[b] = next;
+            ends_rest[b] = (start - (next - taken)) + (change - taken);
+            if (b >= s.controlled_) continue;
+            raise(scale, start);
+            raise(scale, next);
+            const Wide error = h == 0 ? none : rows[order * n + b] * power / scale;
+            raise(largest, error);
+            zero += (error + next) * 0;
+        }
+        wide(s.misfit) = zero == 0 ? largest : none + HUGE_VAL;
+    }
+
+    /// Whether the rates at the ends are finite and those of the polynomials, as Taylor::foresees_end.
+    [[gnu::always_inline]] static void look(PackTaylor& s) {
+        constexpr double rounded = 1e-8;
+        const Wide h = wide(s.end) - wide(s.time), none{}, one = none + 1;
+        const Wide *const rate = wide(s.coefficients_) + s.dimension_,
+                          *const end_rate = wide(s.next_coefficients_) + s.dimension_, *const y = wide(s.y_),
+                          *const next = wide(s.next_), *const slopes = wide(s.slopes_);
+        Wide zero{};
+        Bits missed{};
+        for (int b = 0; b < s.controlled_; ++b) {
+            Wide miss{}, scale = one, fastest{};
+            raise(miss, slopes[b] - h * end_rate[b]);
+            raise(scale, y[b]);
+            raise(scale, next[b]);
+            raise(fastest, rate[b]);
+            raise(fastest, end_rate[b]);
+            missed |= (miss > s.most_missed_ * scale) & (miss > rounded * h * fastest);
+            zero += (end_rate[b] + next[b]) * 0;
+        }
+        Wide size = one;
+        raise(size, wide(s.time));
+        missed &= h >= shortest_tried * size;
+        wide(s.misfit) = (zero == 0) & ~missed ? wide(s.misfit) : none + HUGE_VAL;
+        s.unforeseen_ = 0;
+        for (int lane = 0; lane < lanes; ++lane) s.unforeseen_ |= missed[lane] != 0 ? 1U << lane : 0U;
+    }
+
+    /// Takes over the ends that are accepted, and measures the last terms of their series.
+    [[gnu::always_inline]] static void advance(PackTaylor& s, unsigned accepted) {
+        Bits take;
+        for (int lane = 0; lane < lanes; ++lane) take[lane] = -static_cast<long long>(accepted >> lane & 1U);
+        Wide *const y = wide(s.y_), *const rest = wide(s.rest_), *const rows = wide(s.next_coefficients_);
+        const Wide *const next = wide(s.next_), *const next_rest = wide(s.next_rest_),
+                          *const before = wide(s.coefficients_);
+        const int n = s.dimension_;
+        for (int b = 0; b < n; ++b) {
+            y[b] = take ? next[b] : y[b];
+            rest[b] = take ? next_rest[b] : rest[b];
+        }
+        wide(s.time) = take ? wide(s.end) : wide(s.time);
+        constexpr unsigned all = (1U << lanes) - 1;
+        if (accepted != all)
+            for (int i = 0; i < (s.order_ + 1) * n; ++i) rows[i] = take ? rows[i] : before[i];
+        for (int k = std::max(0, s.order_ - 7); k <= s.order_; ++k) {
+            const Wide none{}, one = none + 1;
+            Wide largest{}, zero{};
+            for (int b = 0; b < s.controlled_; ++b) {
+                Wide scale = one;
+                raise(scale, y[b]);
+                raise(largest, rows[k * n + b] / scale);
+                zero += rows[k * n + b] * 0;
+            }
+            wide(s.sizes_[k + 7 - s.order_]) = zero == 0 ? largest : none + HUGE_VAL;
+        }
+    }
+
+    static void attempt_any(PackTaylor& s) { attempt(s); }
+    static void look_any(PackTaylor& s) { look(s); }
+    static void advance_any(PackTaylor& s, unsigned accepted) { advance(s, accepted); }
+#if defined(__x86_64__)
+    [[gnu::target("avx2,fma")]] static void attempt_256(PackTaylor& s) {
+        attempt(s);
+    }
+    [[gnu::target("avx2,fma")]] static void look_256(PackTaylor& s) {
+        look(s);
+    }
+    [[gnu::target("avx2,fma")]] static void advance_256(PackTaylor& s, unsigned accepted) {
+        advance(s, accepted);
+    }
+    [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void attempt_512(PackTaylor& s) {
+        attempt(s);
+    }
+    [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void look_512(PackTaylor& s) {
+        look(s);
+    }
+    [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void advance_512(PackTaylor& s, unsigned accepted) {
+        advance(s, accepted);
+    }
+#endif
+
+    static Kernel kernel() {
+#if defined(__x86_64__)
+        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+            __builtin_cpu_supports("avx512vl"))
+            return {attempt_512, look_512, advance_512};
+        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+            return {attempt_256, look_256, advance_256};
+#endif
+        return {attempt_any, look_any, advance_any};
+    }
+};
+
+PackTaylor::PackTaylor(const Module& module, const SeriesPacks& series, int dimension, int extra, double tolerance)
+    : pack_(*module.pack()),
+      series_(series),
+      dimension_(dimension),
+      controlled_(dimension - extra),
+      order_(taylor_order(tolerance, series.order_cost, series.product_cost)),
+      parameters_(series.parameters),
+      log_tolerance_(std::log(taylor_share * tolerance)),
+      most_missed_(terms_left_out * tolerance),
+      y_(place(dimension)),
+      rest_(y_.size()),
+      next_(y_.size()),
+      next_rest_(y_.size()),
+      slopes_(y_.size()),
+      par_(place(module.table().parameters + module.table().constants)),
+      series_par_(place(series.parameters + series.constants)),
+      coefficients_(place((order_ + 1) * dimension)),
+      next_coefficients_(coefficients_.size()),
+      work_(series.workspace()),
+      kernel_(Work::kernel()) {}
+
+void PackTaylor::put(int lane, double t, const double* state, const double*, const std::vector<double>& par) {
+    time[lane] = end[lane] = t;
+    for (int i = 0; i < dimension_; ++i) {
+        y_[place(i)][lane] = state[i];
+        rest_[place(i)][lane] = 0;
+    }
+    for (std::size_t i = 0; i < par.size(); ++i) par_[i][lane] = par[i];
+    std::vector<double> own(par.begin(), par.begin() + parameters_);
+    own.resize(series_par_.size());
+    series_.prepare(own.data());
+    for (std::size_t i = 0; i < own.size(); ++i) series_par_[i][lane] = own[i];
+    new_ |= 1U << lane;
+}
+
+void PackTaylor::finish() {
+    expand(series_, end, next_.data(), series_par_.data(), order_, next_coefficients_.data(), work_.data());
+    kernel_.look(*this);
+}
+
+void PackTaylor::advance(unsigned accepted) {
+    kernel_.advance(*this, accepted);
+    std::swap(coefficients_, next_coefficients_);
+    new_ &= ~accepted;
+}
+
+double PackTaylor::next_length(int lane) const {
+    return taylor_length(order_, log_tolerance_, [&](int k) { return sizes_[k + 7 - order_][lane]; });
+}
+
+double PackTaylor::shorter_length(double h, double ratio) const {
+    return h * shorter_taylor_step(order_, ratio);
+}
+
+/// The series of that step stand where those of the next ends will.
+void PackTaylor::within(int lane, double h, std::vector<double>& state) const {
+    for (int b = 0; b < dimension_; ++b) {
+        double value = 0;
+        for (int k = order_; k >= 0; --k) value = value * h + next_coefficients_[place(k * dimension_ + b)][lane];
+        state[place(b)] = value;
+    }
+}
+
+void PackTaylor::energies(Lanes (&energy)[5]) const {
+    pack_.energy(reals(&time), reals(y_.data()), reals(series_now() + dimension_), reals(par_.data()),
+                 reals(energy), reals(&energy[4]));
+}
+
+}  // namespace alembert

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/series_packs.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace alembert {
+
+namespace {
+
+using Wide [[gnu::vector_size(lanes * sizeof(double)), gnu::may_alias]] = double;
+
+/// A number of workspace that is filled in all lanes.
+Lanes in_all(double value) {
+    Lanes pack;
+    for (int lane = 0; lane < lanes; ++lane) pack[lane] = value;
+    return pack;
+}
+
+struct Expansion {
+    const SeriesPacks& packs;
+    int order;
+    Lanes *out, *fixed, *given[2], *rows;
+
+    /// For an odd k: Σ a_j b_(k−j) over 0 < j < k, and of the next order the terms whose factors are known, 1 < j
+    /// < k. The two share their factors, so that one is loaded for each term instead of two. The terms of a square
+    /// are taken once. Sums side by side, so that few additions wait for each other.
+    template <int k>
+    [[gnu::always_inline]] static void convolve(const Wide* a, const Wide* b, Wide& sum, Wide& ahead) {
+        Wide now[3] = {}, next[3] = {};
+        if (a == b) {
+#pragma GCC unroll 16
+            for (int j = 1; 2 * j <= k; ++j) {
+                if (2 * j < k) now[j % 3] += a[j] * a[k - j];
+                if (j > 1 && 2 * j < k + 1) next[j % 3] += a[j] * a[k + 1 - j];
+            }
+            sum = now[0] + (now[1] + now[2]);
+            sum += sum;
+            ahead = next[0] + (next[1] + next[2]);
+            ahead += ahead;
+            if constexpr (k > 1) ahead += a[k / 2 + 1] * a[k / 2 + 1];
+            return;
+        }
+#pragma GCC unroll 32
+        for (int j = 1; j < k; ++j) {
+            now[j % 3] += a[j] * b[k - j];
+            if (j > 1) next[j % 3] += a[j] * b[k + 1 - j];
+        }
+        sum = now[0] + (now[1] + now[2]);
+        ahead = next[0] + (next[1] + next[2]);
+    }
+
+    /// The sums of order k in `here`. With every odd order come those of the next one in `after`, but for the
+    /// terms with the first factors.
+    template <int k>
+    [[gnu::always_inline]] void sums(Lanes* here, Lanes* after) const {
+        const auto wide = [](Lanes & pack) __attribute__((always_inline))->Wide& {
+            return reinterpret_cast<Wide&>(pack);
+        };
+        for (std::size_t l = 0; l < packs.products.size(); ++l) {
+            const auto [left, right] = packs.products[l];
+            const Wide *const a = reinterpret_cast<const Wide*>(rows + SeriesPacks::place_of_factor(left)),
+                              *const b = reinterpret_cast<const Wide*>(rows + SeriesPacks::place_of_factor(right));
+            if constexpr (k % 2 == 1)
+                convolve<k>(a, b, wide(here[l]), wide(after[l]));
+            else if constexpr (k == 2)
+                wide(here[l]) = a[1] * b[1];
+            else
+                wide(here[l]) += a[1] * b[k - 1] + a[k - 1] * b[1];
+        }
+    }
+
+    /// False at the last order, which needs the rates of the one before alone.
+    template <int k>
+    [[gnu::always_inline]] bool one() const {
+        const GivenPlaces& at = packs.places;
+        Lanes *const here = given[k % 2], *const after = given[(k + 1) % 2];
+        if (k == order) {
+            constexpr double inverse = 1.0 / k;
+            for (int i = 0; i < at.width; ++i)
+                reinterpret_cast<Wide&>(out[k * at.width + i]) =
+                    inverse * reinterpret_cast<const Wide&>(here[at.rates() + i]);
+            return false;
+        }
+        sums<k>(here, after);
+        here[at.inverse()] = in_all(1.0 / k);
+        here[at.is_one()] = in_all(k == 1 ? 1 : 0);
+        const Lanes number = in_all(k);
+        packs.next(reals(&number), reals(fixed), reals(here), reals(after), reals(rows + k),
+                   reals(out + k * at.width));
+        return true;
+    }
+
+    /// In straight-line code: in a loop, each order would have other lengths, which no processor foresees.
+    template <int... before>
+    [[gnu::always_inline]] void all(std::integer_sequence<int, before...>) const {
+        (void)(one<before + 1>() && ...);
+    }
+    [[gnu::always_inline]] void all() const {
+        all(std::make_integer_sequence<int, most_order>());
+    }
+};
+
+#if defined(__x86_64__)
+__attribute__((target("avx2,fma"))) void run_wide(const Expansion& one) {
+    one.all();
+}
+__attribute__((target("avx512f,avx512dq,avx512vl,fma"))) void run_widest(const Expansion& one) {
+    one.all();
+}
+#endif
+void run_usual(const Expansion& one) {
+    one.all();
+}
+
+using Running = void (*)(const Expansion&);
+Running chosen() {
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl"))
+        return run_widest;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return run_wide;
+#endif
+    return run_usual;
+}
+
+std::size_t count(int number) {
+    return static_cast<std::size_t>(number);
+}
+
+}  // namespace
+
+std::size_t SeriesPacks::workspace() const {
+    return count(fixed) + 2 * count(places.size()) + count(place_of_factor(factors));
+}
+
+void expand(const SeriesPacks& packs, const Lanes& t, const Lanes* state, const Lanes* par, int order, Lanes* out,
+            Lanes* work) {
+    static const Running run = chosen();
+    const GivenPlaces& at = packs.places;
+    Lanes *const even = work + packs.fixed, *const odd = even + at.size(), *const rows = odd + at.size();
+    packs.first(reals(&t), reals(state), reals(par), reals(work), reals(odd));
+    packs.fix(reals(work));
+    std::copy_n(state, at.width, out);
+    if (order == 0) return;
+    run({.packs = packs, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
+}
+
+}  // namespace alembert
