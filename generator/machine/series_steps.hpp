@@ -12,6 +12,7 @@
 
 #include "alembert/series_code.hpp"
 #include "emit/function.hpp"
+#include "emit/taylor.hpp"
 #include "program/recurrence.hpp"
 
 namespace alembert::machine {
@@ -26,5 +27,8 @@ struct SeriesSteps {
 
 /// Throws ModelError if the mass matrix is singular at every state.
 SeriesSteps series_steps(const Recurrences& recurrences);
+
+/// What a series takes by code in memory.
+SeriesCost cost_in_memory(const SeriesSteps& steps);
 
 }  // namespace alembert::machine
