@@ -52,6 +52,11 @@ void add_bench(CLI::App& app, Chosen& chosen) {
             add_duration_option(verb, wishes);
             verb.add_option("--method", wishes.method, say("this one alone")).type_name(values::method);
             add_limits(verb, wishes);
+            verb.add_option("--run-seconds", bench.options.most_seconds,
+                            say("processor time of the slowest runs that are of interest"))
+                .type_name(values::seconds)
+                .positive();
+            add_code_option(verb, wishes);
             verb.add_option("--reference-seconds", bench.options.reference_seconds,
                             say("processor time for each of the reference's methods"))
                 .type_name(values::seconds)

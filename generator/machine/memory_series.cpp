@@ -9,7 +9,6 @@
 #include "emit/names.hpp"
 #include "machine/registers.hpp"
 #include "machine/series_steps.hpp"
-#include "program/processor.hpp"
 
 namespace alembert {
 
@@ -110,11 +109,9 @@ private:
         t.parameters = count(p.parameters.size());
         t.constants = count(zero_words_.constants().size());
         t.workspace = workspace_of(r.code);
-        const Operations operations = steps_.at_order.count(nodes_of(steps_.next));
-        t.order_cost =
-            processor::order_in_memory +
-            processor::operation_in_memory * (operations.total() + static_cast<int>(steps_.next.results.size()));
-        t.product_cost = processor::product_cost * steps_.products;
+        const SeriesCost cost = cost_in_memory(steps_);
+        t.order_cost = cost.order;
+        t.product_cost = cost.product;
         t.scene = r.scene.c_str();
         t.parameter_values = r.values.data();
     }

@@ -10,6 +10,7 @@
 #include "alembert/error.hpp"
 #include "emit/series_lanes.hpp"
 #include "emit/series_times.hpp"
+#include "program/processor.hpp"
 #include "program/solve.hpp"
 
 namespace alembert::machine {
@@ -337,6 +338,14 @@ SeriesSteps series_steps(const Recurrences& recurrences, bool in_packs) {
     steps.products = lanes.products_eight_wide();
     NextOrder(recurrences, lanes, zero, in_packs).finish(steps);
     return steps;
+}
+
+SeriesCost cost_in_memory(const SeriesSteps& steps) {
+    std::vector<int> nodes;
+    for (const FunctionResult& result : steps.next.results) nodes.push_back(result.node);
+    const int operations = steps.at_order.count(nodes).total() + static_cast<int>(nodes.size());
+    return {.order = processor::order_in_memory + processor::operation_in_memory * operations,
+            .product = processor::product_cost * steps.products};
 }
 
 }  // namespace alembert::machine

@@ -12,6 +12,7 @@
 
 #include "alembert/series_packs.hpp"
 #include "emit/function.hpp"
+#include "emit/taylor.hpp"
 #include "program/recurrence.hpp"
 
 namespace alembert::machine {
@@ -32,5 +33,8 @@ SeriesSteps series_steps(const Recurrences& recurrences, bool in_packs = false);
 
 /// What a function gives.
 std::vector<int> nodes_of(const FunctionTask& task);
+
+/// What a series takes by code in memory.
+SeriesCost cost_in_memory(const SeriesSteps& steps);
 
 }  // namespace alembert::machine

@@ -118,6 +118,9 @@ std::string described(const Switch& s) {
     if (s.why == Switch::Why::stuck)
         return say("{} from t = {:.6g} on: the steps of the method before became very short there", s.method,
                    s.time);
+    if (s.why == Switch::Why::cheaper)
+        return say("{} from t = {:.6g} on: by the steps until then, it is predicted to take less time", s.method,
+                   s.time);
     return say(
         "{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} "
         "s)",
@@ -125,7 +128,7 @@ std::string described(const Switch& s) {
 }
 
 Json json_of(const Switch& s) {
-    constexpr const char* reasons[] = {"stiff", "mild", "dear", "stuck"};
+    constexpr const char* reasons[] = {"stiff", "mild", "dear", "stuck", "cheaper"};
     return {{"time", s.time},
             {"method", s.method},
             {"largest_eigenvalue", s.largest_eigenvalue},

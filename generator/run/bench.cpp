@@ -30,7 +30,6 @@ namespace alembert {
 
 namespace {
 
-constexpr double most_seconds = 2;  // of one run; after such a run a method is not run with stricter tolerances
 constexpr int first_decade = 3, last_decade = 14;
 
 /// The end in double precision by two methods, if there is no better reference, and the digits in which they
@@ -55,7 +54,7 @@ std::optional<Judgement> by_doubles(Workbench& bench, const Options& options) {
 }
 
 /// Runs of one method from loose to strict tolerances, as long as that is useful.
-std::vector<Measured> ladder(Workbench& bench, Options options, double each, long guess,
+std::vector<Measured> ladder(Workbench& bench, Options options, double most_seconds, double each, long guess,
                              const std::function<void(double)>& progress) {
     std::vector<Measured> runs;
     const long budget = options.budget;
@@ -86,12 +85,18 @@ std::vector<Measured> ladder(Workbench& bench, Options options, double each, lon
     return runs;
 }
 
+/// Whether code in memory was asked for; otherwise all is compiled.
+bool in_memory(const RunOptions& wishes) {
+    return wished_code(wishes) == "memory";
+}
+
 /// Null if the motion has no power series, or if the method that needs it is not measured.
 SeriesModule series_of(const Program& program, bool with_work, const RunOptions& wishes) {
     if (!wishes.method.empty() && wishes.method != name(Method::taylor) && wishes.method != automatic_method)
         return nullptr;
     if (obstacle_to_recurrences(program, with_work)) return nullptr;
-    return compiled_series(program, with_work, wishes);
+    return in_memory(wishes) ? series_code(program, with_work, wishes).module
+                             : compiled_series(program, with_work, wishes);
 }
 
 /// Null if the scene has no such form, or if no method that needs it is measured.
@@ -100,10 +105,9 @@ std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& mo
     const auto asked = method_named(wishes.method);
     if ((asked && !needs_canonical(*asked)) || not_canonical(d)) return nullptr;
     const Program form = canonical_form(d);
-    const Compiled compiled =
-        compile(emit(form).text, form.name,
-                {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
-    return make_canonical(module, load(compiled.object), parameters);
+    const SolverCode code =
+        in_memory(wishes) ? solver_code(form, form.name, wishes) : compiled_code(form, form.name, wishes);
+    return make_canonical(module, code.module, parameters);
 }
 
 /// The solver of a scene with everything that the measured methods need.
@@ -117,10 +121,13 @@ struct Compilation {
 
 Compilation compilation_of(const Derived& d, const Program& program, const Start& start, bool conserved,
                            const RunOptions& wishes) {
-    Source source = emit(with_jacobian(program, method_named(wishes.method).value_or(Method::radau), !conserved));
-    Compiled compiled = compile(source.text, program.name,
-                                {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
-    Module module = load(compiled.object);
+    const Program written =
+        with_jacobian(program, method_named(wishes.method).value_or(Method::radau), !conserved);
+    Source source = emit(written);
+    const bool is_compiled = !in_memory(wishes);
+    Compiled compiled;
+    if (is_compiled) compiled = compile(source.text, program.name, compile_options(wishes));
+    Module module = is_compiled ? load(compiled.object) : solver_code(written, program.name, wishes).module;
     Compilation c{.source = std::move(source),
                   .compiled = std::move(compiled),
                   .module = std::move(module),
@@ -173,7 +180,10 @@ public:
         measure(workbench, options, c);
         if (wishes_.method.empty() || wishes_.method == automatic_method)
             measure_automatic(workbench, options, program);
-        if (options_.peers) measure_others(workbench, c, initial, duration);
+        if (options_.peers && in_memory(wishes_))
+            result_.warnings.push_back(say("no peers: they take compiled code\n"));
+        else if (options_.peers)
+            measure_others(workbench, c, initial, duration);
     }
 
 private:
@@ -247,7 +257,8 @@ private:
             const auto at = [&](double part) {
                 tell(say("measuring"), (static_cast<double>(k) + part) / static_cast<double>(methods.size()));
             };
-            for (Measured& run : ladder(workbench, these, each, guess, at)) result_.runs.push_back(std::move(run));
+            for (Measured& run : ladder(workbench, these, options_.most_seconds, each, guess, at))
+                result_.runs.push_back(std::move(run));
         }
     }
 
@@ -263,10 +274,12 @@ private:
             options.method = choice.method;
             options.when_stiff = choice.when_stiff;
             options.when_stuck = choice.when_stuck;
+            options.when_cheaper = choice.when_cheaper;
             Measured run = workbench.measure(options);
             run.chosen = std::exchange(run.method, std::string(automatic_method));
             result_.runs.push_back(std::move(run));
-            if (!result_.runs.back().failure.empty() || result_.runs.back().seconds > most_seconds / 2) return;
+            if (!result_.runs.back().failure.empty() || result_.runs.back().seconds > options_.most_seconds / 2)
+                return;
         }
     }
 
@@ -282,7 +295,7 @@ private:
              .start = start_.t,
              .duration = duration,
              .tolerances = tolerances,
-             .most_seconds = most_seconds},
+             .most_seconds = options_.most_seconds},
             [&](const std::vector<double>& state) {
                 return error_against(
                     result_.reference.final,

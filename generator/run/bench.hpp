@@ -17,6 +17,7 @@ namespace alembert {
 struct BenchOptions {
     RunOptions wishes = {};         ///< if these name a method, only that one is measured
     bool peers = false;             ///< whether to measure integrators of other libraries too
+    double most_seconds = 2;        ///< of one run; after such a run a method is not run with stricter tolerances
     double reference_seconds = 30;  ///< processor time for each of the reference's methods
 };
 

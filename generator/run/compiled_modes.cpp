@@ -64,16 +64,16 @@ CompiledMode& CompiledModes::own(const CompiledMode& mode) {
             })->second;
 }
 
-bool CompiledModes::may_go_over(const CompiledMode& mode) const {
+bool CompiledModes::may_go_over(const CompiledMode& mode, Part part) const {
     return may_go_over_ && !is_shared &&
-           (mode.series.module ? mode.series.go_over != nullptr : mode.code.go_over != nullptr);
+           (part == Part::series ? mode.series.go_over != nullptr : mode.code.go_over != nullptr);
 }
 
-void CompiledModes::go_over(const CompiledMode& asked) {
+void CompiledModes::go_over(const CompiledMode& asked, Part part) {
     CompiledMode& mode = own(asked);
     const double begin = own_seconds();
     try {
-        if (mode.series.module) {
+        if (part == Part::series) {
             const auto go_over = std::exchange(mode.series.go_over, {});
             go_over(compiled_series(mode.run(), work_ == Work::integrated, wishes_));
         } else {
@@ -111,6 +111,18 @@ const Module* CompiledModes::jacobian_of(const CompiledMode& asked) {
         }
     }
     return mode.with_jacobian ? &*mode.with_jacobian : nullptr;
+}
+
+SeriesModule CompiledModes::series_of(const CompiledMode& asked) {
+    const std::lock_guard lock(symbols);
+    CompiledMode& mode = own(asked);
+    if (!std::exchange(mode.was_asked_for_series, true) && !mode.series.module) {
+        const double clock = own_seconds();
+        if (has_short_series(mode.run(), mode.derived))
+            mode.series = series_code(mode.run(), work_ == Work::integrated, wishes_);
+        seconds_.compile += own_seconds() - clock;
+    }
+    return mode.series.module;
 }
 
 std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed, const State<double>& first) {

@@ -35,8 +35,9 @@ struct CompiledMode {
     const Program& run() const { return running ? *running : program; }
     SolverCode code;
     CodeKind kind = CodeKind::memory;
-    Operations operations = {};                   ///< of one right-hand side
-    CodeOfSeries series = {};                     ///< for taylor
+    Operations operations = {};  ///< of one right-hand side
+    CodeOfSeries series = {};    ///< for taylor, or for a run that may go over to it
+    bool was_asked_for_series = false;
     std::optional<Module> canonical = {};         ///< for rattle
     std::optional<int> jacobian_operations = {};  ///< set if it is emitted
     double effort = 0;                            ///< of a right-hand side (effort_of)
@@ -64,11 +65,16 @@ public:
     /// The mode's solver with its Jacobian; null if that is too long to be written out.
     const Module* jacobian_of(const CompiledMode& mode);
 
+    /// The mode's power series, made when it is first asked for; null if it has none that is short.
+    SeriesModule series_of(const CompiledMode& mode);
+
+    /// What runs: the right-hand side, or its power series.
+    enum class Part { solver, series };
     /// Whether code in memory may be replaced by compiled code: not where several threads share it.
-    bool may_go_over(const CompiledMode& mode) const;
-    /// Compiles the mode's code, or its power series if that is what runs, which takes the place of that in
-    /// memory. Without a compiler, that stays.
-    void go_over(const CompiledMode& mode);
+    bool may_go_over(const CompiledMode& mode, Part part) const;
+    /// Compiles that part of the mode's code, which takes the place of that in memory. Without a compiler, that
+    /// stays.
+    void go_over(const CompiledMode& mode, Part part);
 
     /// Uses a given program for the mode {}.
     void take_free(Program program);

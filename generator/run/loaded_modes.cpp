@@ -103,19 +103,28 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
     return *mode.when_stiff;
 }
 
+Rhs LoadedModes::with_series(LoadedMode& mode) {
+    Rhs rhs = mode.contact.rhs;
+    if (const SeriesModule series = compiled_.series_of(mode.compiled))
+        rhs.series = make_series(series, with_held_parameters(start_.parameters, mode.program));
+    return rhs;
+}
+
 /// Goes over to compiled code where that is predicted to pay.
 void LoadedModes::count_step(LoadedMode& mode) {
-    if (mode.when_stiff || !compiled_.may_go_over(mode.compiled)) return;
+    using Part = CompiledModes::Part;
+    const bool by_series = needs_series(mode.running) && mode.compiled.series.module;
+    const Part part = by_series ? Part::series : Part::solver;
+    if (mode.when_stiff || !compiled_.may_go_over(mode.compiled, part)) return;
     constexpr double evaluations = 16;  // of a usual step, between those of the explicit methods
     constexpr int order = 20;           // of a usual series
     const alembert_series_table* const series = mode.compiled.series.module.get();
-    mode.effort +=
-        series != nullptr
-            ? taylor_effort(series->order_cost, series->product_cost, order)
-            : evaluations * effort_of_evaluation(mode.contact.rhs, uses_jacobian(compiled_.method().method));
-    if (series != nullptr ? pays_to_compile(*series, mode.effort)
-                          : pays_to_compile(mode.compiled.run(), mode.effort))
-        compiled_.go_over(mode.compiled);
+    double& effort = by_series ? mode.effort_of_series : mode.effort;
+    effort += by_series
+                  ? taylor_effort(series->order_cost, series->product_cost, order, mode.contact.rhs.dimension)
+                  : evaluations * effort_of_evaluation(mode.contact.rhs, uses_jacobian(mode.running));
+    if (by_series ? pays_to_compile(*series, effort) : pays_to_compile(mode.compiled.run(), effort))
+        compiled_.go_over(mode.compiled, part);
 }
 
 void LoadedMode::hold(const std::vector<double>& sigma) {
@@ -216,11 +225,16 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
                    .projection = Projection(module, values),
                    .contact = {.rhs = make_rhs(module, values, compiled_.work()),
                                .events = make_events(module, values, stops, directions)}});
-    if (method.when_stiff) mode->contact.rhs.effort = made.effort;
+    if (method.when_stiff || method.when_cheaper) mode->contact.rhs.effort = made.effort;
     if (made.series.module) mode->contact.rhs.series = make_series(made.series.module, values);
     if (made.canonical) mode->contact.rhs.canonical = make_canonical(module, *made.canonical, start_.parameters);
     if (method.when_stiff)
         mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
+    if (method.when_cheaper && !jumps) {
+        mode->contact.rhs_when_cheaper = [this, self = mode.get()] { return with_series(*self); };
+        mode->contact.effort_of_series = effort_of_making_series(made.program);
+    }
+    mode->contact.on_method = [self = mode.get()](Method running) { self->running = running; };
     // The work must balance the energy, so it is integrated with the same tolerance as the state, if there is one.
     if (made.derived.mechanism.unilateral.empty() && !has_fixed_step(method.method)) mode->contact.rhs.extra = 0;
     if (!method.sundials.empty())

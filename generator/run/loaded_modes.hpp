@@ -31,7 +31,8 @@ struct LoadedMode {
     std::optional<Rhs> when_stiff = {};  ///< set after the motion was found stiff
     /// The largest size during the motion of each function whose sign is held constant.
     std::vector<double> side_sizes = {};
-    double effort = 0;  ///< predicted time of all steps so far, ns
+    Method running = Method::dop853;          ///< what integrates at present
+    double effort = 0, effort_of_series = 0;  ///< predicted time of all steps so far without and with series, ns
     /// Sets the signs in `par` to those at a state of the motion, or to given ones. To be called before anything
     /// is evaluated with `par`.
     void hold_sides(double t, const double* state);
@@ -74,6 +75,7 @@ private:
     std::unique_ptr<LoadedMode> bound(const std::vector<int>& closed);
     void hold_signs(LoadedMode& mode, std::size_t events);
     Rhs with_jacobian(LoadedMode& mode);
+    Rhs with_series(LoadedMode& mode);
     void count_step(LoadedMode& mode);
 
     CompiledModes& compiled_;

@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "alembert/pace.hpp"
 #include "alembert/taylor.hpp"
 #include "alembert/verner.hpp"
 #include "emit/taylor.hpp"
 #include "language/say.hpp"
+#include "machine/series_steps.hpp"
 #include "program/cost.hpp"
 #include "program/recurrence.hpp"
 #include "run/canonical.hpp"
@@ -24,6 +26,7 @@ namespace {
 
 constexpr double many_steps = 1e4;
 constexpr double most_products = 300;   // of a series that compiles in about a second; longer ones gain little
+constexpr double most_in_memory = 200;  // the factors of more do not stay in the fastest cache, at 25 orders
 constexpr double usual_operations = 4;  // of a right-hand side for each product, at most
 /// At 3e-5 verner98 becomes faster than dop853 (tests/bench/regret.sh).
 constexpr double loose = 3e-5;
@@ -33,7 +36,9 @@ constexpr double loose = 3e-5;
 struct Strict {
     double free, constrained;
 };
-constexpr Strict in_memory{1.01e-6, 1.01e-6}, by_compiler{0.99e-10, 0.99e-12};
+constexpr Strict in_memory{1.01e-5, 1.01e-5}, by_compiler{0.99e-10, 0.99e-12};
+/// At 1e-3 a series has so few orders that its steps are no longer than those of dop853.
+constexpr double loosest_of_series = 3e-4;
 
 /// The number of Cauchy products at each order; nothing if there is no series.
 std::optional<double> products_of_series(const Program& program, const Derived& d) {
@@ -43,19 +48,39 @@ std::optional<double> products_of_series(const Program& program, const Derived& 
     return recurrences(program).products();
 }
 
-/// Whether taylor is likely to be faster than verner98, by the cost of a compiled series, to which long runs go
-/// over. A step of taylor has its order chosen by the tolerance, so that its length hardly depends on it, while a
-/// step of order 9 becomes shorter: the quotient of the lengths for the same error at the end grows by 23 % in
-/// each decade (the median of 16 systems; theory says 22 % with 24 orders). Against that stands the predicted cost
-/// of each step.
-bool is_series_faster(const Program& program, double tolerance) {
-    const double longer = 1.1 * std::pow(1e-6 / tolerance, 0.09);
-    const SeriesCost cost = series_cost(program);
+/// Whether the equations are linear with constant coefficients, so that no series are multiplied. An order is then
+/// so cheap that taylor takes many, and is the fastest method at loose tolerances too.
+bool is_linear(const Program& program, const Derived& d, const RunOptions& request) {
+    constexpr int few = 100;  // operations; more are not looked at
+    const Operations operations = program.count(program.right_hand_side());
+    return !needs_compiler_for_series(request) && operations.functions == 0 && operations.total() <= few &&
+           products_of_series(program, d) == 0;
+}
+
+double most_products_of(const RunOptions& request) {
+    return needs_compiler_for_series(request) ? most_products : most_in_memory;
+}
+
+/// By the code in which it begins.
+SeriesCost cost_of_series(const Program& program, const RunOptions& request) {
+    return needs_compiler_for_series(request)
+               ? series_cost(program)
+               : machine::cost_in_memory(machine::series_steps(recurrences(program)));
+}
+
+/// Whether taylor is likely to be faster than verner98. A step of taylor has its order chosen by the tolerance, so
+/// that its length hardly depends on it, while a step of order 9 becomes shorter: the quotient of the lengths for
+/// the same error at the end grows in each decade, by 22 % in theory, with 24 orders. The numbers here are those
+/// with which the choice comes nearest to the best one on 85 systems (tests/bench/regret.sh). Against that stands
+/// the predicted cost of each step.
+bool is_series_faster(const Program& program, double tolerance, const SeriesCost& cost) {
+    const double longer = 1.5 * std::pow(1e-6 / tolerance, 0.08);
     const int order = taylor_order(tolerance, cost.order, cost.product);
-    const double n = static_cast<double>(program.coordinates.size() +
-                                         (program.speeds.empty() ? program.coordinates : program.speeds).size());
-    const double explicit_step = verner98_tableau.stages * (effort_of(program) + 4 + n);
-    return taylor_effort(cost.order, cost.product, order) < longer * explicit_step;
+    const auto components = static_cast<int>(
+        program.coordinates.size() + (program.speeds.empty() ? program.coordinates : program.speeds).size());
+    const Rhs rhs{.dimension = components, .effort = effort_of(program)};
+    const double explicit_step = verner98_tableau.stages * effort_of_evaluation(rhs, false);
+    return taylor_effort(cost.order, cost.product, order, components) < longer * explicit_step;
 }
 
 MethodChoice automatic(const RunOptions& request, const Derived& d, const Program& program, const Start& start) {
@@ -81,9 +106,11 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
     const bool constrained = !d.mechanism.constraints.empty();
     const Strict& strict = needs_compiler_for_series(request) ? by_compiler : in_memory;
     const bool is_strict = tolerance < (constrained ? strict.constrained : strict.free);
-    if (is_strict)
+    const bool linear = is_linear(program, d, request);
+    if (is_strict || linear)
         if (const auto products = products_of_series(program, d);
-            products && *products <= most_products && is_series_faster(program, tolerance))
+            products && *products <= most_products_of(request) &&
+            (linear || is_series_faster(program, tolerance, cost_of_series(program, request))))
             return {.method = Method::taylor,
                     .when_stiff = Method::radau,
                     .when_stuck = constrained ? std::optional(Method::dop853) : std::nullopt,
@@ -91,9 +118,12 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
                                "each order); if the system turns out "
                                "stiff, radau goes on",
                                tolerance, *products)};
+    const bool may_find_series =
+        tolerance < loosest_of_series && !needs_compiler_for_series(request) && d.mechanism.unilateral.empty();
     return {.method = tolerance > loose || (constrained && tolerance > by_compiler.constrained) ? Method::dop853
                                                                                                 : Method::verner98,
             .when_stiff = Method::radau,
+            .when_cheaper = may_find_series ? std::optional(Method::taylor) : std::nullopt,
             .why = say("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
 }
 
@@ -103,9 +133,16 @@ std::string name_given(const RunOptions& request, const Derived& d) {
 
 }  // namespace
 
+bool has_short_series(const Program& program, const Derived& derived) {
+    const auto products = products_of_series(program, derived);
+    return products && *products <= most_in_memory;
+}
+
 double effort_of(const Program& program) {
-    constexpr double nanoseconds = 0.4;  // of a cycle
-    return nanoseconds * cost_of(program).time();
+    // Fitted to 85 systems of up to 10 000 operations, from which it differs by 19 % (root mean square).
+    constexpr double operation = 0.078, function = 1.6, chain = 0.106;
+    const Cost cost = cost_of(program);
+    return operation * cost.operations + function * cost.functions + chain * cost.chain;
 }
 
 std::optional<Method> given_method(const RunOptions& request, const Derived& d) {
@@ -161,7 +198,8 @@ Options options_of(const RunOptions& wishes, const MethodChoice& choice, const S
             .sample = wish(wishes.sample, start.sample),
             .budget = wishes.budget,
             .when_stiff = choice.when_stiff,
-            .when_stuck = choice.when_stuck};
+            .when_stuck = choice.when_stuck,
+            .when_cheaper = choice.when_cheaper};
 }
 
 }  // namespace alembert

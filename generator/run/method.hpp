@@ -14,15 +14,17 @@
 /// | a regularized run | verner98; kahanli8 or gauss with a step |
 /// | a step, energy separable, 10 000 steps or more | kahanli8: its energy does not drift |
 /// | a step | rk4 |
-/// | a tolerance above 3e-5 | dop853 |
-/// | 1e-6 or below, with a power series that is not too long and predicted to be faster | taylor |
+/// | 1e-5 or below, with a power series that is not too long and predicted to be faster | taylor |
+/// | likewise, at any tolerance, if the equations are linear with constant coefficients | taylor |
+/// | any other above 3e-5 | dop853 |
 /// | any other, without constraints | verner98 |
 /// | any other, with constraints | dop853 to 1e-12, verner98 below |
 ///
 /// With constraints, dop853 passes through flat poses of linkages where others stop, and goes on where the steps
-/// of taylor become very short. Where the series has to be compiled, which takes longer than most runs, it is
-/// taken below 1e-10 alone, with constraints below 1e-12. Methods that choose their steps watch for stiffness
-/// while they run (stiffness.hpp), change to radau, and come back.
+/// of taylor become very short. Runs that begin with one of these two below 3e-4 go over to taylor where the
+/// lengths of their steps show that it is faster (series_pace.hpp). Where the series has to be compiled, which
+/// takes longer than most runs, it is taken below 1e-10 alone, with constraints below 1e-12. Methods that choose
+/// their steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
 
 #include "alembert/integrate.hpp"
 #include "derive/derived.hpp"
@@ -34,6 +36,7 @@ struct MethodChoice {
     Method method = Method::dop853;
     std::optional<Method> when_stiff = {};
     std::optional<Method> when_stuck = {};
+    std::optional<Method> when_cheaper = {};
     std::string why = {};       ///< empty if the method was given
     std::string sundials = {};  ///< a method of SUNDIALS that replaces `method` (sundials_methods.hpp)
 };
@@ -45,6 +48,9 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& der
 /// The requested method, or the one that suits the scene. `program` is the program that will run.
 MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program,
                         const Start& start);
+
+/// Whether the motion has a power series that is short enough to be compiled.
+bool has_short_series(const Program& program, const Derived& derived);
 
 /// The predicted time of one right-hand side, ns (pace.hpp).
 double effort_of(const Program& program);

@@ -202,6 +202,7 @@ private:
             return false;
         }
         mode.by = charts_->integrator();
+        mode.rhs_when_cheaper = {};
         return true;
     }
 

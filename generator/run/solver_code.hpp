@@ -49,6 +49,8 @@ struct CodeOfSeries {
 /// The power series of the motion, likewise. With `with_work` the power of loads is integrated too.
 CodeOfSeries series_code(const Program& program, bool with_work, const RunOptions& wishes);
 SeriesModule compiled_series(const Program& program, bool with_work, const RunOptions& wishes);
+/// The predicted time in which series_code makes a series in memory, ns.
+double effort_of_making_series(const Program& program);
 /// Whether series_code compiles, which takes 0.1 to 1 s.
 bool needs_compiler_for_series(const RunOptions& wishes);
 

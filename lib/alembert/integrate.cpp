@@ -129,15 +129,24 @@ static_assert(tables_agree());
 void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Events& events) {
     constexpr long first_patience = 50;
     const double end = options.start + options.duration, interval = sample_interval(options);
-    const Rhs implicit = options.rhs_when_stiff ? options.rhs_when_stiff() : rhs;
+    std::optional<Rhs> implicit, series;
+    const auto once = [&rhs](std::optional<Rhs>& made, const std::function<Rhs()>& make) -> const Rhs& {
+        if (!made) made = make ? make() : rhs;
+        return *made;
+    };
     Method usual = options.method;
+    std::optional<Method> when_stuck = options.when_stuck, when_cheaper = options.when_cheaper;
     long patience = first_patience;
     for (std::optional<Switch> next = whole.statistics.switched; next && whole.ending == Ending::completed;) {
         const bool is_stiff = next->why == Switch::Why::stiff, is_stuck = next->why == Switch::Why::stuck;
-        if (is_stuck) usual = *options.when_stuck;
+        const bool is_cheaper = next->why == Switch::Why::cheaper;
+        if (is_cheaper) when_stuck = std::exchange(usual, *when_cheaper);
+        if (is_stuck) usual = *std::exchange(when_stuck, {});
+        if (is_stuck || is_cheaper) when_cheaper = {};
         Options rest = options;
         rest.method = usual;
-        if (usual == options.when_stuck) rest.when_stuck = {};
+        rest.when_stuck = when_stuck;
+        rest.when_cheaper = when_cheaper;
         rest.start = whole.times.back();
         rest.duration = end - rest.start;
         rest.step = 0;
@@ -150,13 +159,16 @@ void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Even
             rest.when_stiff = {};
             rest.turns.back = usual;
             rest.step = next->step;
-        } else if (!is_stuck) {
+        } else if (!is_stuck && !is_cheaper) {
             rest.turns.patience = patience;
             patience *= 4;
         }
         const std::vector<double> state(whole.final_state().begin(), whole.final_state().end());
-        Trajectory piece =
-            by_method[static_cast<std::size_t>(rest.method)].run(is_stiff ? implicit : rhs, state, rest, events);
+        const Rhs& system = is_stiff                                   ? once(implicit, options.rhs_when_stiff)
+                            : needs_series(rest.method) && !rhs.series ? once(series, options.rhs_when_cheaper)
+                                                                       : rhs;
+        if (options.on_method) options.on_method(rest.method);
+        Trajectory piece = by_method[static_cast<std::size_t>(rest.method)].run(system, state, rest, events);
         next = std::exchange(piece.statistics.switched, {});
         if (next) whole.statistics.later_switches.push_back(*next);
         append(whole, std::move(piece), *rest.grid, interval);
@@ -174,6 +186,7 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
                      const Events& events) {
     check_options(rhs, initial, options);
     const double start = thread_seconds();
+    if (options.on_method) options.on_method(options.method);
     if (options.regularization != Regularization::none) {
         Trajectory result = integrate_regularized(rhs, initial, options, events);
         result.statistics.seconds = thread_seconds() - start;

@@ -57,6 +57,9 @@ namespace alembert {
 /// Called with the start, then with the end of each accepted step (or with the event that ends the run in it).
 using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
 
+/// Called with the method before each piece of a run that it takes.
+using OnMethod = std::function<void(Method)>;
+
 /// Called with each accepted step before the next one; returns whether the run ends with it.
 using OnStretch = std::function<bool(const Stretch&)>;
 
@@ -102,8 +105,16 @@ struct Options {
     /// its equations pass through zero: values beside that pose are still good, but the coefficients of a series
     /// lose all digits as it comes close.
     std::optional<Method> when_stuck = {};
+    /// If the steps of an explicit method turn out to cost clearly more than those of a power series would
+    /// (series_pace.hpp), the run goes on with this method, which must be taylor. It comes back where the steps of
+    /// the series become very short, as above.
+    std::optional<Method> when_cheaper = {};
+    std::function<Rhs()> rhs_when_cheaper =
+        {};  ///< gives the same system with its series, if it has one; if empty, the same Rhs is used
+    double effort_of_series = 0;  ///< predicted time of that call, ns
     Turns turns = {};
-    OnStep on_step = {};  ///< may be empty
+    OnMethod on_method = {};  ///< may be empty
+    OnStep on_step = {};      ///< may be empty
     /// Moves the end of each step onto the constraints after its error was found small enough; may be empty.
     std::function<void(double t, double* state)> project = {};
     Integrator by = {};         ///< takes the place of `method`; may be empty

@@ -8,8 +8,8 @@
 ///     pace.add(t, evaluations * effort_of_evaluation(rhs, method));    // after each accepted step
 ///     pace.effort_per_time();                                          // over the last steps; 0 at first
 ///
-/// Efforts are nanoseconds of the processor on which they were fitted (by `bench`, on systems of 2 to 28
-/// components): a right-hand side takes Rhs::effort; an explicit method adds 4 + n for each evaluation of n
+/// Efforts are nanoseconds of the processor on which they were fitted (by `bench`, on systems of 2 to 50
+/// components): a right-hand side takes Rhs::effort; an explicit method adds 13 + 0.15 n for each evaluation of n
 /// components, and an implicit one 30 n, in which are its linear algebra and its Jacobians.
 
 #include <array>
@@ -24,7 +24,7 @@ namespace alembert {
 /// (taylor.hpp).
 inline double effort_of_evaluation(const Rhs& rhs, bool implicit) {
     const double n = rhs.dimension, call = rhs.effort > 0 ? rhs.effort : 10 * n;
-    return call + (implicit ? 30 * n : 4 + n);
+    return call + (implicit ? 30 * n : 13 + 0.15 * n);
 }
 
 /// The evaluations of a usual step of radau.

@@ -188,6 +188,10 @@ private:
         }
         here.project = mode.project;
         here.rhs_when_stiff = mode.rhs_when_stiff;
+        if (!mode.rhs_when_cheaper) here.when_cheaper = {};
+        here.rhs_when_cheaper = mode.rhs_when_cheaper;
+        here.effort_of_series = mode.effort_of_series;
+        here.on_method = mode.on_method;
         here.on_step = mode.on_step;
         here.by = mode.by;
         const Events events = in_phases_ ? watched(mode) : mode.events;

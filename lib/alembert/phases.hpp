@@ -33,7 +33,10 @@ struct ContactMode {
     Rhs rhs = {};
     Events events = {};  ///< the scene's events, then one for each contact: its reaction if it is closed, its gap
                          ///< if it is open
-    std::function<Rhs()> rhs_when_stiff = {};  ///< with the Jacobian (Options); may be empty
+    std::function<Rhs()> rhs_when_stiff = {};    ///< with the Jacobian (Options); may be empty
+    std::function<Rhs()> rhs_when_cheaper = {};  ///< with the power series (Options); empty: there is none
+    double effort_of_series = 0;
+    OnMethod on_method = {};  ///< may be empty
     /// Moves a state onto the constraints of the mode; may be empty.
     std::function<void(double t, double* state)> project = {};
     OnStep on_step = {};                              ///< may be empty

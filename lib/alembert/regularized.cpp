@@ -149,6 +149,7 @@ private:
         inner.when_stiff = {};
         inner.when_stuck = {};
         inner.rhs_when_stiff = {};
+        inner.when_cheaper = {};
         inner.by = {};
         if (options_.duration == 0) inner.duration = 0;
         inner.on_stretch = [this](const Stretch& step) { return look(step); };

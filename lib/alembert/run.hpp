@@ -27,6 +27,7 @@
 #include "alembert/pace.hpp"
 #include "alembert/recorder.hpp"
 #include "alembert/rounding.hpp"
+#include "alembert/series_pace.hpp"
 #include "alembert/shrinking.hpp"
 #include "alembert/step.hpp"
 #include "alembert/step_size.hpp"
@@ -62,6 +63,10 @@ public:
         if (options.duration > 0)
             result_.times.reserve(static_cast<std::size_t>(options.duration / sample_interval(options)) + 2);
         result_.states.reserve(result_.times.capacity() * initial.size());
+        if (options.when_cheaper && !AnyStep::has_fixed_step && !needs_series(options.method))
+            series_.emplace(
+                options.rhs_when_cheaper ? options.rhs_when_cheaper : [&rhs] { return rhs; },
+                options.effort_of_series, options.tolerance);
         if (options.grid && options.duration > 0)
             rows_on_grid_ +=
                 static_cast<long>(std::floor((options.start - grid_) / sample_interval(options) + 1e-9));
@@ -89,7 +94,7 @@ private:
 
     long evaluations() const {
         return step_.evaluations() + watch_.evaluations() + stiffness_.evaluations() + rounding_.evaluations() +
-               further_evaluations_;
+               further_evaluations_ + (series_ ? series_->evaluations() : 0);
     }
 
     /// The predicted effort of the steps so far (pace.hpp), without events.
@@ -261,9 +266,16 @@ private:
         if constexpr (!AnyStep::has_fixed_step && !requires { step_.first_length(); })
             if constexpr (!requires { step_.rounding(); })
                 rounding_.look(step_.rhs(), step_.time(), step_.state(), step_.rate());
-        if (!options_.when_stiff && !options_.turns.back) return;
+        if (!options_.when_stiff && !options_.turns.back && !series_) return;
         pace_.add(step_.time(), effort());
         if (evaluations() >= options_.budget) return;
+        if (series_ && series_->finds_cheaper({.t = step_.time(),
+                                               .y = step_.state(),
+                                               .h = step_.length(),
+                                               .spent = effort(),
+                                               .left = end_ - step_.time()},
+                                              pace_.effort_per_time()))
+            return change_to(*options_.when_cheaper, Switch::Why::cheaper, 0);
         if (options_.when_stiff) {
             if (stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(), step_.length()))
                 change_to(*options_.when_stiff, Switch::Why::stiff, stiffness_.largest_eigenvalue());
@@ -408,7 +420,8 @@ private:
     RoundingWatch rounding_;
     StiffnessWatch stiffness_;
     Pace pace_;
-    long mild_steps_ = 0;        ///< the last steps with which the other method would be stable
+    long mild_steps_ = 0;  ///< the last steps with which the other method would be stable
+    std::optional<SeriesPace> series_ = {};
     ShrinkingSteps shrinking_;   ///< of a power series
     double earlier_length_ = 0;  ///< of the step before the last that was looked at
     Trajectory result_;

@@ -45,10 +45,12 @@ inline int taylor_order(double tolerance, double order_cost = 0, double product_
     return best;
 }
 
-/// The effort of a step of this order in ns (pace.hpp).
-inline double taylor_effort(double order_cost, double product_cost, int order) {
-    constexpr double other_work = 70;  ///< the unit of the two costs
-    return other_work * (1 + order_cost * order + product_cost * order * order);
+/// The effort of a step of this order in ns (pace.hpp), fitted to 77 systems of 2 to 36 components in memory, from
+/// which it differs by 9 % (root mean square).
+inline double taylor_effort(double order_cost, double product_cost, int order, int components) {
+    constexpr double each_step = 165, each_component = 6.5, each_order = 45, each_product = 103;
+    return each_step + each_component * components + each_order * order_cost * order +
+           each_product * product_cost * order * order;
 }
 
 inline double whole_power(double x, int exponent) {
@@ -102,7 +104,8 @@ public:
           next_(coefficients_.size()),
           slopes_(size_),
           work_(static_cast<std::size_t>(ends.rhs.series.workspace) + 8) {
-        effort_ = taylor_effort(ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost, order_);
+        effort_ = taylor_effort(ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost, order_,
+                                static_cast<int>(size_));
         void* start = work_.data();
         std::size_t room = work_.size() * sizeof(double);
         aligned_ = static_cast<double*>(std::align(64, room - 64, start, room));

@@ -61,10 +61,11 @@ struct LastZero {
 /// The change from an explicit method to one for stiff systems, or back.
 struct Switch {
     enum class Why {
-        stiff,  ///< stability limits the steps
-        mild,   ///< it would not limit the steps of the explicit method any more
-        dear,   ///< the steps of the method for stiff systems cost more than those of the other did
-        stuck   ///< the steps of the method became very short (Options::when_stuck)
+        stiff,   ///< stability limits the steps
+        mild,    ///< it would not limit the steps of the explicit method any more
+        dear,    ///< the steps of the method for stiff systems cost more than those of the other did
+        stuck,   ///< the steps of the method became very short (Options::when_stuck)
+        cheaper  ///< a power series was predicted to cost less (Options::when_cheaper)
     };
     double time = 0;
     std::string method;         ///< the method with which the run went on

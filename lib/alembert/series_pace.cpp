@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/series_pace.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "alembert/taylor.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double share = 0.05;  // of the run that a look may take
+constexpr int looks = 4, apart = 4;
+constexpr double clearly = 1.5;  // how much more the run must cost
+
+}  // namespace
+
+bool SeriesPace::is_worth_making(const Place& here, double effort_per_time) {
+    constexpr double gain = 0.5;
+    if (!(gain * effort_per_time * here.left > effort_of_making_)) return false;
+    rhs_ = make_();
+    if (!rhs_->series) {
+        until_ = HUGE_VAL;
+        return false;
+    }
+    const alembert_series_table& costs = *rhs_->series.module;
+    const int order = taylor_order(tolerance_, costs.order_cost, costs.product_cost);
+    until_ = taylor_effort(costs.order_cost, costs.product_cost, order, rhs_->dimension) / share;
+    return here.spent >= until_;
+}
+
+bool SeriesPace::finds_cheaper(const Place& here, double effort_per_time) {
+    if (pause_-- > 0 || !(effort_per_time > 0) || here.spent < until_) return false;
+    if (!rhs_ && !is_worth_making(here, effort_per_time)) return false;
+    Stepper<Taylor> step(*rhs_, here.t, std::vector<double>(here.y, here.y + rhs_->dimension), tolerance_);
+    evaluations_ += 2;  // the series, and the rate with which a step begins
+    effort_ += step.effort() / step.first_length() * here.h;
+    time_ += here.h;
+    pause_ = apart - 1;
+    if (clearly * effort_ < effort_per_time * time_) return ++looked_ == looks;
+    until_ = 4 * here.spent;
+    looked_ = 0;
+    effort_ = time_ = 0;
+    return false;
+}
+
+}  // namespace alembert
