@@ -19,8 +19,8 @@ namespace alembert {
 namespace {
 
 constexpr int states_around = 3;
-constexpr double reach =
-    1e-2;  // of a coordinate: small, because another branch of the positions is another mechanism
+// Of a coordinate and of the duration: small, because another branch of the positions is another mechanism.
+constexpr double reach = 1e-2;
 constexpr double farthest = 10;  // in units of the change that was asked for; farther away lies another branch
 constexpr double looser = 1e3;   // what is kept may be off by a tolerance each, and what follows from it by more
 
@@ -80,7 +80,7 @@ void LeftOut::check(const Start& start) const {
     std::mt19937_64 random(3);
     for (int k = 0; k < states_around; ++k) {
         Start other = here;
-        other.t += reach * (k + 1);
+        other.t += reach * (k + 1) * start.duration;
         const std::vector<double> asked = changes(here.q, random);
         for (std::size_t i = 0; i < asked.size(); ++i) other.q[i] += asked[i];
         if (!move_onto_kept(other)) continue;
