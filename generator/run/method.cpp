@@ -120,8 +120,7 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
                                tolerance, *products)};
     const bool may_find_series =
         tolerance < loosest_of_series && !needs_compiler_for_series(request) && d.mechanism.unilateral.empty();
-    return {.method = tolerance > loose || (constrained && tolerance > by_compiler.constrained) ? Method::dop853
-                                                                                                : Method::verner98,
+    return {.method = without_series(tolerance, constrained),
             .when_stiff = Method::radau,
             .when_cheaper = may_find_series ? std::optional(Method::taylor) : std::nullopt,
             .why = say("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
@@ -136,6 +135,11 @@ std::string name_given(const RunOptions& request, const Derived& d) {
 bool has_short_series(const Program& program, const Derived& derived) {
     const auto products = products_of_series(program, derived);
     return products && *products <= most_in_memory;
+}
+
+Method without_series(double tolerance, bool constrained) {
+    return tolerance > loose || (constrained && tolerance > by_compiler.constrained) ? Method::dop853
+                                                                                     : Method::verner98;
 }
 
 double effort_of(const Program& program) {

@@ -52,6 +52,9 @@ MethodChoice method_for(const RunOptions& request, const Derived& derived, const
 /// Whether the motion has a power series that is short enough to be compiled.
 bool has_short_series(const Program& program, const Derived& derived);
 
+/// What is taken at a tolerance where there is no series, or none that is faster.
+Method without_series(double tolerance, bool constrained);
+
 /// The predicted time of one right-hand side, ns (pace.hpp).
 double effort_of(const Program& program);
 

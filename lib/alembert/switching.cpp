@@ -319,9 +319,22 @@ private:
             if (!sides_.is_pair(k) && !system_.bounds) continue;  // no friction
             const double speed = sides_.is_pair(k) ? here.velocity(k).norm() : std::abs(here.value(k));
             if (sides_[k] != 0 && std::find(open.begin(), open.end(), k) == open.end() &&
-                speed <= times * stopped(k))
+                speed <= times * stopped(k) && (sides_.is_pair(k) || brakes(k)))
                 open.push_back(k);
         }
+    }
+
+    /// Whether the sign of a function changes its own rate, as that of a sliding velocity does.
+    bool brakes(int k) const {
+        double slopes[2];
+        for (const int side : {0, 1}) {
+            SideSet sides = sides_;
+            sides[k] = 2 * side - 1;
+            SwitchSides at(system_, sides, dimension());
+            at.evaluate(t_, state_.data());
+            slopes[side] = at.slope(k);
+        }
+        return std::abs(slopes[1] - slopes[0]) > slack * (std::abs(slopes[0]) + std::abs(slopes[1]));
     }
 
     /// Functions that the tolerance does not tell from zero, or that do not come nearer to it from one change to
