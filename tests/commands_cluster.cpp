@@ -83,6 +83,7 @@ Run in_folder(const std::string& script, const std::vector<std::string>& options
     words.insert(words.end(), options.begin(), options.end());
     return run_shell(R"sh(cd "$1"; shift
         export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+        export ASAN_OPTIONS=detect_leaks=0 # MPI's libraries do not free everything
         quiet() { "$ALEMBERT" sweep "$@" -o quiet.csv >/dev/null; }
         # Waits until something is done, but not all.
         begun() { for k in $(seq 2000); do [ "$(stat -c %s t.csv.unfinished 2>/dev/null || echo 0)" -gt 60 ] && return; sleep 0.005; done; }

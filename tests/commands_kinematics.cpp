@@ -257,7 +257,8 @@ TEST_CASE("kinematics: wrong claims on the scenes of chapters 2 and 3 are refute
                                  temporary("wrong.txt", text), "--json"});
         INFO(name);
         CHECK(result.exit == 1);
-        for (const Json& claim : Json::parse(result.out)["claims"]) {
+        const Json claims_found = Json::parse(result.out)["claims"];
+        for (const Json& claim : claims_found) {
             INFO(claim["equation"].get<std::string>());
             CHECK(claim["verdict"] == "refuted");
             CHECK_FALSE(claim["counterexample"].empty());

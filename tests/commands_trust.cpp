@@ -84,7 +84,8 @@ TEST_CASE("sweep: no member passes over the narrow pulse that its own parameters
     const std::string scene = oscillator("exp(-((t-5)/w)^2)");
     const auto result = run({"sweep", scene, "--json", "--vary", "w=1e-3:4e-3:4"});
     REQUIRE(result.exit == 0);
-    for (const Json& row : Json::parse(result.out)["rows"]) {
+    const Json rows = Json::parse(result.out)["rows"];
+    for (const Json& row : rows) {
         const double w = row["varied"]["w"].get<double>(),
                      exact = w * std::sqrt(M_PI) * std::exp(-w * w / 4) * std::sin(15.0);
         CHECK(std::abs(row["final"]["coordinates"]["x"].get<double>() - exact) < 1e-7);

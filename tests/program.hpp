@@ -8,6 +8,14 @@
 
 namespace alembert::test {
 
+/// Whether this test, and the program with it, was compiled with the address sanitizer, which needs memory of its
+/// own.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool is_sanitized = true;
+#else
+inline constexpr bool is_sanitized = false;
+#endif
+
 struct Run {
     int exit = -1;
     std::string out, err;
