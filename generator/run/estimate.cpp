@@ -145,10 +145,11 @@ double difference(const PhasedMotion& a, const PhasedMotion& b, const Components
                      apart(rates_a, rates_b, rates_a.size()), later(a, b)});
 }
 
-/// The relative error of a number that is rounded in each step if nothing amplifies it: a random walk.
+/// The relative error of a number that is rounded in each step if nothing amplifies it: a random walk, after a few
+/// steps with several roundings each.
 double rounding_of_steps(const PhasedMotion& motion) {
     const double steps = static_cast<double>(motion.statistics.steps);
-    return (4 + std::sqrt(steps)) * std::numeric_limits<double>::epsilon();
+    return (8 + std::sqrt(steps)) * std::numeric_limits<double>::epsilon();
 }
 
 /// What rounding adds to ErrorEstimate::value.
