@@ -10,6 +10,7 @@
 
 #include "alembert/run.hpp"
 #include "alembert/switch_choice.hpp"
+#include "alembert/switch_moment.hpp"
 #include "alembert/switch_sides.hpp"
 #include "alembert/switch_watch.hpp"
 #include "alembert/tolerances.hpp"
@@ -23,10 +24,6 @@ constexpr double most_gathered = 1e3;  // times the error of a step, which a mot
 constexpr int most_in_one_place = 50;  // the most changes without an advance of time
 // Margin within which a choice still counts as consistent, relative to the rates of g on both sides.
 constexpr double slack = 1e-9;
-constexpr double known = 1e-9;        // components of a state are known to this part of themselves, and times to
-constexpr double known_time = 1e-12;  // this part of the run
-constexpr double little = 1e-3;  // of what the load would give within the whole run: a sliding velocity before
-                                 // anything has slid
 // A second consistent choice with at least this margin makes the motion ambiguous.
 constexpr double clear_margin = 1e-6;
 
@@ -52,6 +49,8 @@ public:
 
 private:
     int dimension() const { return static_cast<int>(state_.size()); }
+    SwitchMoment moment() const { return {system_, sides_, t_, state_, options_, *sizes_}; }
+    double value_of(int k) const { return moment().value(k); }
 
     /// Determines the sides at the start.
     bool begin() {
@@ -63,7 +62,7 @@ private:
             is_defined = is_defined && std::isfinite(g);
             (*sizes_)[k] = std::abs(g);
             if (sides_.is_pair(k)) {
-                if (k % 2 == 1 && !direct(k - 1, still(k - 1))) open.push_back(k - 1);
+                if (k % 2 == 1 && !direct(k - 1, moment().still(k - 1))) open.push_back(k - 1);
             } else if (g == 0)
                 open.push_back(k);
             else
@@ -73,64 +72,6 @@ private:
         if (is_defined && (options_.duration == 0 || choose(open))) return true;
         if (!is_defined) fail_undefined();
         return false;
-    }
-
-    double value_of(int k) const {
-        SwitchSides here(system_, sides_, dimension());
-        here.evaluate(t_, state_.data());
-        return here.value(k);
-    }
-
-    /// |g| of a function, or of both of a pair.
-    double length(const std::vector<double>& g, int k) const {
-        return sides_.is_pair(k) ? std::hypot(g[k], g[k + 1]) : std::abs(g[k]);
-    }
-
-    /// Σ |∂g/∂y_i| size(y_i): how far a sliding velocity is off where the components of the state are off by these
-    /// sizes.
-    template <typename Size>
-    double moved(int k, const Size& size) const {
-        const std::vector<double> none(state_.size()), sigma = system_.sigma(sides_);
-        std::vector<double> y = state_, here(2 * sides_.size()), there = here;
-        system_.values(t_, y.data(), sigma.data(), none.data(), here.data());
-        double sum = 0;
-        for (std::size_t i = 0; i < y.size(); ++i) {
-            const double off = size(y[i]), kept = y[i];
-            if (off == 0) continue;
-            y[i] += std::max(off, std::sqrt(tolerance::epsilon) * std::abs(kept));
-            const double step = y[i] - kept;
-            system_.values(t_, y.data(), sigma.data(), none.data(), there.data());
-            for (std::size_t j = 0; j < there.size(); ++j) there[j] -= here[j];
-            sum += length(there, k) * off / step;
-            y[i] = kept;
-        }
-        return sum;
-    }
-
-    /// The sliding velocity that rounding may leave of none.
-    double still(int k) const {
-        return 4 * tolerance::epsilon * length(*sizes_, k) +
-               moved(k, [](double y) { return 4 * tolerance::epsilon * std::abs(y); });
-    }
-
-    /// How far the k-th normal force is uncertain because the state and the time are.
-    double uncertain_normal(const SwitchSides& now, int k) const {
-        SwitchSides other(system_, sides_, dimension());
-        std::vector<double> y = state_;
-        const auto change = [&](double t) {
-            other.evaluate(t, y.data());
-            other.find_bounds(t, y.data());
-            return std::abs(other.normal(k) - now.normal(k));
-        };
-        double sum = 0;
-        for (double& x : y) {
-            const double kept = x;
-            x += std::sqrt(tolerance::epsilon) * std::abs(kept);
-            if (x != kept) sum += known * std::abs(kept) / (x - kept) * change(t_);
-            x = kept;
-        }
-        const double later = t_ + std::sqrt(tolerance::epsilon) * std::max(std::abs(t_), options_.duration);
-        return sum + known_time * std::max(std::abs(t_), options_.duration) / (later - t_) * change(later);
     }
 
     /// Lets a pair slide in the direction of its velocity; false if that is not above `least`.
@@ -168,7 +109,7 @@ private:
         now.find_bounds(t_, state_.data());
         for (int k = 0; k < system_.count(); ++k) {
             (*normals_)[k] = std::max((*normals_)[k], std::abs(now.normal(k)));
-            if (now.normal(k) < -std::max(clear_margin * (*normals_)[k], uncertain_normal(now, k)))
+            if (now.normal(k) < -std::max(clear_margin * (*normals_)[k], moment().uncertain_normal(now, k)))
                 return fail_negative(k);
             if (sides_[k] != 0) (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
         }
@@ -290,7 +231,7 @@ private:
                 }
             } else if (w.what == Watched::What::grain) {
                 direct(w.index, 0);
-            } else if (w.what == Watched::What::turn && direct(w.index, stopped(w.index))) {
+            } else if (w.what == Watched::What::turn && direct(w.index, moment().stopped(w.index))) {
                 continue;
             } else if (std::find(open.begin(), open.end(), w.index) == open.end()) {
                 open.push_back(w.index);
@@ -319,74 +260,24 @@ private:
             if (!sides_.is_pair(k) && !system_.bounds) continue;  // no friction
             const double speed = sides_.is_pair(k) ? here.velocity(k).norm() : std::abs(here.value(k));
             if (sides_[k] != 0 && std::find(open.begin(), open.end(), k) == open.end() &&
-                speed <= times * stopped(k) && (sides_.is_pair(k) || brakes(k)))
+                speed <= times * moment().stopped(k) && (sides_.is_pair(k) || moment().brakes(k)))
                 open.push_back(k);
         }
-    }
-
-    /// Whether the sign of a function changes its own rate, as that of a sliding velocity does.
-    bool brakes(int k) const {
-        double slopes[2];
-        for (const int side : {0, 1}) {
-            SideSet sides = sides_;
-            sides[k] = 2 * side - 1;
-            SwitchSides at(system_, sides, dimension());
-            at.evaluate(t_, state_.data());
-            slopes[side] = at.slope(k);
-        }
-        return std::abs(slopes[1] - slopes[0]) > slack * (std::abs(slopes[0]) + std::abs(slopes[1]));
-    }
-
-    /// Functions that the tolerance does not tell from zero, or that do not come nearer to it from one change to
-    /// the next, and that do not move either.
-    std::vector<int> resting(const std::vector<int>& open) {
-        SwitchSides here(system_, sides_, dimension());
-        here.evaluate(t_, state_.data());
-        std::vector<int> found;
-        for (int k = 0; k < system_.count(); ++k) {
-            if (sides_[k] == 0 || sides_.is_pair(k) || std::find(open.begin(), open.end(), k) != open.end())
-                continue;
-            const double size = std::abs(here.value(k));
-            Swing& swing = swings_[static_cast<std::size_t>(k)];
-            swing.most = std::max(swing.most, size);
-            swing.rounds = size < 0.99 * swing.least ? 0 : swing.rounds + 1;
-            swing.least = std::min(swing.least, size);
-            const double little = std::max(options_.tolerance, 256 * tolerance::epsilon) * swing.most;
-            const bool is_over = size <= little || (size <= 1e-6 * swing.most && swing.rounds >= 8);
-            if (is_over && std::abs(here.slope(k)) * since_change_ <= size + little) found.push_back(k);
-        }
-        return found;
     }
 
     /// Lets the open functions and those that rest stay zero if they can: where friction stops a mass at the
     /// bottom of a groove |x|, sign(x) and sign(x') have changed ever faster.
     bool come_to_rest(const std::vector<int>& open) {
-        const std::vector<int> still = resting(open);
+        const std::vector<int> still = swings_.at_rest(moment(), open, since_change_);
         if (still.empty() || open.size() + still.size() > most_undecided) return false;
         const SideChoice best = side_choices(system_, sides_, open, t_, state_, still)[0];
         const auto moves = [&](int k) { return best.sides[k] != 0; };
         if (!(best.margin > clear_margin) || std::any_of(open.begin(), open.end(), moves)) return false;
         sides_ = best.sides;
-        for (const int k : still) bring_to_zero(k);
+        for (const int k : still) bring_to_zero(moment(), k, state_);
         for (const auto* list : {&open, &still})
             for (const int k : *list) tell(k, SideChange::Kind::sliding);
         return true;
-    }
-
-    /// Moves the state to g = 0 along the gradient of g, which is found by differences.
-    void bring_to_zero(int k) {
-        const double g = value_of(k);
-        std::vector<double> gradient(state_.size());
-        double square = 0;
-        for (std::size_t i = 0; i < state_.size(); ++i) {
-            const double y = state_[i], step = 1e-7 * std::max(1.0, std::abs(y));
-            state_[i] = y + step;
-            gradient[i] = (value_of(k) - g) / step;
-            square += gradient[i] * gradient[i];
-            state_[i] = y;
-        }
-        if (square > 0)
-            for (std::size_t i = 0; i < state_.size(); ++i) state_[i] -= g * gradient[i] / square;
     }
 
     /// Chooses sides for the open functions; the others keep theirs.
@@ -429,34 +320,7 @@ private:
     /// Gives a pair that begins to slide its δ (switching.hpp).
     void seed(int pair) {
         double& grain = sides_.slides[pair / 2].grain;
-        grain = std::max(grain, speed(pair) * std::pow(std::max(options_.tolerance, 1e-13), 2.0 / 3));
-    }
-
-    /// The size of sliding velocities: the largest so far. Before anything has slid, that to which the load would
-    /// bring the pair without friction in a small part of the run.
-    double speed(int pair) const {
-        double largest = system_.speed;
-        for (int k = 0; sides_.is_pair(k); ++k) largest = std::max(largest, (*sizes_)[k]);
-        if (system_.speed > 0) return largest;
-        SideSet held = sides_;
-        held[pair] = held[pair + 1] = 0;
-        const std::vector<double> sigma = system_.sigma(held);  // α = 0
-        std::vector<double> rate(state_.size()), g(2 * sides_.size());
-        system_.rates(t_, state_.data(), sigma.data(), rate.data());
-        system_.values(t_, state_.data(), sigma.data(), rate.data(), g.data());
-        const std::size_t slope = sides_.size() + static_cast<std::size_t>(pair);
-        return std::max(largest, little * options_.duration * std::hypot(g[slope], g[slope + 1]));
-    }
-
-    /// The sliding velocity below which a friction counts as having stopped: what the tolerance leaves of none.
-    /// Steps hold the error of a component y below it times max(1, |y|), and a body hands errors on from one of
-    /// its feet to the others.
-    double stopped(int k) const {
-        const double least = std::max(options_.tolerance, 1e-13);
-        double largest = (*sizes_)[k];
-        for (int other = 0; sides_.is_pair(k) && sides_.is_pair(other); ++other)
-            largest = std::max(largest, (*sizes_)[other]);
-        return least * largest + moved(k, [&](double y) { return least * std::max(1.0, std::abs(y)); }) + still(k);
+        grain = std::max(grain, moment().speed(pair) * std::pow(std::max(options_.tolerance, 1e-13), 2.0 / 3));
     }
 
     void tell(int k, SideChange::Kind kind) const {
@@ -496,13 +360,7 @@ private:
     std::shared_ptr<std::vector<double>> sizes_;                              ///< the largest |g_k| so far
     std::shared_ptr<std::vector<double>> normals_;                            ///< the largest normal forces
     std::shared_ptr<double> undefined_ = std::make_shared<double>(HUGE_VAL);  ///< when some g_k was NaN in a piece
-    /// How far a function is from zero where others change their signs: at most, at least, and since how many
-    /// changes that has not become less.
-    struct Swing {
-        double most = 0, least = HUGE_VAL;
-        int rounds = 0;
-    };
-    std::vector<Swing> swings_{sizes_->size()};
+    Swings swings_{sizes_->size()};
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL,
            since_change_ = HUGE_VAL;  ///< the time of the last change; from it to that before

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/switch_moment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/tolerances.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double known = 1e-9;        // components of a state are known to this part of themselves, and times to
+constexpr double known_time = 1e-12;  // this part of the run
+constexpr double little = 1e-3;       // part of the run in which a load gives a first size of sliding velocities
+constexpr double different = 1e-9;    // rates at both sides, relative to them
+// A function whose swings do not become less in so many changes, and are so much less than the largest, has come
+// to where rounding ends that.
+constexpr int most_rounds_at_rest = 8;
+constexpr double small_swing = 1e-6;
+
+/// |g| of a function, or of both of a pair.
+double length(const SideSet& sides, const std::vector<double>& g, int k) {
+    return sides.is_pair(k) ? std::hypot(g[k], g[k + 1]) : std::abs(g[k]);
+}
+
+/// Σ |∂g/∂y_i| size(y_i): how far a sliding velocity is off where the components of the state are off by these
+/// sizes.
+template <typename Size>
+double moved(const SwitchMoment& at, int k, const Size& size) {
+    const std::vector<double> none(at.state.size()), sigma = at.system.sigma(at.sides);
+    std::vector<double> y = at.state, here(2 * at.sides.size()), there = here;
+    at.system.values(at.t, y.data(), sigma.data(), none.data(), here.data());
+    double sum = 0;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+        const double off = size(y[i]), kept = y[i];
+        if (off == 0) continue;
+        y[i] += std::max(off, std::sqrt(tolerance::epsilon) * std::abs(kept));
+        const double step = y[i] - kept;
+        at.system.values(at.t, y.data(), sigma.data(), none.data(), there.data());
+        for (std::size_t j = 0; j < there.size(); ++j) there[j] -= here[j];
+        sum += length(at.sides, there, k) * off / step;
+        y[i] = kept;
+    }
+    return sum;
+}
+
+}  // namespace
+
+double SwitchMoment::value(int k) const {
+    SwitchSides here(system, sides, dimension());
+    here.evaluate(t, state.data());
+    return here.value(k);
+}
+
+double SwitchMoment::still(int k) const {
+    return 4 * tolerance::epsilon * length(sides, sizes, k) +
+           moved(*this, k, [](double y) { return 4 * tolerance::epsilon * std::abs(y); });
+}
+
+double SwitchMoment::stopped(int k) const {
+    const double least = std::max(options.tolerance, 1e-13);
+    double largest = sizes[k];
+    for (int other = 0; sides.is_pair(k) && sides.is_pair(other); ++other)
+        largest = std::max(largest, sizes[other]);
+    return least * largest + moved(*this, k, [&](double y) { return least * std::max(1.0, std::abs(y)); }) +
+           still(k);
+}
+
+double SwitchMoment::speed(int pair) const {
+    double largest = system.speed;
+    for (int k = 0; sides.is_pair(k); ++k) largest = std::max(largest, sizes[k]);
+    if (system.speed > 0) return largest;
+    SideSet held = sides;
+    held[pair] = held[pair + 1] = 0;
+    const std::vector<double> sigma = system.sigma(held);  // α = 0
+    std::vector<double> rate(state.size()), g(2 * sides.size());
+    system.rates(t, state.data(), sigma.data(), rate.data());
+    system.values(t, state.data(), sigma.data(), rate.data(), g.data());
+    const std::size_t slope = sides.size() + static_cast<std::size_t>(pair);
+    return std::max(largest, little * options.duration * std::hypot(g[slope], g[slope + 1]));
+}
+
+double SwitchMoment::uncertain_normal(const SwitchSides& now, int k) const {
+    SwitchSides other(system, sides, dimension());
+    std::vector<double> y = state;
+    const auto change = [&](double time) {
+        other.evaluate(time, y.data());
+        other.find_bounds(time, y.data());
+        return std::abs(other.normal(k) - now.normal(k));
+    };
+    double sum = 0;
+    for (double& x : y) {
+        const double kept = x;
+        x += std::sqrt(tolerance::epsilon) * std::abs(kept);
+        if (x != kept) sum += known * std::abs(kept) / (x - kept) * change(t);
+        x = kept;
+    }
+    const double longest = std::max(std::abs(t), options.duration),
+                 later = t + std::sqrt(tolerance::epsilon) * longest;
+    return sum + known_time * longest / (later - t) * change(later);
+}
+
+bool SwitchMoment::brakes(int k) const {
+    double slopes[2];
+    for (const int side : {0, 1}) {
+        SideSet other = sides;
+        other[k] = 2 * side - 1;
+        SwitchSides at(system, other, dimension());
+        at.evaluate(t, state.data());
+        slopes[side] = at.slope(k);
+    }
+    return std::abs(slopes[1] - slopes[0]) > different * (std::abs(slopes[0]) + std::abs(slopes[1]));
+}
+
+std::vector<int> Swings::at_rest(const SwitchMoment& moment, const std::vector<int>& open, double since) {
+    SwitchSides here(moment.system, moment.sides, moment.dimension());
+    here.evaluate(moment.t, moment.state.data());
+    std::vector<int> found;
+    for (int k = 0; k < moment.system.count(); ++k) {
+        const bool is_open = std::find(open.begin(), open.end(), k) != open.end();
+        if (moment.sides[k] == 0 || moment.sides.is_pair(k) || is_open) continue;
+        const double size = std::abs(here.value(k));
+        Swing& swing = of_[static_cast<std::size_t>(k)];
+        swing.most = std::max(swing.most, size);
+        swing.rounds = size < 0.99 * swing.least ? 0 : swing.rounds + 1;
+        swing.least = std::min(swing.least, size);
+        const double nothing = std::max(moment.options.tolerance, 256 * tolerance::epsilon) * swing.most;
+        const bool is_over =
+            size <= nothing || (size <= small_swing * swing.most && swing.rounds >= most_rounds_at_rest);
+        if (is_over && std::abs(here.slope(k)) * since <= size + nothing) found.push_back(k);
+    }
+    return found;
+}
+
+void bring_to_zero(const SwitchMoment& moment, int k, std::vector<double>& state) {
+    const double g = moment.value(k);
+    std::vector<double> gradient(state.size());
+    double square = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+        const double y = state[i], step = 1e-7 * std::max(1.0, std::abs(y));
+        state[i] = y + step;
+        gradient[i] = (moment.value(k) - g) / step;
+        square += gradient[i] * gradient[i];
+        state[i] = y;
+    }
+    if (square > 0)
+        for (std::size_t i = 0; i < state.size(); ++i) state[i] -= g * gradient[i] / square;
+}
+
+}  // namespace alembert

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// What counts as small at one moment of a motion with held signs (switching.hpp), in the units of the motion
+/// itself.
+///
+///     const SwitchMoment moment{system, sides, t, state, options, sizes};
+///     moment.stopped(k);     // a sliding velocity below this is none
+///
+///     Swings swings(count);
+///     for (const int k : swings.at_rest(moment, open, since)) bring_to_zero(moment, k, state);
+
+#include <vector>
+
+#include "alembert/switch_sides.hpp"
+
+namespace alembert {
+
+struct SwitchMoment {
+    const Switching& system;
+    const SideSet& sides;
+    double t;
+    const std::vector<double>& state;
+    const Options& options;
+    const std::vector<double>& sizes;  ///< the largest |g_k| so far
+
+    int dimension() const { return static_cast<int>(state.size()); }
+    double value(int k) const;
+    /// The sliding velocity that rounding may leave of none.
+    double still(int k) const;
+    /// The sliding velocity below which a friction counts as having stopped: what the tolerance leaves of none.
+    /// Steps hold the error of a component y below it times max(1, |y|), and a body hands errors on from one of
+    /// its feet to the others.
+    double stopped(int k) const;
+    /// The size of sliding velocities: the largest so far. Before anything has slid, that to which the load would
+    /// bring the pair without friction in a small part of the run.
+    double speed(int pair) const;
+    /// How far the k-th normal force is uncertain because the state and the time are. `now` has been evaluated
+    /// here, with its bounds.
+    double uncertain_normal(const SwitchSides& now, int k) const;
+    /// Whether the sign of a function changes its own rate, as that of a sliding velocity does.
+    bool brakes(int k) const;
+};
+
+/// How far functions are from zero where others change their signs, from one change to the next.
+class Swings {
+public:
+    explicit Swings(std::size_t functions) : of_(functions) {}
+
+    /// Functions other than the `open` ones that the tolerance does not tell from zero, or that do not come nearer
+    /// to it from one change to the next, and that do not move either. `since`: the time since the last change.
+    std::vector<int> at_rest(const SwitchMoment& moment, const std::vector<int>& open, double since);
+
+private:
+    struct Swing {
+        double most = 0, least = HUGE_VAL;
+        int rounds = 0;  ///< changes since `least` became less
+    };
+    std::vector<Swing> of_;
+};
+
+/// Moves `state`, which is that of the moment, to g = 0 along the gradient of g, which is found by differences.
+void bring_to_zero(const SwitchMoment& moment, int k, std::vector<double>& state);
+
+}  // namespace alembert
