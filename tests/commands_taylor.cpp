@@ -230,4 +230,17 @@ TEST_CASE("taylor: a motion through a kink is followed piece by piece") {
     }
 }
 
+// The normal forces are multipliers, which M u' = f does not contain.
+TEST_CASE("taylor: friction on constraints and contacts brakes as with dop853") {
+    for (const char* scene : {"trammel", "braking_box", "sliding_coin"}) {
+        CAPTURE(scene);
+        const std::string file = source_path(std::string("scenes/friction/") + scene + ".toml");
+        const Json series = simulated(file, {"--duration", "0.15", "--tolerance", "1e-11"}),
+                   other = simulated(file, {"--duration", "0.15", "--tolerance", "1e-11"}, "dop853");
+        for (const auto& [name, value] : other["final"]["coordinates"].items())
+            CHECK(std::abs(coordinate(series, name) - value.get<double>()) < 1e-8);
+        CHECK(series["work_balance"].get<double>() < 1e-8);
+    }
+}
+
 }  // namespace commands_taylor

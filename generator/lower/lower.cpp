@@ -183,6 +183,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
         for (Lowering* const one : {&lowering, &acting_alone})
             one->define(contact.gap.multiplier, program.number(0));
     const NormalForces normal_forces(m, equations);
+    program.friction_on_multipliers = normal_forces.any();
     if (normal_forces.any()) {
         normal_forces.leave_out(acting_alone, program);
         define_rates(acting_alone, program, m, equations, udot);

@@ -224,6 +224,9 @@ public:
     bool is_textbook = false;
     /// Whether the mass matrix is singular at every state, so that there are no accelerations.
     bool singular = false;
+    /// Friction takes its normal force from multipliers: Group::mass and Group::forcing lack it, the right-hand
+    /// side has it.
+    bool friction_on_multipliers = false;
 
     /// Throws ModelError for a node with Op::unspecified: the function has no values, and is named.
     [[noreturn]] void refuse_unspecified(const Node& node) const;

@@ -160,6 +160,7 @@ Recurrences recurrences(const Program& program, bool with_work) {
     if (const auto obstacle = obstacle_to_recurrences(program, with_work)) throw ModelError(*obstacle);
     Recurrences direct = SeriesBuilding(program, with_work).direct();
     if (program.nodes_of(Group::mass).empty() || program.nodes_of(Group::forcing).empty()) return direct;
+    if (program.friction_on_multipliers) return direct;  // M u' = f lacks it
     Recurrences implicit = SeriesBuilding(program, with_work).implicit();
     return implicit.products() < direct.products() ? implicit : direct;
 }

@@ -93,7 +93,9 @@ private:
 void AnglesAlong::go_to(const Turning& next) {
     const Between between(last_, next);
     const Points points(of_, between, through_);
-    if (points.are_beside())
+    if (of_.from_lock(quaternion_of(next.e)).norm() < through_)
+        angles_ = angles_in_lock(of_, quaternion_of(next.e), angles_);
+    else if (points.are_beside())
         for (const Vector4d& e : points.list()) angles_ = angles_on_side(of_, quaternion_of(e), angles_);
     else
         angles_ = angles_near(of_, quaternion_of(next.e), angles_);

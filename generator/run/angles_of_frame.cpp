@@ -196,4 +196,15 @@ Vector3d angles_on_side(const AnglesOfFrame& of, const Quaternion& e, const Vect
     return side >= 0 ? first : second;
 }
 
+Vector3d angles_in_lock(const AnglesOfFrame& of, const Quaternion& e, const Vector3d& near) {
+    const Vector3d first = Vector3d::Unit(of.axes[0]), second = Vector3d::Unit(of.axes[1]),
+                   third = Vector3d::Unit(of.axes[2]);
+    const Quaternion left = Quaternion(Eigen::AngleAxisd(-near[0], first)) * e.normalized();
+    const Vector3d turned = left * third;  // by the second angle alone
+    const double b = std::atan2(second.dot(third.cross(turned)), third.dot(turned));
+    const Vector3d last = Quaternion(Eigen::AngleAxisd(-b, second)) * left * second;
+    const double c = std::atan2(third.dot(second.cross(last)), second.dot(last));
+    return {near[0], turned_towards(b, near[1]), turned_towards(c, near[2])};
+}
+
 }  // namespace alembert

@@ -53,4 +53,8 @@ Eigen::Vector3d angles_near(const AnglesOfFrame& of, const Eigen::Quaterniond& e
 /// The nearest of those whose middle angle is on the same side of gimbal lock as that of `near`.
 Eigen::Vector3d angles_on_side(const AnglesOfFrame& of, const Eigen::Quaterniond& e, const Eigen::Vector3d& near);
 
+/// Those with the first angle of `near`, in the lock, where the first and the third have only one sum or
+/// difference.
+Eigen::Vector3d angles_in_lock(const AnglesOfFrame& of, const Eigen::Quaterniond& e, const Eigen::Vector3d& near);
+
 }  // namespace alembert

@@ -90,6 +90,8 @@ public:
 
 private:
     static constexpr double tolerance_of_time = 2.3e-16;
+    static constexpr double in_the_lock =
+        1e-9;  // where a turn of both angles against each other has no rate, it gets 0
 
     /// A motion that comes nearer to the lock than the error of its rotation cannot be told from one through it.
     static double through(double tolerance) { return std::clamp(10 * tolerance, 1e-6, to_quaternion / 2); }
@@ -150,7 +152,9 @@ private:
         }
         const Quaternion e = turn_of(z.data()), change = turn_of(z.data() + half);
         const Quaternion w = change * e.conjugate();
-        const Vector3d rate = TurnedFrame(angles_.axes, angle).rates.inverse() * (2 * w.vec());
+        Eigen::CompleteOrthogonalDecomposition<Matrix3d> rates;
+        rates.setThreshold(in_the_lock);
+        const Vector3d rate = rates.compute(TurnedFrame(angles_.axes, angle).rates).solve(2 * w.vec());
         for (int k = 0; k < 3; ++k) {
             y[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])] = angle[k];
             y[static_cast<std::size_t>(n_ + angles_.angles[static_cast<std::size_t>(k)])] = rate[k];

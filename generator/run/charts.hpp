@@ -4,7 +4,7 @@
 /// A run through gimbal lock: where three angles of a frame or joint fail to describe its turning, the run goes on
 /// with a quaternion in their place, and comes back.
 ///
-///     if (const auto angles = angles_of_frame(derived)) …       // nothing where no chart can replace them
+///     if (const auto angles = angles_of_frame(derived, method)) …  // nothing where no chart can replace them
 ///     ChartRun charts(derived, *angles, start, work, wishes);  // derives the other description
 ///     contact.by = charts.integrator();
 ///     charts.passes();                                          // where it went on with the quaternion

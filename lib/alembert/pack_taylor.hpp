@@ -10,8 +10,8 @@
 ///     step.attempt();
 ///     step.misfit[lane];                       // the last term; infinite if something is not finite
 ///     step.finish();                           // the series at the ends
-///     step.misfit[lane];                       // infinite where the rate at the end is not finite or not
-///     foreseen step.advance(accepted);                  // bit i: the end of lane i becomes its start
+///     step.misfit[lane];                       // infinite where the rate at the end is not the foreseen one
+///     step.advance(accepted);                  // bit i: the end of lane i becomes its start
 ///     step.next_length(lane);                  // by the series there
 ///
 /// The step of no length with which a lane begins computes the series at its start together with those of the
@@ -50,7 +50,7 @@ public:
     /// The state at h after the start of the lane's last accepted step.
     void within(int lane, double h, std::vector<double>& state) const;
 
-    Lanes time, end, misfit;
+    Lanes time{}, end{}, misfit{};
 
 private:
     struct Kernel {

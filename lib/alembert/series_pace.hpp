@@ -12,7 +12,7 @@
 /// the mean of effort/length, weighted with the steps of the run; it must be two thirds of that of the run over
 /// the same time (pace.hpp), or less. A look takes no more than a twentieth of what the run has taken until then,
 /// and after one that finds nothing the run takes four times as much before the next, so that looks cost a small
-/// part of any run. Throws nothing.
+/// part of any run. Throws what the making of the series throws.
 
 #include <functional>
 #include <optional>

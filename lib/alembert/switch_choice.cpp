@@ -268,6 +268,13 @@ std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, con
                                      double t, const std::vector<double>& state, const std::vector<int>& resting) {
     const SideJudge judge(system, t, state);
     for (const int k : resting) sides[k] = 0;
+    // In a plane what can stick sticks, and no direction of sliding has to be looked for.
+    if (std::all_of(open.begin(), open.end(), [&](int k) { return sides.is_pair(k); })) {
+        SideSet still = sides;
+        for (const int k : open) set_side(still, k, 0);
+        const SideChoice all_stick = judge.judged(still, open, resting);
+        if (all_stick.margin > sticks_surely) return {all_stick};
+    }
     std::vector<SideChoice> found;
     std::size_t count = 1;
     for (const int k : open) count *= sides.is_pair(k) ? 2 : 3;

@@ -19,7 +19,7 @@ namespace alembert {
 
 namespace {
 
-constexpr int most_undecided = 6;  // the most signs that may be undecided together, for which 3⁶ choices are tried
+constexpr int most_undecided = 6;  // the most signs that may be undecided together: at most 3⁶ choices are tried
 constexpr double most_gathered = 1e3;  // times the error of a step, which a motion has gathered at most
 constexpr int most_in_one_place = 50;  // the most changes without an advance of time
 // Margin within which a choice still counts as consistent, relative to the rates of g on both sides.
@@ -123,6 +123,7 @@ private:
         here.grid = options_.grid.value_or(options_.start);
         here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         here.rhs_when_stiff = {};
+        here.when_cheaper = {};  // the series of a piece is another one
         if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
         const auto has_grain = [](const SideSet::Slide& slide) { return slide.grain > 0; };
         if (std::any_of(sides_.slides.begin(), sides_.slides.end(), has_grain))

@@ -58,7 +58,7 @@ struct LastZero {
     bool counts = false;  ///< whether that is the event's direction
 };
 
-/// The change from an explicit method to one for stiff systems, or back.
+/// The change from one method to another, or back.
 struct Switch {
     enum class Why {
         stiff,   ///< stability limits the steps
