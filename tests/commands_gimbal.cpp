@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <utility>
 
 #include "edits.hpp"
 #include "files.hpp"
@@ -146,29 +148,30 @@ inertia = [1, 2, 2.5]
     };
     const Json in_angles = end("radau", "1e-13");
     CHECK_FALSE(in_angles.contains("charts"));
-    for (const char* tolerance : {"1e-4", "1e-7", "1e-10", "1e-13"})
-        for (const char* method : {"verner98", "taylor"}) {
-            CAPTURE(tolerance);
-            CAPTURE(method);
-            const Json run = end(method, tolerance);
-            CHECK(run["charts"].size() == 6);
-            for (const char* name : {"psi", "theta", "phi"})
-                CHECK(std::abs(run["final"]["coordinates"][name].get<double>() -
-                               in_angles["final"]["coordinates"][name].get<double>()) <
-                      100 * std::stod(tolerance) + 1e-9);
-            CHECK(run["error_estimate"]["value"].get<double>() < 1000 * std::stod(tolerance) + 1e-9);
-        }
+    for (const auto& [tolerance, method] :
+         {std::pair("1e-4", "verner98"), {"1e-7", "taylor"}, {"1e-13", "verner98"}}) {
+        CAPTURE(tolerance);
+        CAPTURE(method);
+        const Json run = end(method, tolerance);
+        CHECK(run["charts"].size() == 6);
+        for (const char* name : {"psi", "theta", "phi"})
+            CHECK(std::abs(run["final"]["coordinates"][name].get<double>() -
+                           in_angles["final"]["coordinates"][name].get<double>()) <
+                  100 * std::stod(tolerance) + 1e-9);
+        CHECK(run["error_estimate"]["value"].get<double>() < 1000 * std::stod(tolerance) + 1e-9);
+    }
 }
 
 TEST_CASE("gimbal lock: a motion through it goes on in the same way wherever rows and steps are") {
     // The body turns uniformly about an axis with theta alone; at t = 0.5 and 0.5037 it is in the lock.
-    for (const char* theta : {"0.5", "0.5037"})
-        for (const char* tolerance : {"1e-6", "1e-9", "1e-12"})
-            for (const char* sample : {"0.1", "0.007"}) {
-                CAPTURE(theta);
-                CAPTURE(tolerance);
-                CAPTURE(sample);
-                const std::string scene = temporary("through_lock.toml", fmt::format(R"toml(
+    for (const auto& [theta, tolerance, sample] : {std::tuple("0.5", "1e-6", "0.1"),
+                                                   {"0.5", "1e-9", "0.1"},
+                                                   {"0.5", "1e-12", "0.1"},
+                                                   {"0.5037", "1e-9", "0.007"}}) {
+        CAPTURE(theta);
+        CAPTURE(tolerance);
+        CAPTURE(sample);
+        const std::string scene = temporary("through_lock.toml", fmt::format(R"toml(
 [coordinates]
 psi = {{ initial = 0.3, rate = 0 }}
 theta = {{ initial = {}, rate = -1 }}
@@ -183,15 +186,15 @@ frame = "F"
 position = [0, 0, 0]
 inertia = [1, 1, 1e-13]
 )toml",
-                                                                                     theta));
-                const std::string table = temporary("rows.csv", "");
-                const Json motion = json_of({"simulate", scene, "--duration", "1", "--tolerance", tolerance,
-                                             "--sample", sample, "-o", table});
-                const Json& q = motion["final"]["coordinates"];
-                CHECK(std::abs(q["psi"].get<double>() - 0.3) < 1e-5);
-                CHECK(std::abs(q["theta"].get<double>() - (std::stod(theta) - 1)) < 1e-5);
-                CHECK(std::abs(q["phi"].get<double>() - 5) < 1e-5);
-            }
+                                                                             theta));
+        const std::string table = temporary("rows.csv", "");
+        const Json motion = json_of({"simulate", scene, "--no-estimate", "--duration", "1", "--tolerance",
+                                     tolerance, "--sample", sample, "-o", table});
+        const Json& q = motion["final"]["coordinates"];
+        CHECK(std::abs(q["psi"].get<double>() - 0.3) < 1e-5);
+        CHECK(std::abs(q["theta"].get<double>() - (std::stod(theta) - 1)) < 1e-5);
+        CHECK(std::abs(q["phi"].get<double>() - 5) < 1e-5);
+    }
 }
 
 TEST_CASE("gimbal lock: a gyroscope that constraints or a joint hold passes through it too") {

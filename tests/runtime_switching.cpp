@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "alembert/dense.hpp"
 #include "alembert/even_shares.hpp"
 
 namespace runtime_switching {
@@ -185,8 +186,8 @@ TEST_CASE("even shares: the largest share is the least that a search by golden s
         CHECK(largest(even) == doctest::Approx(found).epsilon(1e-7));
         CHECK(largest(even) <= found * (1 + 1e-12));
         // It is reached within what is free.
-        const Eigen::MatrixXd onto = free * (free.transpose() * free).inverse() * free.transpose();
-        CHECK((even - given - onto * (even - given)).norm() < 1e-9 * (1 + even.norm()));
+        const Eigen::VectorXd change = even - given;
+        CHECK((free * least_norm(free, change).x - change).norm() < 1e-9 * (1 + even.norm()));
     }
     CHECK(even_shares(Eigen::Vector2d(3, 4), Eigen::MatrixXd(2, 0), {{0, 2, 1.0}}) == Eigen::Vector2d(3, 4));
     // Two equal contacts share a load, whatever they had.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/dense.hpp"
 #include "alembert/project.hpp"
 #include "alembert/run.hpp"
 #include "language/say.hpp"
@@ -152,9 +153,7 @@ private:
         }
         const Quaternion e = turn_of(z.data()), change = turn_of(z.data() + half);
         const Quaternion w = change * e.conjugate();
-        Eigen::CompleteOrthogonalDecomposition<Matrix3d> rates;
-        rates.setThreshold(in_the_lock);
-        const Vector3d rate = rates.compute(TurnedFrame(angles_.axes, angle).rates).solve(2 * w.vec());
+        const Vector3d rate = Orthogonal(TurnedFrame(angles_.axes, angle).rates, in_the_lock).solve(2 * w.vec());
         for (int k = 0; k < 3; ++k) {
             y[static_cast<std::size_t>(angles_.angles[static_cast<std::size_t>(k)])] = angle[k];
             y[static_cast<std::size_t>(n_ + angles_.angles[static_cast<std::size_t>(k)])] = rate[k];

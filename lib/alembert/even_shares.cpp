@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/dense.hpp"
+
 namespace alembert {
 
 namespace {
@@ -60,7 +62,7 @@ VectorXd least_level(const std::vector<Part>& parts, Eigen::Index free) {
         VectorXd right(free + 1);
         right.head(free) = -slopes * (w + push);
         right[free] = w.sum() + push.sum() - 1;
-        const VectorXd step = H.fullPivLu().solve(right);
+        const VectorXd step = least_norm(H, right).x;
         const VectorXd of_s = uneven.array() + step[free] - (slopes.transpose() * step.head(free)).array();
         const VectorXd of_w = push - stiff.cwiseProduct(of_s - uneven);
         if (!step.allFinite()) break;
