@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "alembert/registers.hpp"
+
 namespace alembert::machine {
 
 /// The mandatory prefix (1: 66, 3: F2), the table of opcodes (1: 0F, 2: 0F38), the opcode, and the bit W.
@@ -18,22 +20,12 @@ constexpr unsigned no_register = 0;  ///< in the field of a register that an ins
 
 }  // namespace
 
-bool can_run([[maybe_unused]] int lanes) {
-#if defined(__x86_64__)
-    if (lanes > 1) return Encoder::registers_of_processor() == 32;
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#else
-    return false;
-#endif
+bool can_run(int lanes) {
+    return registers() == Registers::widest || (lanes == 1 && registers() == Registers::wide);
 }
 
 int Encoder::registers_of_processor() {
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512dq"))
-        return 32;
-#endif
-    return 16;
+    return alembert::registers() == Registers::widest ? 32 : 16;
 }
 
 void Encoder::four(std::uint32_t value) {

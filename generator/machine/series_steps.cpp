@@ -341,8 +341,7 @@ SeriesSteps series_steps(const Recurrences& recurrences, bool in_packs) {
 }
 
 SeriesCost cost_in_memory(const SeriesSteps& steps) {
-    std::vector<int> nodes;
-    for (const FunctionResult& result : steps.next.results) nodes.push_back(result.node);
+    const std::vector<int> nodes = nodes_of(steps.next);
     const int operations = steps.at_order.count(nodes).total() + static_cast<int>(nodes.size());
     return {.order = processor::order_in_memory + processor::operation_in_memory * operations,
             .product = processor::product_cost * steps.products};

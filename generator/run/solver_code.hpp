@@ -13,8 +13,7 @@
 /// compiled code after steps that are predicted to have taken ten times as long as compiling. The prediction is
 /// made from counts alone, so that the same run takes the same code, and gives the same digits, every time. Power
 /// series of a compiler take from 0.5 to 1.5 of the time of those in memory, and go over after three times as long
-/// as compiling. Momenta
-/// (`rattle`) and what runs after a motion was found stiff do not go over.
+/// as compiling. Momenta (`rattle`) and what runs after a motion was found stiff do not go over.
 
 #include "alembert/compile.hpp"
 #include "machine/memory_series.hpp"

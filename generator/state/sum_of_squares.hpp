@@ -9,11 +9,11 @@
 ///         // |AB| = a, |BC| = b, |AC| = a + b: x_A − ((a + b) x_B − a x_C)/b, and the same of y
 ///
 /// f_i must be polynomials of second degree in coordinates and in functions of these, or roots of such, as
-/// √(…) − a. The λ_i are guessed from
-/// numbers, as ±1/a of distances a or as rational numbers, and then proved exactly: the symmetric matrix of the
-/// combination, whose rows belong to the coordinates, the functions and 1, is eliminated in symbols, and no pivot
-/// is negative. What counts as zero is zero at the exact values of the parameters, and what is zero in numbers
-/// alone proves nothing. Neither do more than 128 coordinates and functions, or entries of more than 1000 nodes.
+/// √(…) − a. The λ_i are guessed from numbers, as ±1/a of distances a or as rational numbers, and then proved
+/// exactly: the symmetric matrix of the combination, whose rows belong to the coordinates, the functions and 1, is
+/// eliminated in symbols, and no pivot is negative. What counts as zero is zero at the exact values of the
+/// parameters, and what is zero in numbers alone proves nothing. Neither do more than 128 coordinates and
+/// functions, or entries of more than 1000 nodes.
 ///
 /// Source: D. Cox, J. Little & D. O'Shea, Using Algebraic Geometry (2005), §2.5 (real radicals); for distances the
 /// matrix is Connelly's stress matrix (touching.hpp).

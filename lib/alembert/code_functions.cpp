@@ -7,6 +7,8 @@
 #include <immintrin.h>
 #endif
 
+#include "alembert/registers.hpp"
+
 // Sines and cosines of four angles at once, as in templates/sines.cpp.mustache, which says more:
 //
 //   x = k π/2 + r, |r| ≤ π/4, with π/2 in three parts of 53 bits (Cody & Waite 1980, ch. 8);
@@ -15,8 +17,6 @@
 namespace alembert {
 
 #if defined(__x86_64__)
-#define ALEMBERT_WIDE __attribute__((target("avx2,fma")))
-
 namespace {
 
 ALEMBERT_WIDE inline __m256d all(double x) {
@@ -82,8 +82,6 @@ ALEMBERT_WIDE void sines_for_code(double* values, int count) {
         if (!are_near(x)) sines_far(angles, sines, cosines);
     }
 }
-
-#define ALEMBERT_WIDEST __attribute__((target("avx512f,avx512dq,avx512vl,fma")))
 
 namespace {
 

@@ -8,9 +8,9 @@
 ///
 /// A step is a class with the members of PackStep (pack_step.hpp). One that has `next_length(lane)` chooses the
 /// length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp). Each lane has the
-/// step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that
-/// is not finite, a step that underflows, the budget) is handed back with `again`: the member is then run by
-/// itself, and that run reports what went wrong.
+/// step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is not finite, a
+/// step that underflows, the budget) is handed back with `again`: the member is then run by itself, and that run
+/// reports what went wrong.
 
 #include <algorithm>
 #include <cmath>

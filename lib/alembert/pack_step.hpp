@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "alembert/packs.hpp"
+#include "alembert/registers.hpp"
 #include "alembert/tableau.hpp"
 
 namespace alembert {
@@ -50,9 +51,9 @@ public:
           par_(static_cast<std::size_t>(module.table().parameters + module.table().constants)),
           memory_(static_cast<std::size_t>(dimension) * (arrays + stages + 1)) {
 #if defined(__x86_64__)
-        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+        if (registers() == Registers::widest)
             kernel_ = {attempt_512, finish_512, advance_512};
-        else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        else if (registers() == Registers::wide)
             kernel_ = {attempt_256, finish_256, advance_256};
 #endif
     }
@@ -249,22 +250,22 @@ private:
         step.advance_here(accepted);
     }
 #if defined(__x86_64__)
-    [[gnu::target("avx2,fma")]] static void attempt_256(PackStep& step) {
+    ALEMBERT_WIDE static void attempt_256(PackStep& step) {
         step.attempt_here();
     }
-    [[gnu::target("avx2,fma")]] static void finish_256(PackStep& step) {
+    ALEMBERT_WIDE static void finish_256(PackStep& step) {
         step.finish_here();
     }
-    [[gnu::target("avx2,fma")]] static void advance_256(PackStep& step, unsigned accepted) {
+    ALEMBERT_WIDE static void advance_256(PackStep& step, unsigned accepted) {
         step.advance_here(accepted);
     }
-    [[gnu::target("avx512f,avx512dq,fma")]] static void attempt_512(PackStep& step) {
+    ALEMBERT_WIDEST static void attempt_512(PackStep& step) {
         step.attempt_here();
     }
-    [[gnu::target("avx512f,avx512dq,fma")]] static void finish_512(PackStep& step) {
+    ALEMBERT_WIDEST static void finish_512(PackStep& step) {
         step.finish_here();
     }
-    [[gnu::target("avx512f,avx512dq,fma")]] static void advance_512(PackStep& step, unsigned accepted) {
+    ALEMBERT_WIDEST static void advance_512(PackStep& step, unsigned accepted) {
         step.advance_here(accepted);
     }
 #endif

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "alembert/registers.hpp"
 #include "alembert/taylor.hpp"
 
 namespace alembert {
@@ -40,7 +41,8 @@ struct Sums {
 
 }  // namespace
 
-/// The arithmetic, compiled for each kind of processor.
+/// The arithmetic, compiled for the widest registers: without them there are no packs of series
+/// (memory_series_packs.hpp).
 struct PackTaylor::Work {
     [[gnu::always_inline]] static void attempt(PackTaylor& s) {
         const Wide h = wide(s.end) - wide(s.time), h2 = h * h, h4 = h2 * h2, none{};
@@ -133,41 +135,6 @@ struct PackTaylor::Work {
             wide(s.sizes_[k + 7 - s.order_]) = zero == 0 ? largest : none + HUGE_VAL;
         }
     }
-
-    static void attempt_any(PackTaylor& s) { attempt(s); }
-    static void look_any(PackTaylor& s) { look(s); }
-    static void advance_any(PackTaylor& s, unsigned accepted) { advance(s, accepted); }
-#if defined(__x86_64__)
-    [[gnu::target("avx2,fma")]] static void attempt_256(PackTaylor& s) {
-        attempt(s);
-    }
-    [[gnu::target("avx2,fma")]] static void look_256(PackTaylor& s) {
-        look(s);
-    }
-    [[gnu::target("avx2,fma")]] static void advance_256(PackTaylor& s, unsigned accepted) {
-        advance(s, accepted);
-    }
-    [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void attempt_512(PackTaylor& s) {
-        attempt(s);
-    }
-    [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void look_512(PackTaylor& s) {
-        look(s);
-    }
-    [[gnu::target("avx512f,avx512dq,avx512vl,fma")]] static void advance_512(PackTaylor& s, unsigned accepted) {
-        advance(s, accepted);
-    }
-#endif
-
-    static Kernel kernel() {
-#if defined(__x86_64__)
-        if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-            __builtin_cpu_supports("avx512vl"))
-            return {attempt_512, look_512, advance_512};
-        if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-            return {attempt_256, look_256, advance_256};
-#endif
-        return {attempt_any, look_any, advance_any};
-    }
 };
 
 PackTaylor::PackTaylor(const Module& module, const SeriesPacks& series, int dimension, int extra, double tolerance)
@@ -188,8 +155,7 @@ PackTaylor::PackTaylor(const Module& module, const SeriesPacks& series, int dime
       series_par_(place(series.parameters + series.constants)),
       coefficients_(place((order_ + 1) * dimension)),
       next_coefficients_(coefficients_.size()),
-      work_(series.workspace()),
-      kernel_(Work::kernel()) {}
+      work_(series.workspace()) {}
 
 void PackTaylor::put(int lane, double t, const double* state, const double*, const std::vector<double>& par) {
     time[lane] = end[lane] = t;
@@ -205,13 +171,17 @@ void PackTaylor::put(int lane, double t, const double* state, const double*, con
     new_ |= 1U << lane;
 }
 
-void PackTaylor::finish() {
-    expand(series_, end, next_.data(), series_par_.data(), order_, next_coefficients_.data(), work_.data());
-    kernel_.look(*this);
+ALEMBERT_WIDEST void PackTaylor::attempt() {
+    Work::attempt(*this);
 }
 
-void PackTaylor::advance(unsigned accepted) {
-    kernel_.advance(*this, accepted);
+ALEMBERT_WIDEST void PackTaylor::finish() {
+    expand(series_, end, next_.data(), series_par_.data(), order_, next_coefficients_.data(), work_.data());
+    Work::look(*this);
+}
+
+ALEMBERT_WIDEST void PackTaylor::advance(unsigned accepted) {
+    Work::advance(*this, accepted);
     std::swap(coefficients_, next_coefficients_);
     new_ &= ~accepted;
 }

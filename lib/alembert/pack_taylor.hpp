@@ -34,7 +34,7 @@ public:
     void put(int lane, double t, const double* state, const double* rate, const std::vector<double>& par);
     bool is_new(int lane) const { return (new_ >> lane & 1U) != 0; }
 
-    void attempt() { kernel_.attempt(*this); }
+    void attempt();
     void finish();
     void advance(unsigned accepted);
 
@@ -53,11 +53,6 @@ public:
     Lanes time{}, end{}, misfit{};
 
 private:
-    struct Kernel {
-        void (*attempt)(PackTaylor&);
-        void (*look)(PackTaylor&);
-        void (*advance)(PackTaylor&, unsigned accepted);
-    };
     struct Work;
 
     static std::size_t place(int i) { return static_cast<std::size_t>(i); }
@@ -71,7 +66,6 @@ private:
         work_;
     Lanes sizes_[8];  ///< of the last terms, the last one last
     unsigned new_ = 0, unforeseen_ = 0;
-    Kernel kernel_;
 };
 
 }  // namespace alembert

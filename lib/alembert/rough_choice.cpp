@@ -272,7 +272,8 @@ RoughChoices every_rough_choice(const MatrixXd& M, const VectorXd& momentum, con
             clear.push_back(found.clear);
         }
     }
-    // Beside a choice that is clear, one that rounding may have made consistent is none.
+    // Beside a choice that is clear, one that rounding may have made consistent is none. Where none is clear, the
+    // state is at the limit between choices within its rounding, and each of them is a right one.
     if (all.different.size() > 1 && std::count(clear.begin(), clear.end(), true) < 2) {
         const auto first = std::find(clear.begin(), clear.end(), true);
         all.different = {

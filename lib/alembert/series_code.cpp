@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "alembert/registers.hpp"
+
 namespace alembert {
 
 namespace {
@@ -77,23 +79,16 @@ struct Expansion {
     }
 };
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) void expand_wide(const Expansion& one) {
+ALEMBERT_WIDE void expand_wide(const Expansion& one) {
     one.all();
 }
-__attribute__((target("avx512f,avx512dq,avx512vl,fma"))) void expand_widest(const Expansion& one) {
+ALEMBERT_WIDEST void expand_widest(const Expansion& one) {
     one.all();
 }
 void expand(const Expansion& one) {
-    static const bool has_widest = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                                   __builtin_cpu_supports("avx512vl");
+    static const bool has_widest = registers() == Registers::widest;
     (has_widest ? expand_widest : expand_wide)(one);
 }
-#else
-void expand(const Expansion& one) {
-    one.all();
-}
-#endif
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "alembert/registers.hpp"
+
 namespace alembert {
 
 namespace {
@@ -102,27 +104,9 @@ struct Expansion {
     }
 };
 
-#if defined(__x86_64__)
-__attribute__((target("avx2,fma"))) void run_wide(const Expansion& one) {
+/// There are packs of series only where there are the widest registers (memory_series_packs.hpp).
+ALEMBERT_WIDEST void run(const Expansion& one) {
     one.all();
-}
-__attribute__((target("avx512f,avx512dq,avx512vl,fma"))) void run_widest(const Expansion& one) {
-    one.all();
-}
-#endif
-void run_usual(const Expansion& one) {
-    one.all();
-}
-
-using Running = void (*)(const Expansion&);
-Running chosen() {
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl"))
-        return run_widest;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return run_wide;
-#endif
-    return run_usual;
 }
 
 std::size_t count(int number) {
@@ -137,7 +121,6 @@ std::size_t SeriesPacks::workspace() const {
 
 void expand(const SeriesPacks& packs, const Lanes& t, const Lanes* state, const Lanes* par, int order, Lanes* out,
             Lanes* work) {
-    static const Running run = chosen();
     const GivenPlaces& at = packs.places;
     Lanes *const even = work + packs.fixed, *const odd = even + at.size(), *const rows = odd + at.size();
     packs.first(reals(&t), reals(state), reals(par), reals(work), reals(odd));

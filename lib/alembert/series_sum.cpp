@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "alembert/registers.hpp"
+
 namespace alembert {
 
 namespace {
@@ -52,25 +54,28 @@ template <bool with_slopes>
 }
 
 #if defined(__x86_64__)
-#define ALEMBERT_FOR_EACH(NAME, TARGET)                                                                          \
-    __attribute__((target(TARGET))) void NAME(const double* rows, int order, int size, double h, double* change, \
-                                              double* slopes) {                                                  \
-        if (slopes != nullptr)                                                                                   \
-            sum<true>(rows, order, size, h, change, slopes);                                                     \
-        else                                                                                                     \
-            sum<false>(rows, order, size, h, change, slopes);                                                    \
+#define ALEMBERT_FOR_EACH(NAME, TARGET)                                                                   \
+    TARGET void NAME(const double* rows, int order, int size, double h, double* change, double* slopes) { \
+        if (slopes != nullptr)                                                                            \
+            sum<true>(rows, order, size, h, change, slopes);                                              \
+        else                                                                                              \
+            sum<false>(rows, order, size, h, change, slopes);                                             \
     }
-ALEMBERT_FOR_EACH(sum_widest, "avx512f,avx512dq,avx512vl,fma")
-ALEMBERT_FOR_EACH(sum_wide, "avx2,fma")
-ALEMBERT_FOR_EACH(sum_usual, "sse2")
+ALEMBERT_FOR_EACH(sum_widest, ALEMBERT_WIDEST)
+ALEMBERT_FOR_EACH(sum_wide, ALEMBERT_WIDE)
+ALEMBERT_FOR_EACH(sum_usual, )
 #undef ALEMBERT_FOR_EACH
 
 using Sum = void (*)(const double*, int, int, double, double*, double*);
 Sum chosen() {
-    const auto has_wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    const auto has_widest = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                            __builtin_cpu_supports("avx512vl");
-    return has_widest ? sum_widest : has_wide ? sum_wide : sum_usual;
+    switch (registers()) {
+        case Registers::widest:
+            return sum_widest;
+        case Registers::wide:
+            return sum_wide;
+        default:
+            return sum_usual;
+    }
 }
 #endif
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The registers of this processor that our code uses, and what g++ and clang need to compile for them.
+///
+///     ALEMBERT_WIDE void sum_4(…);
+///     ALEMBERT_WIDEST void sum_8(…);
+///     const auto sum = registers() == Registers::widest ? sum_8 : registers() == Registers::wide ? sum_4 :
+///     sum_any;
+
+namespace alembert {
+
+#if defined(__x86_64__)
+#define ALEMBERT_WIDE __attribute__((target("avx2,fma")))
+#define ALEMBERT_WIDEST __attribute__((target("avx512f,avx512dq,avx512vl,fma")))
+#else
+#define ALEMBERT_WIDE
+#define ALEMBERT_WIDEST
+#endif
+
+enum class Registers {
+    usual,
+    wide,   ///< 16 registers of four numbers, with products that are added at once (AVX2, FMA)
+    widest  ///< 32 registers of eight numbers (AVX-512 with its parts F, DQ and VL)
+};
+
+inline Registers registers() {
+#if defined(__x86_64__)
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return Registers::usual;
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                   __builtin_cpu_supports("avx512vl")
+               ? Registers::widest
+               : Registers::wide;
+#else
+    return Registers::usual;
+#endif
+}
+
+}  // namespace alembert
