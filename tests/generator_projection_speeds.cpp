@@ -217,7 +217,8 @@ TEST_CASE("projection: in speeds constraints hold to rounding along long runs, a
             if (method == Method::abm) options.step = 1e-3;
             projection.forget();
             const Trajectory motion =
-                integrate(projection.guarded(make_rhs(here.module, here.start.parameters)), here.state, options);
+                integrate(projection.guarded(make_rhs(here.module, here.start.parameters), here.start.parameters),
+                          here.state, options);
             REQUIRE_FALSE(motion.failure);
             CHECK(worst < 1e-13);
             if (conserved) CHECK(drift < 1e-6);
@@ -238,7 +239,8 @@ TEST_CASE("projection: in speeds four-bars pass their flat poses on their branch
                        std::span<const double>) { near_singular += projection.is_near_singular() ? 1 : 0; },
         .project = projection.after_steps()};
     const Trajectory motion =
-        integrate(projection.guarded(make_rhs(here.module, here.start.parameters)), here.state, options);
+        integrate(projection.guarded(make_rhs(here.module, here.start.parameters), here.start.parameters),
+                  here.state, options);
     REQUIRE_FALSE(motion.failure);
     CHECK(near_singular > 0);
     const auto end = motion.final_state();

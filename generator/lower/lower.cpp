@@ -342,6 +342,9 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
             program.roots.push_back(
                 {Group::across, f.name, lowering(*f.across), static_cast<int>(&f - m.frictions.data())});
     }
+    for (const NormalForces::Column& column : normal_forces.columns())
+        for (const int node : column.nodes)
+            program.roots.push_back({Group::friction_column, "friction", node, kept[column.row]});
     return program.canonical();
 }
 

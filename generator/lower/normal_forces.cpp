@@ -131,7 +131,14 @@ std::optional<std::vector<int>> NormalForces::solve(Lowering& lowering, Program&
     const auto found = solve_for_sides(program, matrix, sides, e_.size());
     if (!found) return std::nullopt;
     std::vector<int> x = (*found)[0];
-    const std::vector<int> normal = forces(program, *found);
+    std::vector<int> signs;
+    const std::vector<int> normal = forces(program, *found, signs);
+    columns_.clear();
+    for (std::size_t k = 0; k < pressed_.size(); ++k) {
+        columns_.push_back({.row = pressed_[k].row, .nodes = {}});
+        for (std::size_t i = 0; i < static_cast<std::size_t>(e_.size()); ++i)
+            columns_.back().nodes.push_back(program.product(1, {{signs[k], 1}, {sides[k + 1][i], 1}}));
+    }
     for (std::size_t i = 0; i < x.size(); ++i) {
         std::vector<Program::Term> terms{{1, x[i]}};
         for (std::size_t k = 0; k < normal.size(); ++k)
@@ -143,12 +150,13 @@ std::optional<std::vector<int>> NormalForces::solve(Lowering& lowering, Program&
     return x;
 }
 
-/// N for the solutions x and y_k. The signs of reactions that may pull are those for N = 0; where there are
-/// several, they are chosen again with the N that follow from them, which is Newton's method for N = |λ(x) + D N|
-/// (Mangasarian, Optim. Lett. 3 (2009) 101). It ends when no sign changes. Of 24,700 random systems of two and
-/// three reactions with D up to 2 all had ended after as many rounds; of four and five one in 23,700 had not,
-/// which is why they are refused.
-std::vector<int> NormalForces::forces(Program& program, const std::vector<std::vector<int>>& found) const {
+/// N for the solutions x and y_k, and the signs s_k. The signs of reactions that may pull are those for N = 0;
+/// where there are several, they are chosen again with the N that follow from them, which is Newton's method for N
+/// = |λ(x) + D N| (Mangasarian, Optim. Lett. 3 (2009) 101). It ends when no sign changes. Of 24,700 random systems
+/// of two and three reactions with D up to 2 all had ended after as many rounds; of four and five one in 23,700
+/// had not, which is why they are refused.
+std::vector<int> NormalForces::forces(Program& program, const std::vector<std::vector<int>>& found,
+                                      std::vector<int>& signs) const {
     const auto n = static_cast<std::size_t>(e_.size());
     const std::size_t count = pressed_.size();
     std::vector<int> alone, lambda;
@@ -165,11 +173,13 @@ std::vector<int> NormalForces::forces(Program& program, const std::vector<std::v
     for (std::size_t round = 0;; ++round) {
         std::vector<std::vector<int>> a(count);
         std::vector<int> b;
+        signs.clear();
         for (std::size_t k = 0; k < count; ++k) {
             const int s =
                 pressed_[k].may_pull
                     ? sign_of_reaction(program, lambda[k], pressed_[k].frictions[0]->name, round + 1 < rounds)
                     : program.number(1);
+            signs.push_back(s);
             b.push_back(program.product(1, {{s, 1}, {alone[k], 1}}));
             for (std::size_t j = 0; j < count; ++j)
                 a[k].push_back(program.sum(j == k ? 1 : 0, {{-1, program.product(1, {{s, 1}, {D[k][j], 1}})}}));

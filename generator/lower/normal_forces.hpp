@@ -32,6 +32,13 @@ public:
     /// After `solve`: the divisor of this friction's N; 1 if N does not depend on friction.
     int determinant(Program& program, const Mechanism::Friction& f) const;
 
+    /// After `solve`: the friction on each multiplier that has some, s_k c_k.
+    struct Column {
+        std::size_t row;  ///< the row in A
+        std::vector<int> nodes;
+    };
+    const std::vector<Column>& columns() const { return columns_; }
+
 private:
     struct Pressed {
         std::size_t row;  ///< the row in A
@@ -40,12 +47,14 @@ private:
         std::vector<const Mechanism::Friction*> frictions = {};
     };
 
-    std::vector<int> forces(Program& program, const std::vector<std::vector<int>>& found) const;
+    std::vector<int> forces(Program& program, const std::vector<std::vector<int>>& found,
+                            std::vector<int>& signs) const;
 
     const Equations& e_;
     std::vector<Pressed> pressed_;
     std::vector<GiNaC::symbol> multipliers_;
     mutable int determinant_ = -1;
+    mutable std::vector<Column> columns_;
 };
 
 }  // namespace alembert

@@ -128,6 +128,8 @@ enum class Group : unsigned char {
     friction,           ///< its coefficient while it slides,
     normal,             ///< its normal force,
     determinant,        ///< and the divisor of that force if it is a multiplier, else 1 (lower/normal_forces.hpp)
+    friction_column,    ///< ∂f/∂λ of friction whose normal force is a multiplier λ, a number for each speed;
+                        ///< Root::constraint tells which λ
     slip_acceleration,  ///< the rate of the sliding velocity at q'' = 0
     grip,               ///< the restitution of the sliding velocity
     across,             ///< the second component of a sliding velocity in a plane whose direction follows from

@@ -47,7 +47,7 @@ public:
         projection_.emplace(module, parameters);
         rhs_ = make_rhs(module, parameters, work);
         if (work == Work::integrated) rhs_.extra = 0;
-        rhs_ = projection_->guarded(std::move(rhs_));
+        rhs_ = projection_->guarded(std::move(rhs_), parameters);
         for (int i = 0; i < n_; ++i)
             if (std::find(angles.angles.begin(), angles.angles.end(), i) == angles.angles.end())
                 others_.push_back(i);

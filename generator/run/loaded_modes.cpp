@@ -97,7 +97,7 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
             mode.when_stiff->extra = mode.contact.rhs.extra;
             mode.when_stiff->effort = mode.contact.rhs.effort;
             if (!mode.derived.mechanism.constraints.empty())
-                mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff));
+                mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff), start_.parameters);
         }
     }
     return *mode.when_stiff;
@@ -155,15 +155,19 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     const Switched& jumps = *mode.compiled.jumps;
     const Work work = compiled_.work();
     const bool with_series = needs_series(compiled_.method().method);
-    Switching system = switching_of(
-        mode.module, start_.parameters, jumps, mode.compiled.sides, work,
-        [self, work, with_series](const std::vector<double>& values) {
-            Rhs rhs = make_rhs(self->module, values, work);
-            rhs.extra = self->contact.rhs.extra;
-            rhs.effort = self->contact.rhs.effort;
-            if (with_series) rhs.series = make_series(self->compiled.series.module, values);
-            return self->derived.mechanism.constraints.empty() ? rhs : self->projection.guarded(std::move(rhs));
-        });
+    Switching system = switching_of(mode.module, start_.parameters, jumps, mode.compiled.sides, work,
+                                    mode.derived.mechanism.constraints.empty() ? nullptr : &mode.projection,
+                                    [self, work, with_series](const std::vector<double>& values) {
+                                        Rhs rhs = make_rhs(self->module, values, work);
+                                        rhs.extra = self->contact.rhs.extra;
+                                        rhs.effort = self->contact.rhs.effort;
+                                        if (with_series)
+                                            rhs.series = make_series(self->compiled.series.module, values);
+                                        if (self->derived.mechanism.constraints.empty()) return rhs;
+                                        return self->projection.guarded(
+                                            std::move(rhs), values,
+                                            friction_of_multipliers(self->compiled.jumps->program, values));
+                                    });
     mode.side_sizes.assign(system.names.size(), 0);
     system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };
     system.on_change = [this, self](const SideChange& change) {
@@ -243,7 +247,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     if (jumps) hold_signs(*self, events);
     if (constrained) {
         mode->contact.project = self->projection.after_steps();
-        if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
+        if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs), values);
     }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
         count_step(*self);

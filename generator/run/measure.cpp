@@ -40,7 +40,7 @@ Workbench::Workbench(Parts parts)
     rhs_.canonical = with_work_.canonical = parts_.canonical;
     const Mechanism& m = parts_.derived.mechanism;
     if (!m.constraints.empty())
-        rhs_ = projection_.guarded(std::move(rhs_)), with_work_ = projection_.guarded(std::move(with_work_));
+        for (Rhs* const rhs : {&rhs_, &with_work_}) *rhs = projection_.guarded(std::move(*rhs), parts_.parameters);
     if (!m.constraints.empty()) return;  // the forces of constraints change the momenta
     const std::vector<int> cyclic = cyclic_coordinates(m);
     if (cyclic.empty()) return;

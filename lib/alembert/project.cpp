@@ -16,12 +16,15 @@ constexpr double one_rounding = 0x1p-53;  // rounding of a number of size 1
 constexpr double singular_pivot = 1e-5;
 constexpr double held = 5e-5;
 
-struct Guard {
+}  // namespace
+
+/// What a guarded right-hand side needs.
+struct Projection::Guard {
     Rhs rhs;
     Projection* projection;
+    std::vector<double> par;
+    ForcesOfMultipliers others;
 };
-
-}  // namespace
 
 Projection::Projection(const Module& module, const std::vector<double>& values)
     : module_(module),
@@ -40,9 +43,9 @@ Projection::Projection(const Module& module, const std::vector<double>& values)
       pivots_(misfit_.size()),
       largest_pivots_(misfit_.size()) {}
 
-void Projection::evaluate(double t, const double* state) {
-    module_.table().constraints_at(t, state, par_.data(), position_.data(), velocity_.data(), rows_.data());
-    module_.table().mass_forcing(t, state, par_.data(), mass_.data(), forcing_.data());
+void Projection::evaluate(double t, const double* state, const double* par) {
+    module_.table().constraints_at(t, state, par, position_.data(), velocity_.data(), rows_.data());
+    module_.table().mass_forcing(t, state, par, mass_.data(), forcing_.data());
 }
 
 void Projection::forget() {
@@ -179,16 +182,44 @@ double Projection::residual(double t, const double* state) {
     return m_ == 0 ? 0 : std::max(position_.lpNorm<Eigen::Infinity>(), velocity_.lpNorm<Eigen::Infinity>());
 }
 
-/// u' = L⁻ᵀ (L⁻¹ f + x), x of least norm with (A L⁻ᵀ) x = γ − A M⁻¹ f
-bool Projection::accelerations(double t, const double* state, double* acceleration) {
-    evaluate(t, state);
-    module_.projection()->gamma_at(t, state, par_.data(), gamma_.data());
+/// λ of (B Bᵀ + B L⁻¹C + τ²) λ = r near a singular pose, with Bᵀ in `across` and L⁻¹C in `others`, scaled as in
+/// `least`.
+Eigen::VectorXd Projection::multipliers(Eigen::MatrixXd across, Eigen::MatrixXd others, Eigen::VectorXd r) const {
+    Eigen::VectorXd scale = Eigen::VectorXd::Ones(m_);
+    for (Eigen::Index k = 0; k < m_; ++k)
+        if (const double length = std::sqrt(largest_pivots_[static_cast<std::size_t>(k)]); length > 0)
+            scale[k] = 1 / length;
+    across *= scale.asDiagonal();
+    others *= scale.asDiagonal();
+    const Eigen::MatrixXd G = across.transpose() * (across + others);
+    Eigen::MatrixXd regular = G;
+    regular.diagonal().array() += held * held;
+    const Orthogonal factors(regular, one_rounding);
+    const Eigen::VectorXd scaled = scale.cwiseProduct(r), first = factors.solve(scaled);
+    // The correction leaves τ⁴ of λ in directions that are held well, which friction there would show.
+    return scale.cwiseProduct(first + factors.solve(scaled - G * first));
+}
+
+/// u' = L⁻ᵀ (L⁻¹ f + x), x of least norm with (A L⁻ᵀ) x = γ − A M⁻¹ f, or x = (Bᵀ + L⁻¹C) λ
+bool Projection::accelerations(double t, const double* state, const double* par, const ForcesOfMultipliers& others,
+                               double* acceleration) {
+    if (!is_near_singular_ || module_.projection() == nullptr || module_.projection()->gamma_at == nullptr)
+        return false;
+    evaluate(t, state, par);
+    module_.projection()->gamma_at(t, state, par, gamma_.data());
     const Cholesky factors(mass_);
     if (!factors.exists()) return false;
     const Eigen::MatrixXd across = factors.solve_lower(Rows(in_speeds()).transpose());
     const Eigen::VectorXd free = factors.solve_lower(forcing_);
-    const Eigen::VectorXd found =
-        factors.solve_upper(free + least(across.transpose(), gamma_ - across.transpose() * free));
+    const Eigen::VectorXd lacking = gamma_ - across.transpose() * free;
+    Eigen::VectorXd along;
+    if (others) {
+        const Eigen::MatrixXd rubbing = factors.solve_lower(others(t, state));
+        along = (across + rubbing) * multipliers(across, rubbing, lacking);
+    } else {
+        along = least(across.transpose(), lacking);
+    }
+    const Eigen::VectorXd found = factors.solve_upper(free + along);
     std::copy_n(found.data(), s_, acceleration);
     return true;
 }
@@ -197,17 +228,18 @@ void Projection::careful(const void* context, double t, const double* state, dou
     const Guard& guard = *static_cast<const Guard*>(context);
     Projection& self = *guard.projection;
     guard.rhs(t, state, rate);
-    if (!self.is_near_singular_ || !self.accelerations(t, state, rate + self.n_)) return;
+    if (!self.accelerations(t, state, guard.par.data(), guard.others, rate + self.n_)) return;
     if (guard.rhs.dimension == self.n_ + self.s_) return;
     double energy[4], jacobi = 0;
-    self.module_.table().energy(t, state, rate, self.par_.data(), energy, &jacobi);
+    self.module_.table().energy(t, state, rate, guard.par.data(), energy, &jacobi);
     rate[self.n_ + self.s_] = energy[3];
 }
 
-Rhs Projection::guarded(Rhs rhs) {
+Rhs Projection::guarded(Rhs rhs, const std::vector<double>& values, ForcesOfMultipliers others) {
     if (module_.projection() == nullptr || module_.projection()->gamma_at == nullptr) return rhs;
     Rhs result = rhs;
-    result.context = std::make_shared<const Guard>(Guard{std::move(rhs), this});
+    result.context = std::make_shared<const Guard>(Guard{
+        .rhs = std::move(rhs), .projection = this, .par = prepared(module_, values), .others = std::move(others)});
     result.call = careful;
     result.energies = nullptr;
     if (result.jacobian != nullptr)

@@ -6,7 +6,7 @@
 ///
 ///     Projection project(module, values);
 ///     project(t, state);                     // state: q, u, and quadratures, which stay as they are
-///     const Rhs rhs = project.guarded(make_rhs(module, values));
+///     const Rhs rhs = project.guarded(make_rhs(module, values), values);
 ///
 /// Positions: δq = −M⁻¹Aᵀ (A M⁻¹Aᵀ)⁺ f, repeated until f stops shrinking; then rates: δq' follows from A q' + b in
 /// the same way (Hairer & Wanner, Solving ODEs II, §VII.2). The mass-weighted norm leaves the motion along the
@@ -35,6 +35,10 @@
 
 namespace alembert {
 
+/// C in M u' = f + Aᵀλ + C λ at a state: the forces that multipliers make besides those of the constraints, as dry
+/// friction does. A row for each speed, a column for each constraint.
+using ForcesOfMultipliers = std::function<Eigen::MatrixXd(double t, const double* state)>;
+
 class Projection {
 public:
     explicit Projection(const Module& module, const std::vector<double>& values = {});
@@ -51,9 +55,14 @@ public:
     /// The largest |f| and |A q' + b| at a state.
     double residual(double t, const double* state);
 
-    /// The emitted right-hand side `rhs`; from states that were projected near a singular pose it takes the
-    /// regularized solution above. This object must outlive it and must not be moved.
-    Rhs guarded(Rhs rhs);
+    /// The emitted right-hand side `rhs`, which has the parameters `values`; from states that were projected near
+    /// a singular pose it takes the regularized solution above, with (B Bᵀ + B L⁻¹C + τ²) λ = r where multipliers
+    /// make other forces. This object must outlive it and must not be moved.
+    Rhs guarded(Rhs rhs, const std::vector<double>& values, ForcesOfMultipliers others = {});
+    /// Writes this solution for u' if the state that was projected last is near a singular pose; false if it is
+    /// not, or M is not positive definite. par: as the file's functions take it.
+    bool accelerations(double t, const double* state, const double* par, const ForcesOfMultipliers& others,
+                       double* acceleration);
     bool is_near_singular() const { return is_near_singular_; }
 
 private:
@@ -63,12 +72,14 @@ private:
     bool own_speeds() const { return module_.table().speed_names != nullptr; }
     Eigen::Map<const Rows> in_rates() const { return {rows_.data(), m_, n_}; }
     Eigen::Map<const Rows> in_speeds() const { return {rows_.data() + (own_speeds() ? m_ * n_ : 0), m_, s_}; }
-    void evaluate(double t, const double* state);
+    void evaluate(double t, const double* state) { evaluate(t, state, par_.data()); }
+    void evaluate(double t, const double* state, const double* par);
     bool pivots_are_small();
     Eigen::VectorXd least(Eigen::MatrixXd B, Eigen::VectorXd r) const;
+    Eigen::VectorXd multipliers(Eigen::MatrixXd across, Eigen::MatrixXd others, Eigen::VectorXd r) const;
     Eigen::VectorXd along_speeds(const Eigen::VectorXd& misfit) const;
     Eigen::VectorXd in_positions(double t, const double* state) const;
-    bool accelerations(double t, const double* state, double* acceleration);
+    struct Guard;
     static void careful(const void* context, double t, const double* state, double* rate);
 
     Module module_;
