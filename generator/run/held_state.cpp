@@ -15,6 +15,7 @@ namespace alembert {
 namespace {
 
 constexpr double on_zero = 1e-12;  // a sliding velocity below this, relative to the rates, is zero
+constexpr double jammed = 1e-3;    // a determinant of the normal forces below this, of 1 without friction
 
 /// The program in the form that the runtime needs, evaluated by interpretation; y is q, followed by the rates or
 /// speeds.
@@ -94,6 +95,20 @@ HeldState held_state(const Switched& s, State<double> state) {
                                         sticks ? 0 : s.frictions[k][i].direction * (sign > 0 ? 1 : -1));
         }
     return held;
+}
+
+std::optional<std::string> jamming_friction(const Switched& s, const State<double>& state) try {
+    const HeldState held = held_state(s, state);
+    const std::vector<double> value = interpret(held.program, held.state);
+    for (const Root& root : held.program.roots)
+        if (root.group == Group::determinant && value[static_cast<std::size_t>(root.node)] < jammed)
+            return say(
+                "friction '{}' jams: it makes its normal force {:.3g} times as large as it would be without "
+                "friction, and larger beyond all bounds (Painlevé); a smaller coefficient has a motion there",
+                root.name, 1 / value[static_cast<std::size_t>(root.node)]);
+    return std::nullopt;
+} catch (const IntegrationError&) {  // no mode is consistent there
+    return std::nullopt;
 }
 
 std::vector<double> with_held_parameters(std::vector<double> of_scene, const Program& program) {

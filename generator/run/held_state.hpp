@@ -6,6 +6,9 @@
 ///     const HeldState held = held_state(*switched(program), state);
 ///     interpret(held.program, held.state);
 
+#include <optional>
+#include <string>
+
 #include "program/interpret.hpp"
 #include "program/switches.hpp"
 
@@ -20,6 +23,10 @@ struct HeldState {
 
 /// Throws IntegrationError if no mode is consistent, or more than one is.
 HeldState held_state(const Switched& s, State<double> state);
+
+/// Says which friction makes its own normal force grow without bound at the state before which a motion ended, if
+/// one does: there 1 − S D (lower/normal_forces.hpp) comes to zero.
+std::optional<std::string> jamming_friction(const Switched& s, const State<double>& state);
 
 /// The scene's parameters, followed by those that `program` has for friction in planes (model/friction.hpp) at
 /// their values there.

@@ -290,7 +290,10 @@ private:
         const LoadedMode& last = modes(run_.motion.phases.back().closed);
         State<double> state = state_at(first_, failure);
         state.parameters = with_held_parameters(std::move(state.parameters), last.program);
-        const auto there = failure_at(last.derived, state);
+        std::optional<std::string> there;
+        if (last.compiled.jumps && last.compiled.jumps->has_frictions())
+            there = jamming_friction(*last.compiled.jumps, state);
+        if (!there) there = failure_at(last.derived, state);
         return translated_from_library(failure.message) + (there ? say("\n  there: {}", *there) : "");
     }
 
