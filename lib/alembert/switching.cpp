@@ -127,7 +127,7 @@ private:
         if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
         const auto has_grain = [](const SideSet::Slide& slide) { return slide.grain > 0; };
         if (std::any_of(sides_.slides.begin(), sides_.slides.end(), has_grain))
-            here.when_stiff = {};  // the piece is short, and only its beginning is stiff
+            here.when_stiff = {};  // long steps of radau go wrong in the direction that δ bends at low speeds
         if (!now.sliding().empty())
             here.project = [base = options_.project, sides = std::make_shared<SwitchSides>(
                                                          system_, sides_, dimension())](double t, double* y) {
@@ -272,13 +272,21 @@ private:
         const std::vector<int> still = swings_.at_rest(moment(), open, since_change_);
         if (still.empty() || open.size() + still.size() > most_undecided) return false;
         const SideChoice best = side_choices(system_, sides_, open, t_, state_, still)[0];
-        const auto moves = [&](int k) { return best.sides[k] != 0; };
-        if (!(best.margin > clear_margin) || std::any_of(open.begin(), open.end(), moves)) return false;
+        if (!(best.margin > clear_margin) || !rests(best, open)) return false;
         sides_ = best.sides;
         for (const int k : still) bring_to_zero(moment(), k, state_);
         for (const auto* list : {&open, &still})
             for (const int k : *list) tell(k, SideChange::Kind::sliding);
         return true;
+    }
+
+    static bool rests(const SideChoice& choice, const std::vector<int>& all) {
+        return std::all_of(all.begin(), all.end(), [&](int k) { return choice.sides[k] == 0; });
+    }
+    bool can_all_rest(const std::vector<int>& all) const {
+        if (all.size() > most_undecided) return false;
+        const SideChoice best = side_choices(system_, sides_, all, t_, state_)[0];
+        return best.margin > clear_margin && rests(best, all);
     }
 
     /// Chooses sides for the open functions; the others keep theirs.
@@ -291,15 +299,17 @@ private:
         const std::vector<SideChoice> found = side_choices(system_, sides_, open, t_, state_);
         std::string names;
         for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
-        if (!(found[0].margin > -slack)) {
+        const bool exists = found[0].margin > -slack;
+        if (!exists || !rests(found[0], open)) {
             std::vector<int> more = open;  // one that has stopped, too, may have gathered the errors of many steps
             open_what_has_stopped(more, most_gathered);
-            if (more.size() > open.size()) return choose(more);
+            if (more.size() > open.size() && (!exists || can_all_rest(more))) return choose(more);
+        }
+        if (!exists)
             return fail(
                 fmt::format("at t = {} the sign of {} has no consistent side: the equations have no motion "
                             "that goes on from there",
                             t_, names));
-        }
         if (found.size() > 1 && found[1].margin > clear_margin && found[0].jumps)
             return fail(
                 fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
