@@ -105,7 +105,7 @@ Options Sweeper::options_for() {
 void Sweeper::make_key() {
     Fingerprint print;
     for (const std::string& text :
-         {std::string(ALEMBERT_VERSION), s_.scene.text, source_, wishes_.by, wishes_.method, wished_code(wishes_)})
+         {std::string(ALEMBERT_VERSION), s_.scene.text, source_, wishes_.by, s_.method, wished_code(wishes_)})
         print.add(text);
     print.add(fmt::format("{} {} {} {} {} {} {}", wishes_.duration, wishes_.tolerance, wishes_.step,
                           wishes_.max_step, wishes_.budget, wishes_.fast_math, s_.grid.size()));
