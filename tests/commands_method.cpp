@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "json.hpp"
 #include "machine/encoder.hpp"
@@ -70,6 +71,21 @@ TEST_CASE("auto: tolerance, step, structure and length choose the method, and th
     CHECK(text.out.find("dop853: the tolerance is 0.0001") != std::string::npos);
     // For a method given by name no reason is given.
     CHECK(!simulated(temporary("oscillator.toml", oscillator), {"--method", "dop853"}).contains("method_why"));
+}
+
+TEST_CASE("auto: a linkage takes dop853 longer than a body that a quaternion turns, and then fewer evaluations") {
+    for (const auto& [scene, method] : {std::pair{"scenes/benchmark/four_bars_2.toml", "dop853"},
+                                        std::pair{"scenes/textbook/heavy_top_joint.toml", "verner98"}})
+        CHECK(simulated(source_path(scene),
+                        {"--tolerance", "1e-8", "--duration", "0.1", "--code", "compiled"})["method"] == method);
+    if (!alembert::machine::can_run()) return;
+    const std::string linkage = source_path("scenes/gallery/rssr.toml");
+    CHECK(simulated(linkage, {"--tolerance", "1e-7"})["method"] == "dop853");
+    const Json chosen = simulated(linkage, {"--tolerance", "1e-9"}),
+               stages = simulated(linkage, {"--tolerance", "1e-9", "--method", "dop853"});
+    CHECK(chosen["method"] == "verner98");
+    CHECK(chosen["evaluations"].get<long>() < 0.7 * static_cast<double>(stages["evaluations"].get<long>()));
+    CHECK(chosen["energy_drift"].get<double>() < 1e-11);
 }
 
 TEST_CASE(

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <complex>
 #include <functional>
 #include <numbers>
@@ -396,6 +397,25 @@ TEST_CASE(
         CHECK(taylor_order(tolerance, 0.1, 0.005) >= std::ceil(1 - std::log(tolerance) / 2));
         CHECK(taylor_order(tolerance, 0.1, 0) <= most_order);
     }
+}
+
+TEST_CASE(
+    "taylor: the order that halving finds is the one at which the effort ceases to fall from order to order") {
+    for (int decade = 20; decade <= 140; decade += 3)
+        for (const double order_cost : {0.0, 0.003, 0.02, 0.1, 0.4, 2.0, 30.0})
+            for (const double product_cost : {0.0, 0.0004, 0.005, 0.06, 1.0, 20.0}) {
+                const double tolerance = std::pow(10.0, -0.1 * decade);
+                const auto effort = [&](int p) {
+                    return (1 + order_cost * p + product_cost * p * p) *
+                           std::pow(taylor_share * tolerance, -1.0 / p);
+                };
+                int best = std::clamp(static_cast<int>(std::ceil(1 - std::log(tolerance) / 2)), 4, most_order);
+                while (best < most_order && effort(best + 1) < effort(best)) ++best;
+                CAPTURE(tolerance);
+                CAPTURE(order_cost);
+                CAPTURE(product_cost);
+                CHECK(taylor_order(tolerance, order_cost, product_cost) == best);
+            }
 }
 
 }  // namespace generator_taylor

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -158,6 +159,75 @@ TEST_CASE("statistics: evaluations and steps are counted") {
         REQUIRE(motion.events.size() == 1);
     }
     CHECK(!method_named("dop8530"));
+}
+
+TEST_CASE("taylor: a run computes one series for each step, and of the last one, at its end, the rate alone") {
+    static std::vector<int> orders;  // of the series y(t) Σ (−s)^k/k! of y' = −y
+    orders.clear();
+    static const alembert_series_table table{
+        .abi = series_abi_version,
+        .coordinates = 1,
+        .speeds = 0,
+        .extra = 0,
+        .parameters = 0,
+        .constants = 0,
+        .workspace = 0,
+        .workspace_quad = 0,
+        .order_cost = 0.05,
+        .product_cost = 0,
+        .scene = "decay",
+        .parameter_values = nullptr,
+        .prepare = nullptr,
+        .series =
+            [](double, const double* state, const double*, int order, double* out, double*) {
+                orders.push_back(order);
+                out[0] = state[0];
+                for (int k = 1; k <= order; ++k) out[k] = -out[k - 1] / k;
+            },
+        .prepare_quad = nullptr,
+        .series_quad = nullptr};
+    Rhs rhs = decay();
+    rhs.series = {.module = SeriesModule(&table, [](const alembert_series_table*) {}),
+                  .par = std::make_shared<const std::vector<double>>(),
+                  .width = 1,
+                  .workspace = 0};
+    double rate_at_end = 0;
+    const Trajectory motion = integrate(rhs, {1.0},
+                                        {.method = Method::taylor,
+                                         .duration = 20,
+                                         .tolerance = 1e-12,
+                                         .on_step = [&](double, std::span<const double>,
+                                                        std::span<const double> rate) { rate_at_end = rate[0]; }});
+    REQUIRE(orders.size() == static_cast<std::size_t>(motion.statistics.steps) + 1);
+    CHECK(motion.statistics.steps > 2);
+    for (std::size_t k = 0; k + 1 < orders.size(); ++k) CHECK(orders[k] == orders[0]);
+    CHECK(orders[0] > 14);
+    CHECK(orders.back() == 1);
+    CHECK(rate_at_end == -motion.final_state()[0]);
+    CHECK(std::abs(motion.final_state()[0] - std::exp(-20)) < 1e-12);
+}
+
+TEST_CASE("first step: a state at rest, and one that starts at zero, take few steps to the first long one") {
+    const auto moved = [](auto acceleration, double tolerance) {
+        return integrate(make_rhs(2,
+                                  [acceleration](double t, const double* y, double* rate) {
+                                      rate[0] = y[1];
+                                      rate[1] = acceleration(t);
+                                  }),
+                         {0.0, 0.0}, {.method = Method::dop853, .duration = 10, .tolerance = tolerance});
+    };
+    // 1 s, six times as much, and the rest of 10 s
+    CHECK(moved([](double) { return 0.0; }, 1e-6).statistics.steps == 3);
+    // (0.01 tolerance)^(1/8) = 0.1 s, then six times as much each
+    const Trajectory falls = moved([](double) { return 1.0; }, 1e-6);
+    CHECK(falls.statistics.steps == 4);
+    CHECK(std::abs(falls.final_state()[0] - 50) < 1e-12);
+    // What begins slowly is seen, though the rate is zero at first.
+    const Trajectory slow = moved([](double t) { return t * t * t * std::cos(3 * t); }, 1e-10);
+    const auto exact = [](double t) {  // ∫∫ t³ cos 3t
+        return (t * t * t / -9 + 2 * t / 9) * std::cos(3 * t) + (2 * t * t / 9 - 8.0 / 81) * std::sin(3 * t);
+    };
+    CHECK(std::abs(slow.final_state()[0] - (exact(10) - exact(0) - 10 * (2.0 / 9 - 24.0 / 81))) < 1e-7);
 }
 
 TEST_CASE("quadrature: it follows the motion and does not affect its steps") {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "alembert/error.hpp"
@@ -28,17 +29,25 @@ constexpr double many_steps = 1e4;
 constexpr double most_products = 300;   // of a series that compiles in about a second; longer ones gain little
 constexpr double most_in_memory = 200;  // the factors of more do not stay in the fastest cache, at 25 orders
 constexpr double usual_operations = 4;  // of a right-hand side for each product, at most
-/// At 3e-5 verner98 becomes faster than dop853 (tests/bench/regret.sh).
-constexpr double loose = 3e-5;
 
 /// The tolerances below which a series may be taken; whole powers of ten are well within or outside, however their
-/// decimals are rounded. With constraints, dop853 passes through flat poses of linkages at which others stop.
+/// decimals are rounded. At flat poses of linkages dop853 goes on, after which a compiled series was made in vain.
 struct Strict {
-    double free, constrained;
+    double free, linked;
 };
 constexpr Strict in_memory{1.01e-5, 1.01e-5}, by_compiler{0.99e-10, 0.99e-12};
+/// With constraints of position verner98 takes two thirds of the time of dop853 below this tolerance. Where light
+/// links vibrate (benchmark/mass_ratio) its rounding stops it earlier; in memory a series is faster there.
+constexpr Strict verner98_below{loosest_of_verner98, 0.99e-8};
 /// At 1e-3 a series has so few orders that its steps are no longer than those of dop853.
 constexpr double loosest_of_series = 3e-4;
+
+/// Whether the rank of the constraints may drop in the course of the motion, as where a linkage lies flat. It does
+/// not for the norm of a quaternion, nor for rolling.
+bool is_linked(const Mechanism& m) {
+    return std::any_of(m.constraints.begin(), m.constraints.end(),
+                       [](const Mechanism::Constraint& c) { return c.holonomic && !c.norm; });
+}
 
 /// The number of Cauchy products at each order; nothing if there is no series.
 std::optional<double> products_of_series(const Program& program, const Derived& d) {
@@ -91,7 +100,7 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         if (step > 0)
             return {.method = inseparable(d) ? Method::gauss : Method::kahanli8,
                     .why = say("a fixed step was asked for, in a time of its own")};
-        return {.method = tolerance > loose ? Method::dop853 : Method::verner98,
+        return {.method = without_series(tolerance),
                 .why = say("the tolerance is {:g}, and the run is regularized", tolerance)};
     }
     if (step > 0) {
@@ -103,9 +112,9 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
                                steps)};
         return {.method = Method::rk4, .why = say("a fixed step was asked for")};
     }
-    const bool constrained = !d.mechanism.constraints.empty();
+    const bool constrained = !d.mechanism.constraints.empty(), linked = is_linked(d.mechanism);
     const Strict& strict = needs_compiler_for_series(request) ? by_compiler : in_memory;
-    const bool is_strict = tolerance < (constrained ? strict.constrained : strict.free);
+    const bool is_strict = tolerance < (linked ? strict.linked : strict.free);
     const bool linear = is_linear(program, d, request);
     if (is_strict || linear)
         if (const auto products = products_of_series(program, d);
@@ -120,7 +129,10 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
                                tolerance, *products)};
     const bool may_find_series =
         tolerance < loosest_of_series && !needs_compiler_for_series(request) && d.mechanism.unilateral.empty();
-    return {.method = without_series(tolerance, constrained),
+    const double below = !linked                              ? verner98_below.free
+                         : needs_compiler_for_series(request) ? by_compiler.linked
+                                                              : verner98_below.linked;
+    return {.method = without_series(tolerance, below),
             .when_stiff = Method::radau,
             .when_cheaper = may_find_series ? std::optional(Method::taylor) : std::nullopt,
             .why = say("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
@@ -137,9 +149,8 @@ bool has_short_series(const Program& program, const Derived& derived) {
     return products && *products <= most_in_memory;
 }
 
-Method without_series(double tolerance, bool constrained) {
-    return tolerance > loose || (constrained && tolerance > by_compiler.constrained) ? Method::dop853
-                                                                                     : Method::verner98;
+Method without_series(double tolerance, double loosest) {
+    return tolerance > loosest ? Method::dop853 : Method::verner98;
 }
 
 double effort_of(const Program& program) {

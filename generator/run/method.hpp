@@ -17,14 +17,14 @@
 /// | 1e-5 or below, with a power series that is not too long and predicted to be faster | taylor |
 /// | likewise, at any tolerance, if the equations are linear with constant coefficients | taylor |
 /// | any other above 3e-5 | dop853 |
-/// | any other, without constraints | verner98 |
-/// | any other, with constraints | dop853 to 1e-12, verner98 below |
+/// | any other with constraints of position, such as linkages | dop853 to 1e-8, verner98 below |
+/// | any other, norms of quaternions and rolling among them | verner98 |
 ///
-/// With constraints, dop853 passes through flat poses of linkages where others stop, and goes on where the steps
-/// of taylor become very short. Runs that begin with one of these two below 3e-4 go over to taylor where the
-/// lengths of their steps show that it is faster (series_pace.hpp). Where the series has to be compiled, which
-/// takes longer than most runs, it is taken below 1e-10 alone, with constraints below 1e-12. Methods that choose
-/// their steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
+/// With constraints, dop853 goes on where the steps of taylor become very short, as at flat poses of linkages.
+/// Runs that begin with dop853 or verner98 below 3e-4 go over to taylor where the lengths of their steps show that
+/// it is faster (series_pace.hpp). Where the series has to be compiled, which takes longer than most runs, it is
+/// taken below 1e-10 alone; with constraints of position that and verner98 below 1e-12. Methods that choose their
+/// steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
 
 #include "alembert/integrate.hpp"
 #include "derive/derived.hpp"
@@ -52,8 +52,11 @@ MethodChoice method_for(const RunOptions& request, const Derived& derived, const
 /// Whether the motion has a power series that is short enough to be compiled.
 bool has_short_series(const Program& program, const Derived& derived);
 
-/// What is taken at a tolerance where there is no series, or none that is faster.
-Method without_series(double tolerance, bool constrained);
+/// At this tolerance verner98 becomes faster than dop853 (tests/bench/regret.sh).
+inline constexpr double loosest_of_verner98 = 3e-5;
+/// What is taken at a tolerance where there is no series, or none that is faster: dop853 or, from `loosest` down,
+/// verner98.
+Method without_series(double tolerance, double loosest = loosest_of_verner98);
 
 /// The predicted time of one right-hand side, ns (pace.hpp).
 double effort_of(const Program& program);

@@ -47,7 +47,7 @@ MethodChoice method_for_sweep(const RunOptions& wishes, const Derived& derived, 
     else if (choice.method == Method::taylor && derived.mechanism.constraints.empty() &&
              (needs_compiler_for_series(wishes) ||
               !is_series_faster_in_packs(program, energy_of(derived.mechanism).conserved, tolerance)))
-        choice.method = without_series(tolerance, false);
+        choice.method = without_series(tolerance);
     return choice;
 }
 

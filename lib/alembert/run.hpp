@@ -57,6 +57,7 @@ public:
           recorder_(result_, events, sample_interval(options)),
           row_(initial.size()),
           event_rate_(initial.size()) {
+        if constexpr (requires { step_.end_run_at(end_); }) step_.end_run_at(end_);
         result_.dimension = rhs.dimension;
         result_.names = rhs.names;
         result_.statistics.method = name(options.method);
@@ -64,9 +65,7 @@ public:
             result_.times.reserve(static_cast<std::size_t>(options.duration / sample_interval(options)) + 2);
         result_.states.reserve(result_.times.capacity() * initial.size());
         if (options.when_cheaper && !AnyStep::has_fixed_step && !needs_series(options.method))
-            series_.emplace(
-                options.rhs_when_cheaper ? options.rhs_when_cheaper : [&rhs] { return rhs; },
-                options.effort_of_series, options.tolerance);
+            series_.emplace(rhs, options.rhs_when_cheaper, options.effort_of_series, options.tolerance);
         if (options.grid && options.duration > 0)
             rows_on_grid_ +=
                 static_cast<long>(std::floor((options.start - grid_) / sample_interval(options) + 1e-9));

@@ -10,8 +10,8 @@ namespace alembert {
 
 namespace {
 
-constexpr double share = 0.05;  // of the run that a look may take
-constexpr int looks = 4, apart = 4;
+constexpr double share = 0.025;  // of the run that a look may take
+constexpr int looks = 3, apart = 4;
 constexpr double clearly = 1.5;  // how much more the run must cost
 
 }  // namespace
@@ -19,7 +19,7 @@ constexpr double clearly = 1.5;  // how much more the run must cost
 bool SeriesPace::is_worth_making(const Place& here, double effort_per_time) {
     constexpr double gain = 0.5;
     if (!(gain * effort_per_time * here.left > effort_of_making_)) return false;
-    rhs_ = make_();
+    rhs_ = make_ ? &made_.emplace(make_()) : &given_;
     if (!rhs_->series) {
         until_ = HUGE_VAL;
         return false;

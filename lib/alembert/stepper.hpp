@@ -80,6 +80,7 @@ struct Ends {
     const Rhs& rhs;
     int size, controlled;
     double t, end = 0, h = 0;
+    double end_of_run = HUGE_VAL;  ///< a step that reaches it is the last one
     std::vector<double> y, rest, next, next_rest, rate, end_rate, error;
     bool knows_end_rate = false;
     long evaluations = 0;
@@ -122,6 +123,8 @@ public:
     { return formula_.largest_eigenvalue(); }
     double effort() const requires requires(const Formula f) { f.effort(); }
     { return formula_.effort(); }
+
+    void end_run_at(double t) { ends_.end_of_run = t; }
 
     void attempt(double end) {
         ends_.end = end;

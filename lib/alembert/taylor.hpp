@@ -36,12 +36,20 @@ inline constexpr double shortest_tried = 1e-11;  ///< of t; a jump that is no ev
 inline constexpr double taylor_share = 0.005;    ///< a: the last term as a part of the tolerance
 
 /// The order that makes (1 + order_cost p + product_cost p²) tolerance^(−1/p) least, at least ⌈1 − ½ ln tolerance⌉
-/// and 4.
+/// and 4. The derivative is a cubic whose coefficients change their sign once, so that it has one positive zero
+/// (Descartes): the effort falls up to it and grows from there, and halving the interval finds the order.
 inline int taylor_order(double tolerance, double order_cost = 0, double product_cost = 1, int most = most_order) {
     const double digits = -std::log(taylor_share * tolerance);
     int best = std::clamp(static_cast<int>(std::ceil(1 - std::log(tolerance) / 2)), 4, most);
-    const auto effort = [&](int p) { return (1 + order_cost * p + product_cost * p * p) * std::exp(digits / p); };
-    while (best < most && effort(best + 1) < effort(best)) ++best;
+    const auto of_step = [&](int p) { return 1 + order_cost * p + product_cost * p * p; };
+    const auto falls = [&](int p) { return of_step(p + 1) * std::exp(-digits / (p * (p + 1))) < of_step(p); };
+    for (int end = most; best < end;) {
+        const int middle = (best + end) / 2;
+        if (falls(middle))
+            best = middle + 1;
+        else
+            end = middle;
+    }
     return best;
 }
 
@@ -120,7 +128,7 @@ public:
     double effort() const { return effort_; }
 
     bool increment(Ends& ends, double h, double* change, double*) {
-        if (!expanded_) expand(ends, ends.t, ends.y, coefficients_);
+        if (!expanded_) expand(ends, ends.t, ends.y, coefficients_, order_);
         expanded_ = true;
         sum_series(coefficients_.data(), order_, static_cast<int>(size_), h, change, slopes_.data());
         const double power = whole_power(h, order_);
@@ -128,9 +136,10 @@ public:
         return true;
     }
 
-    /// Computes the series at the end of the step, whose second coefficient is the rate there.
+    /// Computes the series at the end of the step, whose second coefficient is the rate there. No step follows the
+    /// end of the run, which needs no more than that.
     void evaluate_end(Ends& ends) {
-        expand(ends, ends.end, ends.next, next_);
+        expand(ends, ends.end, ends.next, next_, ends.end == ends.end_of_run ? 1 : order_);
         std::copy_n(next_.data() + size_, size_, ends.end_rate.data());
     }
 
@@ -156,7 +165,7 @@ public:
     void advance(const Ends&) { std::swap(coefficients_, next_); }
 
     double first_length(Ends& ends) {
-        if (!expanded_) expand(ends, ends.t, ends.y, coefficients_);
+        if (!expanded_) expand(ends, ends.t, ends.y, coefficients_, order_);
         expanded_ = true;
         return length(ends);
     }
@@ -173,8 +182,8 @@ public:
 private:
     const double* row(int k) const { return coefficients_.data() + static_cast<std::size_t>(k) * size_; }
 
-    void expand(Ends& ends, double t, const std::vector<double>& y, std::vector<double>& out) {
-        ends.rhs.series(t, y.data(), order_, out.data(), aligned_);
+    void expand(Ends& ends, double t, const std::vector<double>& y, std::vector<double>& out, int order) {
+        ends.rhs.series(t, y.data(), order, out.data(), aligned_);
         ++ends.evaluations;
     }
 
