@@ -230,7 +230,7 @@ private:
         return step_.finish();
     }
 
-    bool foresees_end() const {
+    bool foresees_end() {
         if constexpr (requires { step_.foresees_end(); }) return step_.foresees_end();
         return true;
     }

@@ -172,7 +172,7 @@ public:
         return solved_ && is_finite(ends_.end_rate) && is_finite(ends_.next);
     }
 
-    bool foresees_end() const requires requires(const Formula f, const Ends e) { f.foresees_end(e); }
+    bool foresees_end() requires requires(Formula f, Ends e) { f.foresees_end(e); }
     { return formula_.foresees_end(ends_); }
 
     bool starts_finite() const { return is_finite(ends_.rate); }

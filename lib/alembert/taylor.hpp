@@ -16,7 +16,9 @@
 /// tolerance^(1/p), and the time of a step is about 1 + c p + d p² (c and d come with the series); p is
 /// chosen so that the time per length is least. A series knows nothing of what changes fast further on, such as a
 /// pulse or the jump of a steep tanh: a step is repeated with half its length where the rate at its end is not
-/// that of the polynomial. (A change that depends on the state and is over before the end is not seen, and steps
+/// that of the polynomial. Where the terms of a series do not decay, as in free flight far from everything,
+/// nothing but the tolerance or the end of the run limits the step: then the rate is compared at 64 places within
+/// it, too. (What is over between two of these, or is hidden within a step whose terms decay, is not seen; steps
 /// of a given length are not checked.) If products of series take all the time, this is Jorba & Zou's order
 /// (§3.1), otherwise it is higher. The polynomial is kept, so that a state within the step only costs its
 /// evaluation. `error` is the last term.
@@ -32,6 +34,7 @@
 namespace alembert {
 
 inline constexpr double terms_left_out = 30;     ///< what may change the slope of a step, in tolerances
+inline constexpr int places_within = 64;         ///< of a step whose series does not tell how far it holds
 inline constexpr double shortest_tried = 1e-11;  ///< of t; a jump that is no event cannot be foreseen
 inline constexpr double taylor_share = 0.005;    ///< a: the last term as a part of the tolerance
 
@@ -147,19 +150,9 @@ public:
     /// change it by about p a tolerances, and what moves the end onto constraints by hL, at most
     /// stable_interval(): together by less than terms_left_out tolerances. Rounding changes it by a small part of
     /// itself.
-    bool foresees_end(const Ends& ends) const {
-        constexpr double rounded = 1e-8;
+    bool foresees_end(Ends& ends) {
         if (ends.h < shortest_tried * std::max(1.0, std::abs(ends.t))) return true;  // a jump
-        const auto miss = [&](std::size_t i) { return std::abs(slopes_[i] - ends.h * ends.end_rate[i]); };
-        const auto count = static_cast<std::size_t>(ends.controlled);
-        double largest = 0;
-        for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, miss(i));
-        if (largest <= most_missed_) return true;
-        for (std::size_t i = 0; i < count; ++i)
-            if (miss(i) > most_missed_ * ends.scale(static_cast<int>(i)) &&
-                miss(i) > rounded * ends.h * std::max(std::abs(ends.rate[i]), std::abs(ends.end_rate[i])))
-                return false;
-        return true;
+        return foresees(ends, 1, ends.end_rate) && (decays(ends) || foresees_within(ends));
     }
 
     void advance(const Ends&) { std::swap(coefficients_, next_); }
@@ -185,6 +178,47 @@ private:
     void expand(Ends& ends, double t, const std::vector<double>& y, std::vector<double>& out, int order) {
         ends.rhs.series(t, y.data(), order, out.data(), aligned_);
         ++ends.evaluations;
+    }
+
+    /// Compares `rate` at the part theta of the step with the slopes of the polynomial there.
+    bool foresees(const Ends& ends, double theta, const std::vector<double>& rate) const {
+        constexpr double rounded = 1e-8;
+        const auto miss = [&](std::size_t i) { return std::abs(slopes_[i] / theta - ends.h * rate[i]); };
+        const auto count = static_cast<std::size_t>(ends.controlled);
+        double largest = 0;
+        for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, miss(i));
+        if (largest <= most_missed_) return true;
+        for (std::size_t i = 0; i < count; ++i)
+            if (miss(i) > most_missed_ * ends.scale(static_cast<int>(i)) &&
+                miss(i) > rounded * ends.h * std::max(std::abs(ends.rate[i]), std::abs(rate[i])))
+                return false;
+        return true;
+    }
+
+    /// Whether the terms in the middle of the series are clearly larger than the last ones are allowed to be, as
+    /// they are where the series decays geometrically to these. Four of them are asked, because a series may lack
+    /// powers.
+    bool decays(const Ends& ends) const {
+        constexpr double clearly = 10;
+        const int middle = order_ / 2;
+        const double least = clearly * std::exp(log_tolerance_), half = whole_power(ends.h, middle - 1);
+        double power = half;
+        for (int k = middle - 1; k <= middle + 2; ++k, power *= ends.h)
+            if (ends.norm(row(k)) * power > least) return true;
+        return false;
+    }
+
+    bool foresees_within(Ends& ends) {
+        std::vector<double> state(size_), rate(size_);
+        for (int place = 1; place < places_within; ++place) {
+            const double theta = static_cast<double>(place) / places_within;
+            sum_series(coefficients_.data(), order_, static_cast<int>(size_), theta * ends.h, state.data(),
+                       slopes_.data());
+            for (std::size_t i = 0; i < size_; ++i) state[i] = ends.y[i] + (state[i] + ends.rest[i]);
+            ends.evaluate(ends.t + theta * ends.h, state.data(), rate.data());
+            if (!foresees(ends, theta, rate)) return false;
+        }
+        return true;
     }
 
     double length(const Ends& ends) const {
