@@ -241,6 +241,63 @@ TEST_CASE("fmu: constraints stay satisfied, and the same scene gives the same by
     CHECK(contents(again) == unit.archive);
 }
 
+// A pendulum with two bobs: the length of the second follows from that of the first, with l2 = 2 l1 alone, and for
+// every mass and gravity.
+TEST_CASE("fmu: parameters with which a constraint that was left out holds keep their values") {
+    const std::string rod = temporary("tied.toml", R"toml(
+gravity = [0, "-g"]
+[parameters]
+g = 9.81
+m = 1
+l1 = 1
+l2 = 2
+[coordinates]
+x1 = { guess = 0.6, rate_guess = 0 }
+y1 = { guess = -0.8, rate_guess = 0 }
+x2 = { guess = 1.2, rate_guess = 0 }
+y2 = { guess = -1.6, rate_guess = 0 }
+[[particle]]
+name = "A"
+mass = "m"
+position = ["x1", "y1"]
+[[particle]]
+name = "B"
+mass = "m"
+position = ["x2", "y2"]
+[[constraint]]
+name = "a"
+holonomic = "x1^2 + y1^2 = l1^2"
+[[constraint]]
+name = "b"
+holonomic = "x2 = 2*x1"
+[[constraint]]
+name = "c"
+holonomic = "y2 = 2*y1"
+[[constraint]]
+name = "d"
+holonomic = "x2^2 + y2^2 = l2^2"
+[simulation]
+duration = 1
+)toml");
+    for (const int version : {2, 3}) {
+        const Unit unit = exported(rod, version);
+        check_rules(unit.files.at("modelDescription.xml"), version);
+        Instance one(unit, true, 1e-12);
+        for (const char* const tied : {"l1", "l2"}) {
+            CHECK(unit.description.at(tied, "variability") == "fixed");
+            CHECK(one.status_of_set(tied, 1.5) == failed);
+            CHECK(one.status_of_set(tied, one.get(tied)) == 0);
+        }
+        for (const char* const free : {"g", "m"}) {
+            CHECK(unit.description.at(free, "variability") == "tunable");
+            CHECK(one.status_of_set(free, 1.5) == 0);
+        }
+    }
+    const auto all = json_of({"fmu", rod, "-o", file_name("rod.fmu")});
+    CHECK(all["fixed_parameters"] == Json{"l1", "l2"});
+    CHECK(all["parameters"] == Json{"g", "m"});
+}
+
 TEST_CASE("fmu: events with impulses, events that end the run, and kinks are followed") {
     const std::string scene = temporary("court.toml", R"toml(
 gravity = [0, "-g"]

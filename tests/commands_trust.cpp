@@ -142,6 +142,38 @@ TEST_CASE("simulate: a motion of any size is trusted if it has two digits, and o
     CHECK(trusted(simulated(pendulum("1e-15"), {"--method", "rk4", "--step", "0.01"})));
 }
 
+// x = x₀ + v t, y = y₀ + w t − g t²/2. At constant acceleration all but the first steps of abm are exact.
+TEST_CASE("simulate: of a free fall no less than the true error is told, though only the first steps have one") {
+    for (const std::vector<double>& start :
+         {std::vector<double>{0, 0, 0, 0}, {0, 0, 1e6, 0}, {0.3, 0, 0, 12.7}, {-2, 1000, 1e-7, 0}})
+        for (const double duration : {0.1, 1.0, 1000.0})
+            for (const char* const method : {"abm", "dopri5", "radau"})
+                for (const char* const tolerance : {"1e-3", "1e-4", "1e-6", "1e-9"}) {
+                    const Json result =
+                        simulated(written(fmt::format("gravity = [0, -9.81]\n[coordinates]\nx = {{ initial = {}, "
+                                                      "rate = {} }}\ny = {{ initial = {}, rate = {} }}\n"
+                                                      "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", "
+                                                      "\"y\"]\n[simulation]\nduration = {}\n",
+                                                      start[0], start[1], start[2], start[3], duration)),
+                                  {"--method", method, "--tolerance", tolerance});
+                    const long double t = duration, g = 9.81L;
+                    const auto off = [&](const char* group, const char* name, long double truth) {
+                        return static_cast<double>(
+                            std::abs(static_cast<long double>(result["final"][group][name].get<double>()) -
+                                     truth) /
+                            std::max(1.0L, std::abs(truth)));
+                    };
+                    CAPTURE(duration);
+                    CAPTURE(method);
+                    CAPTURE(tolerance);
+                    CAPTURE(start);
+                    const double told = result["error_estimate"]["value"].get<double>();
+                    CHECK(off("coordinates", "x", start[0] + start[1] * t) <= told);
+                    CHECK(off("coordinates", "y", start[2] + start[3] * t - g / 2 * t * t) <= told);
+                    CHECK(off("rates", "y", start[3] - g * t) <= told);
+                }
+}
+
 TEST_CASE("simulate: for a run that is not trusted every reason is given, for people and in JSON") {
     const std::string scene = pendulum("1.2");
     const Json result = simulated(scene, {"--method", "euler", "--step", "0.02"});

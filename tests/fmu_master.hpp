@@ -106,13 +106,12 @@ public:
             ok("fmi3GetFloat64", &reference, std::size_t{1}, &value, std::size_t{1});
         return value;
     }
-    void set(const std::string& name, double value) {
+    void set(const std::string& name, double value) { CHECK(status_of_set(name, value) == 0); }
+    int status_of_set(const std::string& name, double value) const {
         const unsigned reference = unit_.description.reference.at(name);
         const double* const at = &value;
-        if (unit_.version == 2)
-            ok("fmi2SetReal", &reference, std::size_t{1}, at);
-        else
-            ok("fmi3SetFloat64", &reference, std::size_t{1}, at, std::size_t{1});
+        if (unit_.version == 2) return status("fmi2SetReal", &reference, std::size_t{1}, at);
+        return status("fmi3SetFloat64", &reference, std::size_t{1}, at, std::size_t{1});
     }
     std::size_t states() const { return unit_.description.rates.size(); }
     Numbers state() const {

@@ -117,8 +117,9 @@ inline void check_rules(const std::string& xml, int version) {
               std::string::npos);
         const std::string kind = v["causality"] + " " + v["variability"] + " " + v["initial"];
         CHECK(std::set<std::string>{"independent continuous ", "input continuous ", "parameter tunable exact",
-                                    "output continuous exact", "output continuous calculated",
-                                    "local continuous exact", "local continuous calculated"}
+                                    "parameter fixed exact", "output continuous exact",
+                                    "output continuous calculated", "local continuous exact",
+                                    "local continuous calculated"}
                   .contains(kind));
         CHECK(v.has("start") == (v["initial"] == "exact" || v["causality"] == "input"));
         if (v["causality"] == "output") outputs.insert(static_cast<int>(k));

@@ -17,6 +17,7 @@
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 #include "state/assemble.hpp"
+#include "state/branch.hpp"
 #include "state/contradiction.hpp"
 #include "state/redundancy.hpp"
 #include "symbolic/fourier.hpp"
@@ -58,7 +59,11 @@ public:
                                            .integral = {},
                                            .notes = {}});
         settle(start);
-        states_ = states_that_obey(m_, settled_ ? settled_start_ : start, most_states);
+        if (settled_)
+            for (const Start& place : places_on_branch(m_, lower_constraints(m_), settled_start_, most_states, 1))
+                states_.push_back(place.state());
+        else
+            states_ = states_that_obey(m_, start, most_states);
         if (states_.empty() && settled_) states_.push_back(settled_start_.state());
         if (states_.empty()) contradiction(start);
         rank(start);
@@ -216,8 +221,14 @@ private:
             for (AuditedConstraint& c : result_.constraints) c.redundant = false;
             redundant_.clear();
         } else if (joint_.on_variety && static_cast<int>(joint_.independent.size()) > result_.rank) {
-            result_.notes.push_back(say("the rank is {} for general parameters, and {} for those of the scene",
-                                        joint_.independent.size(), result_.rank));
+            result_.notes.push_back(
+                say("the rank is {} for general parameters or on another branch of the constraints, and {} at the "
+                    "scene's",
+                    joint_.independent.size(), result_.rank));
+            // Each of independent holonomic constraints keeps one function.
+            if (std::all_of(m_.constraints.begin(), m_.constraints.end(),
+                            [](const auto& c) { return c.holonomic; }))
+                result_.integrals = result_.rank;
         }
         for (const int k : joint_.contradictory)
             if (!contradictory_)

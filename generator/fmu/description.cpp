@@ -173,23 +173,26 @@ private:
 
     static const char* causality(const UnitVariable& v) {
         using Kind = UnitVariable::Kind;
-        return v.kind == Kind::time        ? "independent"
-               : v.kind == Kind::input     ? "input"
-               : v.kind == Kind::parameter ? "parameter"
-               : v.is_output               ? "output"
-                                           : "local";
+        return v.kind == Kind::time    ? "independent"
+               : v.kind == Kind::input ? "input"
+               : v.is_parameter()      ? "parameter"
+               : v.is_output           ? "output"
+                                       : "local";
     }
 
     void add_variable(std::size_t k) {
         using Kind = UnitVariable::Kind;
         const UnitVariable& v = variables_[k];
         const bool has_initial = v.kind != Kind::time && v.kind != Kind::input;
-        const std::string common = fmt::format(
-            " name=\"{}\" valueReference=\"{}\"{} causality=\"{}\" variability=\"{}\"{}", xml_text(v.name), k,
-            attribute("description", v.about), causality(v), v.kind == Kind::parameter ? "tunable" : "continuous",
-            !has_initial        ? ""
-            : v.is_calculated() ? " initial=\"calculated\""
-                                : " initial=\"exact\"");
+        const std::string common =
+            fmt::format(" name=\"{}\" valueReference=\"{}\"{} causality=\"{}\" variability=\"{}\"{}",
+                        xml_text(v.name), k, attribute("description", v.about), causality(v),
+                        v.kind == Kind::parameter        ? "tunable"
+                        : v.kind == Kind::tied_parameter ? "fixed"
+                                                         : "continuous",
+                        !has_initial        ? ""
+                        : v.is_calculated() ? " initial=\"calculated\""
+                                            : " initial=\"exact\"");
         const std::string type = type_of(v.unit);
         std::string own = type.empty() ? attribute("unit", v.unit)
                                        : fmt::format(" declaredType=\"{}\"", type) + attribute("unit", v.unit);
@@ -206,7 +209,7 @@ private:
     std::string dependencies(const UnitVariable& v, bool at_start) const {
         std::string result;
         for (const int k : v.dependencies)
-            if (at_start || variables_[static_cast<std::size_t>(k)].kind != UnitVariable::Kind::parameter)
+            if (at_start || !variables_[static_cast<std::size_t>(k)].is_parameter())
                 result += fmt::format("{}{}", result.empty() ? "" : " ", k + (is_2_ ? 1 : 0));
         return result;
     }

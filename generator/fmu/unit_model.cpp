@@ -81,6 +81,7 @@ UnitModel unit_model(Scene scene, const std::string& by) {
     Start start = start_of(model.mechanism);
     assemble(start, model.mechanism, lower_constraints(model.mechanism), {});
     model.start = state_of(start, model.mechanism, model.equations);
+    model.tied = tied_parameters(model.mechanism, start);
     need_accelerations(model, program, model.start);
     add_impulses(program, model);
     complete(model, std::move(program));

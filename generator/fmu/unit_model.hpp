@@ -24,6 +24,7 @@ struct UnitModel : Derived {
     int signs = 0;                 ///< parameters that hold a sign, the last of the program
     bool has_derivatives = false;  ///< whether the program has the groups of program/differentiate.hpp
     State<double> start = {};      ///< q, u, t and all parameters
+    std::vector<bool> tied = {};   ///< of the first parameters, those that keep their values (state/left_out.hpp)
     double duration = 0, tolerance = 0, sample = 0;
 
     std::size_t coordinates() const { return program.coordinates.size(); }

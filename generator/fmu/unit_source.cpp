@@ -17,8 +17,8 @@ namespace alembert {
 namespace {
 
 /// In the order of UnitVariable::Kind.
-constexpr const char* kind_names[] = {"is_time",   "is_state",  "is_rate",       "is_input", "is_parameter",
-                                      "is_energy", "is_output", "is_multiplier", "is_event"};
+constexpr const char* kind_names[] = {"is_time", "is_state",  "is_rate",   "is_input",      "is_parameter",
+                                      "is_tied", "is_energy", "is_output", "is_multiplier", "is_event"};
 
 std::size_t multipliers_of(const Program& p) {
     return p.nodes_of(Group::multiplier).size();

@@ -163,7 +163,7 @@ private:
         std::map<std::string, std::string> about;
         for (const Parameter& p : m_.scene.parameters) about[p.name.text] = p.about;
         for (std::size_t k = 0; k < m_.own_parameters(); ++k)
-            parameters_[static_cast<int>(k)] = add({.kind = Kind::parameter,
+            parameters_[static_cast<int>(k)] = add({.kind = m_.tied[k] ? Kind::tied_parameter : Kind::parameter,
                                                     .place = static_cast<int>(k),
                                                     .name = ascii_identifier(p_.parameters[k].name),
                                                     .about = about[p_.parameters[k].name],

@@ -18,7 +18,7 @@ namespace alembert {
 
 struct UnitVariable {
     /// What the C of the unit makes of it (templates/fmu_model.c.mustache).
-    enum class Kind { time, state, rate, input, parameter, energy, output, multiplier, event };
+    enum class Kind { time, state, rate, input, parameter, tied_parameter, energy, output, multiplier, event };
     Kind kind = Kind::output;
     int place = 0;  ///< within its kind; of an input 3 times its number plus the order of the derivative
     std::string name = {}, about = {}, unit = {};
@@ -29,6 +29,7 @@ struct UnitVariable {
     /// The variables on which a state's rate or an output depends: time, states, inputs and parameters, ascending.
     std::vector<int> dependencies = {};
 
+    bool is_parameter() const { return kind == Kind::parameter || kind == Kind::tied_parameter; }
     bool is_state() const { return kind == Kind::state; }
     /// Whether it is computed from others already at the start.
     bool is_calculated() const { return !start && kind != Kind::time; }

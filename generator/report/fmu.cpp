@@ -43,6 +43,7 @@ Json as_json(const FunctionalUnit& unit, const std::string& path) {
     result["inputs"] = names_of_kind(unit, UnitKind::input);
     result["outputs"] = output_names(unit);
     result["parameters"] = names_of_kind(unit, UnitKind::parameter);
+    result["fixed_parameters"] = names_of_kind(unit, UnitKind::tied_parameter);
     result["event_indicators"] = names_of_kind(unit, UnitKind::event);
     result["directional_derivatives"] = unit.has_derivatives;
     return result;
@@ -57,6 +58,8 @@ std::string as_text(const FunctionalUnit& unit, const std::string& path) {
     say_on(page, "inputs      {}\n", listed(names_of_kind(unit, UnitKind::input)));
     say_on(page, "outputs     {}\n", listed(output_names(unit)));
     say_on(page, "parameters  {}\n", listed(names_of_kind(unit, UnitKind::parameter)));
+    if (const auto fixed = names_of_kind(unit, UnitKind::tied_parameter); !fixed.empty())
+        say_on(page, "fixed       {}\n", listed(fixed));
     if (!unit.has_derivatives)
         page += say("without directional derivatives: they would be too long to be written out\n");
     return page;

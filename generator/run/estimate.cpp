@@ -180,16 +180,19 @@ public:
         : motion_(motion), run_(run), given_(given), initial_(initial) {}
 
     /// A run with a tenth of the tolerance or half the step; if that does not reach the same end, with ten times
-    /// the tolerance or twice the step. Nothing if neither does. `options` is set to the options of the run.
+    /// the tolerance or twice the step. Nothing if neither does. `options` is set to the options of the run. Its
+    /// first step differs too, because it does not always depend on the tolerance.
     std::optional<PhasedMotion> other(Options& options) const {
         options = given_;
         options.budget = std::min(given_.budget, 4 * motion_.statistics.evaluations + 10'000);
         const bool fixed = has_fixed_step(options.method);
         for (const double factor : {0.1, 10.0}) {
+            const double length = factor < 1 ? 0.5 : 2;
             if (fixed)
-                options.step = std::min(given_.step, given_.duration) * (factor < 1 ? 0.5 : 2);
+                options.step = std::min(given_.step, given_.duration) * length;
             else
                 options.tolerance = std::max(given_.tolerance * factor, 1e-15);
+            options.first_share = length;
             if (!fixed && options.tolerance == given_.tolerance) continue;
             if (auto second = at_same_end(options)) return second;
         }
@@ -200,6 +203,7 @@ public:
     std::optional<PhasedMotion> with_short_steps(Options options) const {
         const double elapsed = motion_.final_time() - given_.start;
         options.longest_step = elapsed / (2 * static_cast<double>(motion_.statistics.steps));
+        options.first_share = 0.5;
         if (!(options.longest_step > 0)) return std::nullopt;
         return at_same_end(options);
     }

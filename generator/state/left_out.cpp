@@ -156,6 +156,23 @@ void LeftOut::check_row(const State<double>& state) const {
     }
 }
 
+std::vector<bool> tied_parameters(const Mechanism& mechanism, const Start& start) {
+    std::vector<bool> tied(start.parameters.size(), false);
+    if (mechanism.redundant.empty()) return tied;
+    const LeftOut left_out(mechanism);
+    for (std::size_t k = 0; k < tied.size(); ++k)
+        for (const double part : {0.01, -0.01}) {
+            Start other = start;
+            other.parameters[k] += part * (start.parameters[k] != 0 ? start.parameters[k] : 1);
+            try {
+                left_out.check(other);
+            } catch (const ModelError&) {
+                tied[k] = true;
+            }
+        }
+    return tied;
+}
+
 void LeftOut::refuse(int constraint, double misfit) const {
     throw ModelError(
         say("constraint '{}' follows from the others at the values of the scene, but is off by {:.6g} at these: "

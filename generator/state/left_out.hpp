@@ -48,4 +48,8 @@ private:
     std::optional<Both> both_;  ///< nothing if nothing was left out
 };
 
+/// For each independent parameter, whether what was left out ceases to follow when this parameter alone changes
+/// from its value at `start` by a hundredth of it (by 0.01 from zero).
+std::vector<bool> tied_parameters(const Mechanism& mechanism, const Start& start);
+
 }  // namespace alembert

@@ -15,6 +15,7 @@
 #include "lower/lower.hpp"
 #include "model/sample_functions.hpp"
 #include "state/assemble.hpp"
+#include "state/branch.hpp"
 #include "state/contradiction.hpp"
 
 namespace alembert {
@@ -63,30 +64,22 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()),
                n = static_cast<Eigen::Index>(mechanism.size());
     std::vector<Eigen::MatrixXd> at;  // the rows at the start, then at states around it
-    Mechanism loose = mechanism;
-    loose.q_is_guess.assign(mechanism.q.size(), true);
-    loose.qdot_is_guess.assign(mechanism.q.size(), true);
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> away(-0.3, 0.3);
-    bool has_start = false;
-    for (int k = 0; k <= states; ++k) {
-        Start start = start_of(mechanism);
-        if (k > 0)
-            for (double& q : start.q) q += away(random) * (1 + std::abs(q));
-        try {
-            assemble(start, k > 0 ? loose : mechanism, program, {});
-        } catch (const std::runtime_error&) {
-            if (k == 0) return {};  // the command reports this, with the reason
-            continue;
-        }
+    const auto take = [&](const Start& start) {
         const std::vector<double> value = interpret(program, start.state());
         Eigen::MatrixXd A(m, n);
         for (Eigen::Index r = 0; r < m; ++r)
             for (Eigen::Index i = 0; i < n; ++i) A(r, i) = value[rows[r * n + i]];
-        if (!A.allFinite()) continue;
-        has_start = has_start || k == 0;
-        at.push_back(std::move(A));
+        if (A.allFinite()) at.push_back(std::move(A));
+    };
+    Start start = start_of(mechanism);
+    try {
+        assemble(start, mechanism, program, {});
+    } catch (const std::runtime_error&) {
+        return {};  // the command reports this, with the reason
     }
+    take(start);
+    const bool has_start = !at.empty();
+    for (const Start& place : places_on_branch(mechanism, program, start, states, 1)) take(place);
     const std::vector<int> order = order_of_keeping(mechanism, has_start ? &at.front() : nullptr);
     std::vector<std::vector<bool>> dependent;
     for (const Eigen::MatrixXd& A : at) dependent.push_back(dependent_rows(A, order));
@@ -229,14 +222,11 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
     const Program program = lower_constraints(all), constraints = lower_constraints(others);
     const std::vector<int> velocity = program.nodes_of(Group::velocity);
     std::mt19937_64 random(2);
-    std::uniform_real_distribution<double> away(-0.3, 0.3), rate(-1, 1);
-    for (int k = 0; k < states; ++k) {
-        Start start = start_of(others);
-        for (double& q : start.q) q += away(random) * (1 + std::abs(q));
+    std::uniform_real_distribution<double> rate(-1, 1);
+    // A position may follow from the others on one branch of their positions only, and that is where all hold. The
+    // rates are those that the others allow.
+    for (Start& start : places_on_branch(all, program, start_of(others), states, 2, false)) {
         try {
-            // A position may follow from the others on one branch of their positions only, and that is where all
-            // hold. The rates are those that the others allow.
-            assemble(start, all, program, {}, false);
             for (double& u : start.qdot) u += rate(random);
             assemble(start, others, constraints, {});
         } catch (const std::runtime_error&) {

@@ -14,7 +14,7 @@ namespace alembert {
 
 /// The positions (in Mechanism::constraints) of constraints whose row of A is a combination of the rows that are
 /// kept before it. Holonomic constraints come first, then those that are independent at the initial state, each in
-/// the order of the scene. The rank is taken at eight states of the constraint variety around the initial state,
+/// the order of the scene. The rank is taken at eight states on the branch of the initial state (branch.hpp),
 /// sampled with a fixed seed, and at the initial state itself if its rank is not lower. The answer is based on
 /// samples and floating point: a row counts as dependent if less than 1e-9 of it is not a combination of the
 /// others. Empty if the initial state cannot be assembled.

@@ -12,6 +12,7 @@
 #include "lower/lower.hpp"
 #include "model/constraint.hpp"
 #include "model/sample_functions.hpp"
+#include "program/rounding.hpp"
 #include "state/assemble.hpp"
 #include "state/contradiction.hpp"
 #include "state/sum_of_squares.hpp"
@@ -37,14 +38,25 @@ public:
         const std::vector<double> value = interpret(program_, state);
         Eigen::MatrixXd A(positions_.size(), n_);
         for (Eigen::Index r = 0; r < A.rows(); ++r)
-            for (Eigen::Index i = 0; i < n_; ++i)
-                A(r, i) = value[static_cast<std::size_t>(
-                    nodes_[static_cast<std::size_t>(positions_[static_cast<std::size_t>(r)] * n_ + i)])];
+            for (Eigen::Index i = 0; i < n_; ++i) A(r, i) = value[node(r, i)];
         return A;
+    }
+    /// The largest rounding error in each row.
+    Eigen::VectorXd roundings_at(const State<double>& state) const {
+        const std::vector<double> error = rounding_errors(program_, state);
+        Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(positions_.size()));
+        for (Eigen::Index r = 0; r < result.size(); ++r)
+            for (Eigen::Index i = 0; i < n_; ++i) result[r] = std::max(result[r], error[node(r, i)]);
+        return result;
     }
     const Program& program() const { return program_; }
 
 private:
+    std::size_t node(Eigen::Index row, Eigen::Index column) const {
+        return static_cast<std::size_t>(
+            nodes_[static_cast<std::size_t>(positions_[static_cast<std::size_t>(row)] * n_ + column)]);
+    }
+
     Program program_;
     std::vector<int> nodes_;
     Eigen::Index n_;
@@ -112,7 +124,9 @@ bool has_one_sign(const HolonomicRows& rows, const State<double>& state, const E
     }
     if (!Q.allFinite()) return false;
     const Eigen::VectorXd values = eigenpairs((Q + Q.transpose()) / 2).values;
-    const double nothing = 1e-3 * size, least = values[0], most = values[values.size() - 1];
+    // Where all terms vanish, as for two points that move in parallel, there is only rounding.
+    const double rounded = lambda.cwiseAbs().dot(rows.roundings_at(state)) / step;
+    const double nothing = std::max(1e-3 * size, 4 * rounded), least = values[0], most = values[values.size() - 1];
     return (most > nothing && least > -nothing) || (least < -nothing && most < nothing);
 }
 

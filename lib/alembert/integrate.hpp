@@ -88,6 +88,7 @@ struct Options {
     double step = 0;  ///< the step of methods with a fixed step, and of taylor if given; for the others the first
                       ///< step, found automatically if 0
     double longest_step = 0;  ///< for adaptive methods; 0 means no bound
+    double first_share = 1;   ///< a first step that is found automatically is multiplied by this
     std::vector<QuickTime> quick_times =
         {};             ///< for adaptive methods: the times at which steps have to be shorter (quick_times.hpp)
     double sample = 0;  ///< time between rows; 0: duration/200

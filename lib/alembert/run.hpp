@@ -154,8 +154,8 @@ private:
         if constexpr (requires { step_.first_length(); }) {
             h = step_.first_length();
         } else if (h == 0) {
-            h = starting_step(step_.rhs(), step_.time(), step_.state(), step_.rate(), tolerance_,
-                              AnyStep::estimate_order, longest);
+            h = options_.first_share * starting_step(step_.rhs(), step_.time(), step_.state(), step_.rate(),
+                                                     tolerance_, AnyStep::estimate_order, longest);
             ++further_evaluations_;
         }
         double misfit = 0;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A step q + d with A d = 0 leaves the positions by O(|d|²), and the search of least change that follows comes
+// back by as much. A change of another size is a jump to somewhere else, and the step is halved.
+#include "state/branch.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <stdexcept>
+
+#include "alembert/dense.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr int steps = 3, most_halvings = 8;
+constexpr double step_length = 0.1;  // of 1 + |q|
+constexpr double most_corrected = 0.2;
+constexpr double search_reach = 0.3;  // of 1 + |q|
+
+class Walk {
+public:
+    Walk(const Mechanism& m, const Program& p, bool rates_must_obey, unsigned seed)
+        : m_(m),
+          p_(p),
+          left_out_(m),
+          rates_must_obey_(rates_must_obey),
+          n_(static_cast<Eigen::Index>(m.q.size())),
+          random_(seed) {
+        m_.q_is_guess.assign(m.q.size(), true);
+        m_.qdot_is_guess.assign(m.q.size(), true);
+    }
+
+    bool assembles(Start& start) const {
+        try {
+            assemble(start, m_, p_, {}, left_out_, rates_must_obey_);
+            return true;
+        } catch (const std::runtime_error&) {
+            return false;
+        }
+    }
+
+    /// The end of a walk from here; nothing if its first step is impossible.
+    std::optional<Start> from(const Start& start, bool forwards) {
+        Start here = start;
+        for (int k = 0; k < steps; ++k) {
+            const auto next = step(here, k == 0 ? along_rates(here, forwards) : by_chance(here));
+            if (!next && k == 0) return {};
+            if (next) here = *next;
+        }
+        return here;
+    }
+
+    Start beside(Start start) {
+        std::uniform_real_distribution<double> away(-search_reach, search_reach);
+        for (double& q : start.q) q += away(random_) * (1 + std::abs(q));
+        return start;
+    }
+
+private:
+    Eigen::VectorXd by_chance(const Start& here) {
+        std::uniform_real_distribution<double> away(-step_length, step_length);
+        Eigen::VectorXd result(n_);
+        for (Eigen::Index i = 0; i < n_; ++i)
+            result[i] = away(random_) * (1 + std::abs(here.q[static_cast<std::size_t>(i)]));
+        return result;
+    }
+
+    Eigen::VectorXd along_rates(const Start& here, bool forwards) {
+        double fastest = 0;
+        for (std::size_t i = 0; i < here.q.size(); ++i)
+            fastest = std::max(fastest, std::abs(here.qdot[i]) / (1 + std::abs(here.q[i])));
+        if (!(fastest > 0) || !std::isfinite(fastest)) return by_chance(here);
+        const Eigen::Map<const Eigen::VectorXd> rates(here.qdot.data(), n_);
+        return (forwards ? 1 : -1) * step_length / fastest * rates;
+    }
+
+    std::optional<Start> step(const Start& here, Eigen::VectorXd change) const {
+        const Eigen::MatrixXd A = rows_of_positions(here);
+        if (A.rows() > 0) change -= least_norm(A, A * change).x;
+        if (!change.allFinite()) return {};
+        const Eigen::Map<const Eigen::VectorXd> q(here.q.data(), n_);
+        const double nothing = 1e-6 * step_length * (1 + q.lpNorm<Eigen::Infinity>());
+        for (int k = 0; k < most_halvings; ++k, change /= 2) {
+            const double length = change.lpNorm<Eigen::Infinity>();
+            if (!(length > nothing)) return {};
+            Start there = here;
+            for (Eigen::Index i = 0; i < n_; ++i) there.q[static_cast<std::size_t>(i)] += change[i];
+            if (!assembles(there)) continue;
+            const Eigen::Map<const Eigen::VectorXd> reached(there.q.data(), n_);
+            if ((reached - q - change).lpNorm<Eigen::Infinity>() <= most_corrected * length) return there;
+        }
+        return {};
+    }
+
+    Eigen::MatrixXd rows_of_positions(const Start& here) const {
+        const std::vector<double> value = interpret(p_, here.state());
+        const std::vector<int> rows = p_.nodes_of(Group::row);
+        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(m_.constraints.size()), n_);
+        Eigen::Index count = 0;
+        for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
+            if (!m_.constraints[k].position) continue;
+            for (Eigen::Index i = 0; i < n_; ++i)
+                A(count, i) = value[static_cast<std::size_t>(rows[k * m_.q.size() + static_cast<std::size_t>(i)])];
+            ++count;
+        }
+        return A.topRows(count);
+    }
+
+    Mechanism m_;
+    const Program& p_;
+    LeftOut left_out_;
+    bool rates_must_obey_;
+    Eigen::Index n_;
+    std::mt19937_64 random_;
+};
+
+}  // namespace
+
+std::vector<Start> places_on_branch(const Mechanism& mechanism, const Program& program, const Start& start,
+                                    int wanted, unsigned seed, bool rates_must_obey) {
+    Walk walk(mechanism, program, rates_must_obey, seed);
+    std::vector<Start> result;
+    if (Start first = start; walk.assembles(first))
+        for (int k = 0; k < wanted; ++k)
+            if (auto place = walk.from(first, k % 2 == 0)) result.push_back(*std::move(place));
+    if (!result.empty()) return result;
+    for (int k = 0; k < wanted; ++k)
+        if (Start place = walk.beside(start); walk.assembles(place)) result.push_back(std::move(place));
+    return result;
+}
+
+}  // namespace alembert
