@@ -146,6 +146,7 @@ duration = 1
         CHECK(result.err.find("friction 'slide' jams") != std::string::npos);
         const Json end = Json::parse(result.out)["final"]["coordinates"];
         const double c = end["xa"].get<double>(), s = end["ya"].get<double>();
+        // θ' behaves like the root of the time that is left, which is less than 1e-12 where the steps end.
         CHECK(std::abs((1 + 4 * s * s) * c - 0.3 * s) < 1e-6);
     }
 }

@@ -136,6 +136,54 @@ TEST_CASE("taylor: a small steep change is not passed over either") {
     CHECK(std::abs(rate(motion, "x") - (1 - 4e-4) * (2 - 1 / (1 + 4e-4))) < 1e-8);
 }
 
+// A mass with the speed 1 comes to V = h exp(−((x − b)/w)²) and is late by w ∫ (1/√(1 − 2 h exp(−s²)) − 1) ds
+// after it.
+TEST_CASE("taylor: a hill that a free flight passes within a step is seen, as by other methods and in sweeps") {
+    const double h = 0.3, ds = 0.01;
+    double late = 0;
+    for (int k = -1000; k <= 1000; ++k)  // by the trapezoidal rule, which is exact to rounding here
+        late += ds * (1 / std::sqrt(1 - 2 * h * std::exp(-ds * k * ds * k)) - 1);
+    for (const auto& [b, w] : {std::pair(3.3, 0.1), {5.2, 0.1}, {8.1, 0.05}, {3.3, 0.5}}) {
+        CAPTURE(b);
+        CAPTURE(w);
+        const std::string scene = temporary("hill.toml", fmt::format(R"toml(
+[coordinates]
+x = {{ initial = 0, rate = 1 }}
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[energy]
+potential = "{}*exp(-((x - {})/{})^2)"
+[simulation]
+duration = 10
+tolerance = 1e-10
+)toml",
+                                                                     h, b, w));
+        const double end = 10 - w * late;
+        for (const char* const method : {"taylor", "auto"})
+            CHECK(std::abs(coordinate(simulated(scene, {}, method), "x") - end) < 1e-8);
+        for (const char* const method : {"dop853", "verner98"})
+            if (w >= 0.1) CHECK(std::abs(coordinate(simulated(scene, {}, method), "x") - end) < 1e-8);
+        const std::string table = temporary("hill.csv", "");
+        json_of({"sweep", scene, "--method", "taylor", "--vary", "x=0:0:1", "-o", table});
+        std::ifstream rows(table);
+        std::string line;
+        std::getline(rows, line);
+        std::getline(rows, line);
+        std::istringstream cells(line);
+        for (int k = 0; k < 3; ++k) std::getline(cells, line, ',');
+        CHECK(std::abs(std::stod(line) - end) < 1e-8);
+    }
+}
+
+TEST_CASE("taylor: steps that are kept short are not looked into") {
+    const Json motion =
+        simulated(benchmark("double_pendulum_regular"), {"--duration", "5", "--max-step", "0.005"});
+    CHECK(motion["steps"].get<int>() >= 1000);
+    CHECK(motion["evaluations"].get<int>() < 1.1 * motion["steps"].get<int>());
+}
+
 TEST_CASE("taylor: the double pendulum at t = 10 agrees with 50 digits, as far as its error growth allows") {
     // 10⁷-fold growth of local errors of 1e-14.
     const Json chaotic = simulated(benchmark("double_pendulum_chaotic"), {"--tolerance", "1e-14"});

@@ -24,11 +24,11 @@
 ///
 /// The second run has a tenth of the tolerance (half the step); if that takes more than four times the
 /// evaluations, because rounding limits the steps, it has ten times the tolerance, and the estimate is then that
-/// run's error. Its first step is half as long (twice as long): where nothing but the first steps has an error, as
-/// those of abm in a free fall from rest, the same first step would leave the same error in both runs. If the
-/// second run takes no more steps than the first, its errors may be the same, and a third run has steps of at most
-/// half the mean length. Errors that all runs have in common (rounding of initial values and
-/// of the right-hand side, a wrong scene) remain unseen. If an event stops the runs, each has its own end, and the
+/// run's error. But for taylor its first step is half as long (twice as long): where nothing but the first steps
+/// has an error, as those of abm in a free fall from rest, the same first step would leave the same error in both
+/// runs. If the second run takes no more steps than the first, its errors may be the same, and a third run has
+/// steps of at most half the mean length. Errors that all runs have in common (rounding of initial values and of
+/// the right-hand side, a wrong scene) remain unseen. If an event stops the runs, each has its own end, and the
 /// difference of these times counts like a difference of the state. A run of fewer than 16 fixed steps is also
 /// compared with one of a quarter of the step, because two such coarse runs may agree by chance.
 ///

@@ -100,12 +100,25 @@ HeldState held_state(const Switched& s, State<double> state) {
 std::optional<std::string> jamming_friction(const Switched& s, const State<double>& state) try {
     const HeldState held = held_state(s, state);
     const std::vector<double> value = interpret(held.program, held.state);
+    const auto of = [&](Group group) {
+        std::vector<double> numbers;
+        for (const int node : held.program.nodes_of(group))
+            numbers.push_back(value[static_cast<std::size_t>(node)]);
+        return numbers;
+    };
+    const std::vector<double> determinants = of(Group::determinant), normals = of(Group::normal);
+    std::vector<std::string> names;
     for (const Root& root : held.program.roots)
-        if (root.group == Group::determinant && value[static_cast<std::size_t>(root.node)] < jammed)
-            return say(
-                "friction '{}' jams: it makes its normal force {:.3g} times as large as it would be without "
-                "friction, and larger beyond all bounds (Painlevé); a smaller coefficient has a motion there",
-                root.name, 1 / value[static_cast<std::size_t>(root.node)]);
+        if (root.group == Group::determinant) names.push_back(root.name);
+    // Frictions on reactions share one determinant; that with the largest force jams.
+    std::optional<std::size_t> found;
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (determinants[k] < jammed && (!found || std::abs(normals[k]) > std::abs(normals[*found]))) found = k;
+    if (found)
+        return say(
+            "friction '{}' jams: it makes its normal force {:.3g} times as large as it would be without "
+            "friction, and larger beyond all bounds (Painlevé); a smaller coefficient has a motion there",
+            names[*found], 1 / determinants[*found]);
     return std::nullopt;
 } catch (const IntegrationError&) {  // no mode is consistent there
     return std::nullopt;

@@ -155,19 +155,18 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     const Switched& jumps = *mode.compiled.jumps;
     const Work work = compiled_.work();
     const bool with_series = needs_series(compiled_.method().method);
-    Switching system = switching_of(mode.module, start_.parameters, jumps, mode.compiled.sides, work,
-                                    mode.derived.mechanism.constraints.empty() ? nullptr : &mode.projection,
-                                    [self, work, with_series](const std::vector<double>& values) {
-                                        Rhs rhs = make_rhs(self->module, values, work);
-                                        rhs.extra = self->contact.rhs.extra;
-                                        rhs.effort = self->contact.rhs.effort;
-                                        if (with_series)
-                                            rhs.series = make_series(self->compiled.series.module, values);
-                                        if (self->derived.mechanism.constraints.empty()) return rhs;
-                                        return self->projection.guarded(
-                                            std::move(rhs), values,
-                                            friction_of_multipliers(self->compiled.jumps->program, values));
-                                    });
+    Switching system = switching_of(
+        mode.module, start_.parameters, jumps, mode.compiled.sides, work,
+        mode.derived.mechanism.constraints.empty() ? nullptr : &mode.projection, compiled_.symbols,
+        [self, work, with_series, symbols = &compiled_.symbols](const std::vector<double>& values) {
+            Rhs rhs = make_rhs(self->module, values, work);
+            rhs.extra = self->contact.rhs.extra;
+            rhs.effort = self->contact.rhs.effort;
+            if (with_series) rhs.series = make_series(self->compiled.series.module, values);
+            if (self->derived.mechanism.constraints.empty()) return rhs;
+            return self->projection.guarded(
+                std::move(rhs), values, friction_of_multipliers(self->compiled.jumps->program, values, *symbols));
+        });
     mode.side_sizes.assign(system.names.size(), 0);
     system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };
     system.on_change = [this, self](const SideChange& change) {

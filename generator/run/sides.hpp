@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 
 #include "alembert/module.hpp"
 #include "alembert/project.hpp"
@@ -37,15 +38,18 @@ private:
 std::vector<std::string> names_of_sides(const Program& program, const Switched& s);
 
 /// `smooth` is as in Switching; the caller adds the callbacks for steps and changes. `values` are the scene's
-/// parameters, without those that are held. `projection` keeps the constraints; null if there are none. It and
-/// `jumps` must outlive the result.
+/// parameters, without those that are held. `projection` keeps the constraints; null if there are none. It,
+/// `jumps` and `symbols` (below) must outlive the result.
 Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
                        std::vector<std::string> names, Work work, Projection* projection,
+                       std::recursive_mutex& symbols,
                        std::function<Rhs(const std::vector<double>& values)> smooth);
 
 /// What Projection::guarded needs where friction acts on multipliers, by interpretation; nothing where it does
-/// not. `program` must outlive it; `values` are the scene's parameters, followed by those that are held.
-ForcesOfMultipliers friction_of_multipliers(const Program& program, const std::vector<double>& values);
+/// not. `program` must outlive it, and so must `symbols`, the lock under which threads interpret it; `values` are
+/// the scene's parameters, followed by those that are held.
+ForcesOfMultipliers friction_of_multipliers(const Program& program, const std::vector<double>& values,
+                                            std::recursive_mutex& symbols);
 
 /// The scene's events, the first `count` of the module's.
 Events first_events(Events all, std::size_t count);

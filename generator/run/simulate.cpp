@@ -289,10 +289,11 @@ private:
             return translated_from_library(failure.message);
         const LoadedMode& last = modes(run_.motion.phases.back().closed);
         State<double> state = state_at(first_, failure);
-        state.parameters = with_held_parameters(std::move(state.parameters), last.program);
         std::optional<std::string> there;
-        if (last.compiled.jumps && last.compiled.jumps->has_frictions())
+        if (failure.kind == FailureKind::step_underflow && last.compiled.jumps &&
+            last.compiled.jumps->has_frictions())
             there = jamming_friction(*last.compiled.jumps, state);
+        state.parameters = with_held_parameters(std::move(state.parameters), last.program);
         if (!there) there = failure_at(last.derived, state);
         return translated_from_library(failure.message) + (there ? say("\n  there: {}", *there) : "");
     }

@@ -7,7 +7,9 @@
 ///     PackRun(ensemble, options, source, PackStep<dop853_tableau>(module, dimension, extra)).go(width);
 ///
 /// A step is a class with the members of PackStep (pack_step.hpp). One that has `next_length(lane)` chooses the
-/// length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp). Each lane has the
+/// length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp); a lane whose
+/// series does not tell how far it holds is handed back, because a run by itself looks within its steps
+/// (straight.hpp). Each lane has the
 /// step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is not finite, a
 /// step that underflows, the budget) is handed back with `again`: the member is then run by itself, and that run
 /// reports what went wrong.
@@ -25,6 +27,7 @@
 #include "alembert/ensemble.hpp"
 #include "alembert/rhs.hpp"
 #include "alembert/step_size.hpp"
+#include "alembert/straight.hpp"
 
 namespace alembert {
 
@@ -163,6 +166,12 @@ private:
                 continue;
             }
             if constexpr (!Step::has_fixed_step) set_length(i, length[i], was_finished, is_good);
+            if constexpr (has_own_lengths)
+                if (is_good && step_.time[i] != lane.end && lane.h >= good_part * options_.duration &&
+                    !step_.decays(i, lane.h)) {
+                    give_back(i);
+                    continue;
+                }
             if (has_begun) continue;
             ++(is_good ? lane.outcome.steps : lane.outcome.rejected);
             if (!is_good) continue;

@@ -190,6 +190,10 @@ double PackTaylor::next_length(int lane) const {
     return taylor_length(order_, log_tolerance_, [&](int k) { return sizes_[k + 7 - order_][lane]; });
 }
 
+bool PackTaylor::decays(int lane, double length) const {
+    return series_decays(order_, log_tolerance_, length, [&](int k) { return sizes_[k + 7 - order_][lane]; });
+}
+
 double PackTaylor::shorter_length(double h, double ratio) const {
     return h * shorter_taylor_step(order_, ratio);
 }

@@ -42,6 +42,8 @@ public:
     static int evaluations(bool was_finished) { return was_finished ? 1 : 0; }
     bool foresees_end(int lane) const { return (unforeseen_ >> lane & 1U) == 0; }
     double next_length(int lane) const;
+    /// Whether the series at the start of a lane tells how far it holds (Taylor::decays), with its next length.
+    bool decays(int lane, double length) const;
     double shorter_length(double h, double ratio) const;
 
     double state(int component, int lane) const { return y_[place(component)][lane]; }

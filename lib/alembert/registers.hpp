@@ -5,8 +5,7 @@
 ///
 ///     ALEMBERT_WIDE void sum_4(…);
 ///     ALEMBERT_WIDEST void sum_8(…);
-///     const auto sum = registers() == Registers::widest ? sum_8 : registers() == Registers::wide ? sum_4 :
-///     sum_any;
+///     const auto sum = registers() == Registers::widest ? sum_8 : sum_4;
 
 namespace alembert {
 

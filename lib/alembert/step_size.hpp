@@ -63,8 +63,8 @@ private:
 /// Nørsett, Wanner I, §II.4, "Starting step size", with the maximum norm of step.hpp. It takes one evaluation.
 /// `order` is as above. They try 1e-6 s where the state or the rate is zero, take 100 times that at most, and
 /// shorten the step for the rate alone too. Here a state at rest, which knows no time but that of the run, tries a
-/// thousandth of it; a state of zeros may move as long as its rate takes to change by itself; and a motion that,
-/// by its first change, would stay within the tolerance of a uniform one for the whole run takes a tenth of it.
+/// part of it that is no period of a load, and takes a tenth of it if the rate there would not move it beyond the
+/// tolerance in the whole run; and a state of zeros may move as long as its rate takes to change by itself.
 inline double starting_step(const Rhs& rhs, double t, const double* state, const double* rate, double tolerance,
                             int order, double longest) {
     const int controlled = rhs.dimension - rhs.extra;
@@ -77,7 +77,7 @@ inline double starting_step(const Rhs& rhs, double t, const double* state, const
     const double size = norm([&](int i) { return state[i]; });
     const double slope = norm([&](int i) { return rate[i]; });
     const bool rests = slope < 1e-5, is_zero = size < 1e-5;
-    const double first = std::min(longest, rests ? 1e-3 * longest : is_zero ? 1e-6 : 0.01 * (size / slope));
+    const double first = std::min(longest, rests ? 0.618e-3 * longest : is_zero ? 1e-6 : 0.01 * (size / slope));
 
     std::vector<double> ahead(static_cast<std::size_t>(rhs.dimension));
     std::vector<double> rate_ahead(ahead.size());
@@ -85,10 +85,10 @@ inline double starting_step(const Rhs& rhs, double t, const double* state, const
     rhs(t + first, ahead.data(), rate_ahead.data());
     const double bend = norm([&](int i) { return rate_ahead[static_cast<std::size_t>(i)] - rate[i]; }) / first;
 
-    const bool is_uniform = bend * longest * longest < 1;
+    const bool stays = rests && bend * longest * longest < 1;
     const double second = std::pow(0.01 / std::max(slope, bend), 1.0 / order);
     const double reach = is_zero && bend > 0 ? std::max(100 * first, slope / bend) : 100 * first;
-    const double step = is_uniform ? std::max(first, 0.1 * longest) : std::min({reach, second, longest});
+    const double step = stays ? std::max(first, 0.1 * longest) : std::min({reach, second, longest});
     const double told_apart = 64 * std::numeric_limits<double>::epsilon() *
                               std::abs(t);  // a state that is zero to rounding would suggest less
     return std::min(longest, std::max(std::isfinite(step) && step > 0 ? step : first, told_apart));

@@ -81,6 +81,7 @@ struct Ends {
     int size, controlled;
     double t, end = 0, h = 0;
     double end_of_run = HUGE_VAL;  ///< a step that reaches it is the last one
+    double length_of_run = HUGE_VAL;
     std::vector<double> y, rest, next, next_rest, rate, end_rate, error;
     bool knows_end_rate = false;
     long evaluations = 0;
@@ -124,7 +125,10 @@ public:
     double effort() const requires requires(const Formula f) { f.effort(); }
     { return formula_.effort(); }
 
-    void end_run_at(double t) { ends_.end_of_run = t; }
+    void end_run_at(double t) {
+        ends_.end_of_run = t;
+        ends_.length_of_run = t - ends_.t;
+    }
 
     void attempt(double end) {
         ends_.end = end;

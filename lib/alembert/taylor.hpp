@@ -30,11 +30,10 @@
 
 #include "alembert/series_sum.hpp"
 #include "alembert/stepper.hpp"
+#include "alembert/straight.hpp"
 
 namespace alembert {
 
-inline constexpr double terms_left_out = 30;     ///< what may change the slope of a step, in tolerances
-inline constexpr int places_within = 64;         ///< of a step whose series does not tell how far it holds
 inline constexpr double shortest_tried = 1e-11;  ///< of t; a jump that is no event cannot be foreseen
 inline constexpr double taylor_share = 0.005;    ///< a: the last term as a part of the tolerance
 
@@ -92,6 +91,20 @@ double taylor_length(int order, double log_tolerance, const Size& size) {
         if (const double term = size(k); term > 0 && term * power > 1)
             by_earlier = std::min(by_earlier, share - std::log(term) / k);
     return by_earlier < shortest ? std::exp(by_earlier) : length;
+}
+
+/// Whether terms before the last ones are clearly larger than these are allowed to be, at the length that these
+/// allow: so they are where the series decays geometrically. Several are asked, because a series may lack powers.
+template <typename Size>
+bool series_decays(int order, double log_tolerance, double length, const Size& size) {
+    constexpr double clearly = 10;
+    if (!(length < HUGE_VAL)) return false;
+    const double least = clearly * std::exp(log_tolerance);
+    const int first = std::max(1, order - 7);
+    double power = whole_power(length, first);
+    for (int k = first; k < order - 1; ++k, power *= length)
+        if (size(k) * power > least) return true;
+    return false;
 }
 
 /// By what a step is shortened whose last term is `ratio` times what is allowed, or whose end was not foreseen.
@@ -152,7 +165,8 @@ public:
     /// itself.
     bool foresees_end(Ends& ends) {
         if (ends.h < shortest_tried * std::max(1.0, std::abs(ends.t))) return true;  // a jump
-        return foresees(ends, 1, ends.end_rate) && (decays(ends) || foresees_within(ends));
+        return foresees(ends, 1, ends.end_rate) &&
+               (ends.h < good_part * ends.length_of_run || decays(ends) || foresees_within(ends));
     }
 
     void advance(const Ends&) { std::swap(coefficients_, next_); }
@@ -195,17 +209,11 @@ private:
         return true;
     }
 
-    /// Whether the terms in the middle of the series are clearly larger than the last ones are allowed to be, as
-    /// they are where the series decays geometrically to these. Four of them are asked, because a series may lack
-    /// powers.
+    /// Whether the series tells how far it holds; a step that was cut short has smaller terms than it might have.
     bool decays(const Ends& ends) const {
-        constexpr double clearly = 10;
-        const int middle = order_ / 2;
-        const double least = clearly * std::exp(log_tolerance_), half = whole_power(ends.h, middle - 1);
-        double power = half;
-        for (int k = middle - 1; k <= middle + 2; ++k, power *= ends.h)
-            if (ends.norm(row(k)) * power > least) return true;
-        return false;
+        const auto size = [&](int k) { return ends.norm(row(k)); };
+        return series_decays(order_, log_tolerance_, ends.h, size) ||
+               series_decays(order_, log_tolerance_, length(ends), size);
     }
 
     bool foresees_within(Ends& ends) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/straight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace alembert {
+
+bool is_clear(const Stretch& step, const Rhs& rhs, const double* rate, double tolerance, long& evaluations) {
+    constexpr double straight = 0.1;  // tolerances
+    const double h = step.end - step.start;
+    std::vector<double> state(static_cast<std::size_t>(rhs.dimension)), here(state.size());
+    const auto keeps = [&](int place, double tolerances) {
+        const double theta = static_cast<double>(place) / places_within;
+        step.interpolate(theta, state.data());
+        rhs(step.start + theta * h, state.data(), here.data());
+        ++evaluations;
+        for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {
+            const double between = (1 - theta) * rate[i] + theta * step.end_rate[i];
+            const double off = h * std::abs(here[static_cast<std::size_t>(i)] - between);
+            if (!(off <= tolerances * tolerance * std::max(1.0, std::abs(step.end_state[i])))) return false;
+        }
+        return true;
+    };
+    constexpr int quarter = places_within / 4;
+    const int count = keeps(quarter, straight) + keeps(2 * quarter, straight) + keeps(3 * quarter, straight);
+    if (count < 2) return true;
+    for (int place = 1; place < places_within; ++place)
+        if (!keeps(place, terms_left_out)) return false;
+    return true;
+}
+
+}  // namespace alembert
