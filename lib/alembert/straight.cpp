@@ -23,6 +23,12 @@ bool is_clear(const Stretch& step, const Rhs& rhs, const double* rate, double to
         }
         return true;
     };
+    step.interpolate(0, state.data());
+    for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {  // most steps end elsewhere than a straight one
+        const double end = step.end_state[i], moved = h * (rate[i] + step.end_rate[i]) / 2;
+        const double off = std::abs(end - state[static_cast<std::size_t>(i)] - moved);
+        if (!(off <= straight * tolerance * std::max(1.0, std::abs(end)))) return true;
+    }
     constexpr int quarter = places_within / 4;
     const int count = keeps(quarter, straight) + keeps(2 * quarter, straight) + keeps(3 * quarter, straight);
     if (count < 2) return true;
