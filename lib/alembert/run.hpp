@@ -237,7 +237,7 @@ private:
         if constexpr (requires { step_.foresees_end(); }) return step_.foresees_end();
         constexpr double next_to_none = 0.01;
         if (misfit > next_to_none * tolerance_ || step_.length() < good_part * options_.duration) return true;
-        return is_clear(stretch(), step_.rhs(), step_.rate(), tolerance_, further_evaluations_);
+        return is_clear(stretch(), step_.rhs(), {step_.state(), step_.rate()}, tolerance_, further_evaluations_);
     }
 
     /// Records rows and events of the step that has just been finished; then its end becomes the new start.

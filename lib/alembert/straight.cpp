@@ -7,7 +7,7 @@
 
 namespace alembert {
 
-bool is_clear(const Stretch& step, const Rhs& rhs, const double* rate, double tolerance, long& evaluations) {
+bool is_clear(const Stretch& step, const Rhs& rhs, const Beginning& from, double tolerance, long& evaluations) {
     constexpr double straight = 0.1;  // tolerances
     const double h = step.end - step.start;
     std::vector<double> state(static_cast<std::size_t>(rhs.dimension)), here(state.size());
@@ -17,16 +17,15 @@ bool is_clear(const Stretch& step, const Rhs& rhs, const double* rate, double to
         rhs(step.start + theta * h, state.data(), here.data());
         ++evaluations;
         for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {
-            const double between = (1 - theta) * rate[i] + theta * step.end_rate[i];
+            const double between = (1 - theta) * from.rate[i] + theta * step.end_rate[i];
             const double off = h * std::abs(here[static_cast<std::size_t>(i)] - between);
             if (!(off <= tolerances * tolerance * std::max(1.0, std::abs(step.end_state[i])))) return false;
         }
         return true;
     };
-    step.interpolate(0, state.data());
     for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {  // most steps end elsewhere than a straight one
-        const double end = step.end_state[i], moved = h * (rate[i] + step.end_rate[i]) / 2;
-        const double off = std::abs(end - state[static_cast<std::size_t>(i)] - moved);
+        const double end = step.end_state[i], moved = h * (from.rate[i] + step.end_rate[i]) / 2;
+        const double off = std::abs(end - from.state[i] - moved);
         if (!(off <= straight * tolerance * std::max(1.0, std::abs(end)))) return true;
     }
     constexpr int quarter = places_within / 4;
