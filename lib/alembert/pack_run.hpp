@@ -167,7 +167,7 @@ private:
             }
             if constexpr (!Step::has_fixed_step) set_length(i, length[i], was_finished, is_good);
             if constexpr (has_own_lengths)
-                if (is_good && step_.time[i] != lane.end && lane.h >= good_part * options_.duration &&
+                if (is_good && step_.time[i] != lane.end && places_within(lane.h, lane.member.duration) > 1 &&
                     !step_.decays(i, lane.h)) {
                     give_back(i);
                     continue;

@@ -236,8 +236,10 @@ private:
     bool is_foreseen_after(double misfit) {
         if constexpr (requires { step_.foresees_end(); }) return step_.foresees_end();
         constexpr double next_to_none = 0.01;
-        if (misfit > next_to_none * tolerance_ || step_.length() < good_part * options_.duration) return true;
-        return is_clear(stretch(), step_.rhs(), {step_.state(), step_.rate()}, tolerance_, further_evaluations_);
+        const int places = places_within(step_.length(), options_.duration);
+        if (misfit > next_to_none * tolerance_ || places <= 1) return true;
+        return is_clear(stretch(), places, step_.rhs(), {step_.state(), step_.rate()}, tolerance_,
+                        further_evaluations_);
     }
 
     /// Records rows and events of the step that has just been finished; then its end becomes the new start.

@@ -7,32 +7,33 @@
 
 namespace alembert {
 
-bool is_clear(const Stretch& step, const Rhs& rhs, const Beginning& from, double tolerance, long& evaluations) {
+int places_within(double length, double length_of_run) {
+    return static_cast<int>(std::ceil(std::min(1.0, length / length_of_run) * places_in_run));
+}
+
+bool is_clear(const Stretch& step, int places, const Rhs& rhs, const Beginning& from, double tolerance,
+              long& evaluations) {
     constexpr double straight = 0.1;  // tolerances
     const double h = step.end - step.start;
     std::vector<double> state(static_cast<std::size_t>(rhs.dimension)), here(state.size());
-    const auto keeps = [&](int place, double tolerances) {
-        const double theta = static_cast<double>(place) / places_within;
+    for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {  // most steps end elsewhere than a straight one
+        const double end = step.end_state[i], moved = h * (from.rate[i] + step.end_rate[i]) / 2;
+        const double off = std::abs(end - from.state[i] - moved);
+        if (!(off <= straight * tolerance * std::max(1.0, std::abs(end)))) return true;
+    }
+    const auto keeps = [&](double theta) {
         step.interpolate(theta, state.data());
         rhs(step.start + theta * h, state.data(), here.data());
         ++evaluations;
         for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {
             const double between = (1 - theta) * from.rate[i] + theta * step.end_rate[i];
             const double off = h * std::abs(here[static_cast<std::size_t>(i)] - between);
-            if (!(off <= tolerances * tolerance * std::max(1.0, std::abs(step.end_state[i])))) return false;
+            if (!(off <= terms_left_out * tolerance * std::max(1.0, std::abs(step.end_state[i])))) return false;
         }
         return true;
     };
-    for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {  // most steps end elsewhere than a straight one
-        const double end = step.end_state[i], moved = h * (from.rate[i] + step.end_rate[i]) / 2;
-        const double off = std::abs(end - from.state[i] - moved);
-        if (!(off <= straight * tolerance * std::max(1.0, std::abs(end)))) return true;
-    }
-    constexpr int quarter = places_within / 4;
-    const int count = keeps(quarter, straight) + keeps(2 * quarter, straight) + keeps(3 * quarter, straight);
-    if (count < 2) return true;
-    for (int place = 1; place < places_within; ++place)
-        if (!keeps(place, terms_left_out)) return false;
+    for (int place = 1; place < places; ++place)
+        if (!keeps(static_cast<double>(place) / places)) return false;
     return true;
 }
 

@@ -4,27 +4,32 @@
 /// What a long step of a straight motion, as free flight far from everything, may pass over: a narrow hill of the
 /// potential lies between the stages of a method, whose estimated error is zero.
 ///
-///     if (!is_clear(stretch, rhs, {state, rate}, tolerance, evaluations)) …    // repeat the step with less
-///     length
+///     const int places = places_within(h, length_of_run);
+///     if (places > 1 && !is_clear(stretch, places, rhs, {state, rate}, tolerance, evaluations))
+///         …                                                           // repeat the step with less length
 ///
-/// A step counts as straight if the rate goes from one end to the other in proportion to time at two of its three
-/// quarters. Then it has to do so at 63 places within the step: times the length of the step it may differ by
-/// terms_left_out tolerances. A step that is not straight is clear; its estimated error has seen how it bends.
+/// A step counts as straight if the state moves by the mean of the rates at its ends. Then the rate has to go from
+/// one end to the other in proportion to time, at places that are a 64th of the run apart: times the length of the
+/// step it may differ by terms_left_out tolerances. A step that is not straight is clear; its estimated error has
+/// seen how it bends.
 
 #include "alembert/events.hpp"
 #include "alembert/rhs.hpp"
 
 namespace alembert {
 
-inline constexpr int places_within = 64;      ///< of a step, one more than are looked at
+inline constexpr int places_in_run = 64;
 inline constexpr double terms_left_out = 30;  ///< what may change the slope of a step, in tolerances
-inline constexpr double good_part = 0.01;     ///< of a run; only such steps are looked at
+
+/// Into how many parts a step is divided by the places at which it is looked at: 1 for short ones.
+int places_within(double length, double length_of_run);
 
 struct Beginning {
     const double *state, *rate;
 };
 
 /// `from` is the start of the step; `evaluations` counts those that are made here.
-bool is_clear(const Stretch& step, const Rhs& rhs, const Beginning& from, double tolerance, long& evaluations);
+bool is_clear(const Stretch& step, int places, const Rhs& rhs, const Beginning& from, double tolerance,
+              long& evaluations);
 
 }  // namespace alembert

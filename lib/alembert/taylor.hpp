@@ -17,11 +17,11 @@
 /// chosen so that the time per length is least. A series knows nothing of what changes fast further on, such as a
 /// pulse or the jump of a steep tanh: a step is repeated with half its length where the rate at its end is not
 /// that of the polynomial. Where the terms of a series do not decay, as in free flight far from everything,
-/// nothing but the tolerance or the end of the run limits the step: then the rate is compared at 64 places within
-/// it, too. (What is over between two of these, or is hidden within a step whose terms decay, is not seen; steps
-/// of a given length are not checked.) If products of series take all the time, this is Jorba & Zou's order
-/// (§3.1), otherwise it is higher. The polynomial is kept, so that a state within the step only costs its
-/// evaluation. `error` is the last term.
+/// nothing but the tolerance or the end of the run limits the step: then the rate is compared within it, too, at
+/// places that are a 64th of the run apart (straight.hpp). (What is over between two of these, or is hidden within
+/// a step whose terms decay, is not seen; steps of a given length are not checked.) If products of series take all
+/// the time, this is Jorba & Zou's order (§3.1), otherwise it is higher. The polynomial is kept, so that a state
+/// within the step only costs its evaluation. `error` is the last term.
 
 #include <algorithm>
 #include <cmath>
@@ -165,8 +165,8 @@ public:
     /// itself.
     bool foresees_end(Ends& ends) {
         if (ends.h < shortest_tried * std::max(1.0, std::abs(ends.t))) return true;  // a jump
-        return foresees(ends, 1, ends.end_rate) &&
-               (ends.h < good_part * ends.length_of_run || decays(ends) || foresees_within(ends));
+        const int places = places_within(ends.h, ends.length_of_run);
+        return foresees(ends, 1, ends.end_rate) && (places <= 1 || decays(ends) || foresees_within(ends, places));
     }
 
     void advance(const Ends&) { std::swap(coefficients_, next_); }
@@ -216,10 +216,10 @@ private:
                series_decays(order_, log_tolerance_, length(ends), size);
     }
 
-    bool foresees_within(Ends& ends) {
+    bool foresees_within(Ends& ends, int places) {
         std::vector<double> state(size_), rate(size_);
-        for (int place = 1; place < places_within; ++place) {
-            const double theta = static_cast<double>(place) / places_within;
+        for (int place = 1; place < places; ++place) {
+            const double theta = static_cast<double>(place) / places;
             sum_series(coefficients_.data(), order_, static_cast<int>(size_), theta * ends.h, state.data(),
                        slopes_.data());
             for (std::size_t i = 0; i < size_; ++i) state[i] = ends.y[i] + (state[i] + ends.rest[i]);
