@@ -74,6 +74,8 @@ struct Stretch {
     double end = 0;
     const double* end_state = nullptr;
     const double* end_rate = nullptr;
+    const double* start_state = nullptr;  ///< these two are known for a step of adaptive methods
+    const double* start_rate = nullptr;
     std::function<void(double theta, double* state)> interpolate = {};
 };
 

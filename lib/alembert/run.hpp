@@ -238,8 +238,7 @@ private:
         constexpr double next_to_none = 0.01;
         const int places = places_within(step_.length(), options_.duration);
         if (misfit > next_to_none * tolerance_ || places <= 1) return true;
-        return is_clear(stretch(), places, step_.rhs(), {step_.state(), step_.rate()}, tolerance_,
-                        further_evaluations_);
+        return is_clear(stretch(), places, step_.rhs(), tolerance_, further_evaluations_);
     }
 
     /// Records rows and events of the step that has just been finished; then its end becomes the new start.
@@ -328,6 +327,8 @@ private:
                 .end = step_.end_time(),
                 .end_state = step_.end_state(),
                 .end_rate = step_.end_rate(),
+                .start_state = step_.state(),
+                .start_rate = step_.rate(),
                 .interpolate = [this](double theta, double* state) { step_.interpolate(theta, state); }};
     }
 

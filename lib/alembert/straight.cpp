@@ -11,14 +11,13 @@ int places_within(double length, double length_of_run) {
     return static_cast<int>(std::ceil(std::min(1.0, length / length_of_run) * places_in_run));
 }
 
-bool is_clear(const Stretch& step, int places, const Rhs& rhs, const Beginning& from, double tolerance,
-              long& evaluations) {
-    constexpr double straight = 0.1;  // tolerances
+bool is_clear(const Stretch& step, int places, const Rhs& rhs, double tolerance, long& evaluations) {
+    constexpr double straight = 0.1;  // tolerances: a bend that makes more is seen by the estimated error
     const double h = step.end - step.start;
     std::vector<double> state(static_cast<std::size_t>(rhs.dimension)), here(state.size());
     for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {  // most steps end elsewhere than a straight one
-        const double end = step.end_state[i], moved = h * (from.rate[i] + step.end_rate[i]) / 2;
-        const double off = std::abs(end - from.state[i] - moved);
+        const double end = step.end_state[i], moved = h * (step.start_rate[i] + step.end_rate[i]) / 2;
+        const double off = std::abs(end - step.start_state[i] - moved);
         if (!(off <= straight * tolerance * std::max(1.0, std::abs(end)))) return true;
     }
     const auto keeps = [&](double theta) {
@@ -26,7 +25,7 @@ bool is_clear(const Stretch& step, int places, const Rhs& rhs, const Beginning& 
         rhs(step.start + theta * h, state.data(), here.data());
         ++evaluations;
         for (int i = 0; i < rhs.dimension - rhs.extra; ++i) {
-            const double between = (1 - theta) * from.rate[i] + theta * step.end_rate[i];
+            const double between = (1 - theta) * step.start_rate[i] + theta * step.end_rate[i];
             const double off = h * std::abs(here[static_cast<std::size_t>(i)] - between);
             if (!(off <= terms_left_out * tolerance * std::max(1.0, std::abs(step.end_state[i])))) return false;
         }

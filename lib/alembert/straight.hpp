@@ -5,7 +5,7 @@
 /// potential lies between the stages of a method, whose estimated error is zero.
 ///
 ///     const int places = places_within(h, length_of_run);
-///     if (places > 1 && !is_clear(stretch, places, rhs, {state, rate}, tolerance, evaluations))
+///     if (places > 1 && !is_clear(stretch, places, rhs, tolerance, evaluations))
 ///         …                                                           // repeat the step with less length
 ///
 /// A step counts as straight if the state moves by the mean of the rates at its ends. Then the rate has to go from
@@ -24,12 +24,7 @@ inline constexpr double terms_left_out = 30;  ///< what may change the slope of 
 /// Into how many parts a step is divided by the places at which it is looked at: 1 for short ones.
 int places_within(double length, double length_of_run);
 
-struct Beginning {
-    const double *state, *rate;
-};
-
-/// `from` is the start of the step; `evaluations` counts those that are made here.
-bool is_clear(const Stretch& step, int places, const Rhs& rhs, const Beginning& from, double tolerance,
-              long& evaluations);
+/// The start of the step must be known; `evaluations` counts those that are made here.
+bool is_clear(const Stretch& step, int places, const Rhs& rhs, double tolerance, long& evaluations);
 
 }  // namespace alembert
