@@ -280,10 +280,15 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
         for (std::size_t b = 0; b < alone->size(); ++b)
             (*by_tree.acceleration)[n + row_of[(*alone)[b]]] = program.sum(0, {{-1, by_tree.multipliers[b]}});
     }
-    std::optional<std::vector<int>> solution = alone ? by_tree.acceleration
-                                               : normal_forces.any()
-                                                   ? normal_forces.solve(lowering, program, mass, forcing)
-                                                   : solve_symmetric(program, mass, forcing, n, witness);
+    const std::optional<NormalForces::Solution> rubbing =
+        normal_forces.any() ? normal_forces.solve(lowering, program, mass, forcing) : std::nullopt;
+    std::optional<std::vector<int>> solution;
+    if (alone)
+        solution = by_tree.acceleration;
+    else if (rubbing)
+        solution = rubbing->unknowns;
+    else if (!normal_forces.any())
+        solution = solve_symmetric(program, mass, forcing, n, witness);
     if (solution) {
         for (int i = 0; i < n; ++i)
             program.roots.push_back({Group::acceleration, fmt::format("a{}", i), (*solution)[i]});
@@ -337,14 +342,16 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
         program.roots.push_back({Group::stick_bound, f.name, bound});
         program.roots.push_back({Group::friction, f.name, lowering(f.coefficient)});
         program.roots.push_back({Group::normal, f.name, lowering(f.normal)});
-        program.roots.push_back({Group::determinant, f.name, normal_forces.determinant(program, f)});
+        program.roots.push_back(
+            {Group::determinant, f.name,
+             rubbing && normal_forces.determine(f) ? rubbing->determinant : program.number(1)});
         if (f.is_held)
             program.roots.push_back(
                 {Group::across, f.name, lowering(*f.across), static_cast<int>(&f - m.frictions.data())});
     }
-    for (const NormalForces::Column& column : normal_forces.columns())
-        for (const int node : column.nodes)
-            program.roots.push_back({Group::friction_column, "friction", node, kept[column.row]});
+    for (std::size_t k = 0; rubbing && k < rubbing->columns.size(); ++k)
+        for (const int node : rubbing->columns[k].nodes)
+            program.roots.push_back({Group::friction_column, "friction", node, kept[rubbing->columns[k].row]});
     return program.canonical();
 }
 

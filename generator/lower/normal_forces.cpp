@@ -25,10 +25,13 @@ std::vector<int> row_of(Program& program, int v, int speeds) {
     return row;
 }
 
-/// Solves a small system without row exchanges, because its diagonal dominates for friction of usual size; its
-/// determinant is written to `determinant`.
-std::vector<int> eliminated(Program& program, std::vector<std::vector<int>> a, std::vector<int> b,
-                            int& determinant) {
+struct Eliminated {
+    std::vector<int> x;
+    int determinant;
+};
+
+/// Solves a small system without row exchanges, because its diagonal dominates for friction of usual size.
+Eliminated eliminated(Program& program, std::vector<std::vector<int>> a, std::vector<int> b) {
     const std::size_t n = b.size();
     std::vector<Program::Factor> pivots;
     const auto less = [&](int x, int factor, int y) {
@@ -46,8 +49,7 @@ std::vector<int> eliminated(Program& program, std::vector<std::vector<int>> a, s
         for (std::size_t j = k + 1; j < n; ++j) b[k] = less(b[k], a[k][j], b[j]);
         b[k] = program.product(1, {{b[k], 1}, {a[k][k], -1}});
     }
-    determinant = program.product(1, pivots);
-    return b;
+    return {.x = std::move(b), .determinant = program.product(1, pivots)};
 }
 
 /// sign λ, with a source that says which friction acts on this reaction.
@@ -102,9 +104,9 @@ void NormalForces::leave_out(Lowering& lowering, Program& program) const {
     for (const GiNaC::symbol& lambda : multipliers_) lowering.define(lambda, program.number(0));
 }
 
-std::optional<std::vector<int>> NormalForces::solve(Lowering& lowering, Program& program,
-                                                    const std::vector<int>& matrix,
-                                                    const std::vector<int>& right) const {
+std::optional<NormalForces::Solution> NormalForces::solve(Lowering& lowering, Program& program,
+                                                          const std::vector<int>& matrix,
+                                                          const std::vector<int>& right) const {
     std::vector<std::vector<int>> sides{right};
     for (const Pressed& pressed : pressed_) {
         std::vector<std::vector<Program::Term>> terms(right.size());
@@ -130,15 +132,14 @@ std::optional<std::vector<int>> NormalForces::solve(Lowering& lowering, Program&
     }
     const auto found = solve_for_sides(program, matrix, sides, e_.size());
     if (!found) return std::nullopt;
-    std::vector<int> x = (*found)[0];
-    std::vector<int> signs;
-    const std::vector<int> normal = forces(program, *found, signs);
-    columns_.clear();
+    const auto [normal, signs, determinant] = forces(program, *found);
+    Solution solution{.unknowns = (*found)[0], .determinant = determinant, .columns = {}};
     for (std::size_t k = 0; k < pressed_.size(); ++k) {
-        columns_.push_back({.row = pressed_[k].row, .nodes = {}});
-        for (std::size_t i = 0; i < static_cast<std::size_t>(e_.size()); ++i)
-            columns_.back().nodes.push_back(program.product(1, {{signs[k], 1}, {sides[k + 1][i], 1}}));
+        std::vector<int> nodes(sides[k + 1].begin(), sides[k + 1].begin() + e_.size());
+        for (int& node : nodes) node = program.product(1, {{signs[k], 1}, {node, 1}});
+        solution.columns.push_back({.row = pressed_[k].row, .nodes = std::move(nodes)});
     }
+    std::vector<int>& x = solution.unknowns;
     for (std::size_t i = 0; i < x.size(); ++i) {
         std::vector<Program::Term> terms{{1, x[i]}};
         for (std::size_t k = 0; k < normal.size(); ++k)
@@ -147,7 +148,7 @@ std::optional<std::vector<int>> NormalForces::solve(Lowering& lowering, Program&
     }
     for (std::size_t k = 0; k < pressed_.size(); ++k)
         if (pressed_[k].may_pull) lowering.define(pressed_[k].frictions[0]->normal, normal[k]);
-    return x;
+    return solution;
 }
 
 /// N for the solutions x and y_k, and the signs s_k. The signs of reactions that may pull are those for N = 0;
@@ -155,8 +156,7 @@ std::optional<std::vector<int>> NormalForces::solve(Lowering& lowering, Program&
 /// = |λ(x) + D N| (Mangasarian, Optim. Lett. 3 (2009) 101). It ends when no sign changes. Of 24,700 random systems
 /// of two and three reactions with D up to 2 all had ended after as many rounds; of four and five one in 23,700
 /// had not, which is why they are refused.
-std::vector<int> NormalForces::forces(Program& program, const std::vector<std::vector<int>>& found,
-                                      std::vector<int>& signs) const {
+NormalForces::Forces NormalForces::forces(Program& program, const std::vector<std::vector<int>>& found) const {
     const auto n = static_cast<std::size_t>(e_.size());
     const std::size_t count = pressed_.size();
     std::vector<int> alone, lambda;
@@ -172,8 +172,7 @@ std::vector<int> NormalForces::forces(Program& program, const std::vector<std::v
     lambda = alone;
     for (std::size_t round = 0;; ++round) {
         std::vector<std::vector<int>> a(count);
-        std::vector<int> b;
-        signs.clear();
+        std::vector<int> b, signs;
         for (std::size_t k = 0; k < count; ++k) {
             const int s =
                 pressed_[k].may_pull
@@ -184,22 +183,21 @@ std::vector<int> NormalForces::forces(Program& program, const std::vector<std::v
             for (std::size_t j = 0; j < count; ++j)
                 a[k].push_back(program.sum(j == k ? 1 : 0, {{-1, program.product(1, {{s, 1}, {D[k][j], 1}})}}));
         }
-        const std::vector<int> normal = eliminated(program, a, b, determinant_);
-        if (round + 1 == rounds) return normal;
+        Eliminated solved = eliminated(program, a, b);
+        if (round + 1 == rounds)
+            return {.normal = std::move(solved.x), .signs = std::move(signs), .determinant = solved.determinant};
         for (std::size_t k = 0; k < count; ++k) {
             std::vector<Program::Term> terms{{1, alone[k]}};
             for (std::size_t j = 0; j < count; ++j)
-                terms.emplace_back(1, program.product(1, {{D[k][j], 1}, {normal[j], 1}}));
+                terms.emplace_back(1, program.product(1, {{D[k][j], 1}, {solved.x[j], 1}}));
             lambda[k] = program.sum(0, terms);
         }
     }
 }
 
-int NormalForces::determinant(Program& program, const Mechanism::Friction& f) const {
-    const bool own = f.multiplier && std::any_of(pressed_.begin(), pressed_.end(), [&](const Pressed& p) {
-                         return p.multiplier.is_equal(*f.multiplier);
-                     });
-    return own && determinant_ >= 0 ? determinant_ : program.number(1);
+bool NormalForces::determine(const Mechanism::Friction& f) const {
+    return f.multiplier && std::any_of(pressed_.begin(), pressed_.end(),
+                                       [&](const Pressed& p) { return p.multiplier.is_equal(*f.multiplier); });
 }
 
 }  // namespace alembert

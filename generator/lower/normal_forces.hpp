@@ -26,18 +26,21 @@ public:
     const std::vector<GiNaC::symbol>& multipliers() const { return multipliers_; }
     /// Sets these normal forces to 0 from now on.
     void leave_out(Lowering& lowering, Program& program) const;
-    /// Solves for (u', −λ) with the lower triangle of [M Aᵀ; A 0] and its right-hand side, and defines N.
-    std::optional<std::vector<int>> solve(Lowering& lowering, Program& program, const std::vector<int>& matrix,
-                                          const std::vector<int>& right) const;
-    /// After `solve`: the divisor of this friction's N; 1 if N does not depend on friction.
-    int determinant(Program& program, const Mechanism::Friction& f) const;
-
-    /// After `solve`: the friction on each multiplier that has some, s_k c_k.
+    /// The friction on one multiplier, s_k c_k.
     struct Column {
         std::size_t row;  ///< the row in A
         std::vector<int> nodes;
     };
-    const std::vector<Column>& columns() const { return columns_; }
+    struct Solution {
+        std::vector<int> unknowns;  ///< u', −λ
+        int determinant;            ///< of 1 − S D
+        std::vector<Column> columns;
+    };
+    /// Solves with the lower triangle of [M Aᵀ; A 0] and its right-hand side, and defines N.
+    std::optional<Solution> solve(Lowering& lowering, Program& program, const std::vector<int>& matrix,
+                                  const std::vector<int>& right) const;
+    /// Whether the normal force of this friction depends on friction.
+    bool determine(const Mechanism::Friction& f) const;
 
 private:
     struct Pressed {
@@ -47,14 +50,15 @@ private:
         std::vector<const Mechanism::Friction*> frictions = {};
     };
 
-    std::vector<int> forces(Program& program, const std::vector<std::vector<int>>& found,
-                            std::vector<int>& signs) const;
+    struct Forces {
+        std::vector<int> normal, signs;
+        int determinant;
+    };
+    Forces forces(Program& program, const std::vector<std::vector<int>>& found) const;
 
     const Equations& e_;
     std::vector<Pressed> pressed_;
     std::vector<GiNaC::symbol> multipliers_;
-    mutable int determinant_ = -1;
-    mutable std::vector<Column> columns_;
 };
 
 }  // namespace alembert
