@@ -8,6 +8,7 @@
 #include "alembert/taylor.hpp"
 #include "language/say.hpp"
 #include "run/first_accelerations.hpp"
+#include "run/friction_of_multipliers.hpp"
 #include "run/held_state.hpp"
 #include "run/sides.hpp"
 #include "run/sundials_methods.hpp"
@@ -155,17 +156,23 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     const Switched& jumps = *mode.compiled.jumps;
     const Work work = compiled_.work();
     const bool with_series = needs_series(compiled_.method().method);
+    const FrictionAt friction = friction_of_multipliers(jumps.program, compiled_.symbols);
+    const auto correct = [this, self, friction, held = jumps.held()](
+                             double t, const double* y, const double* sigma, const double* par, double* rate) {
+        if (!self->projection.is_near_singular()) return;
+        std::vector<double> values = start_.parameters;
+        values.insert(values.end(), sigma, sigma + held);
+        self->projection.accelerations(t, y, par, friction(values), rate + self->program.coordinates.size());
+    };
+    const bool constrained = !mode.derived.mechanism.constraints.empty();
     Switching system = switching_of(
-        mode.module, start_.parameters, jumps, mode.compiled.sides, work,
-        mode.derived.mechanism.constraints.empty() ? nullptr : &mode.projection, compiled_.symbols,
-        [self, work, with_series, symbols = &compiled_.symbols](const std::vector<double>& values) {
+        mode.module, start_.parameters, jumps, mode.compiled.sides, work, constrained ? correct : Correction(),
+        [self, work, with_series, constrained, friction](const std::vector<double>& values) {
             Rhs rhs = make_rhs(self->module, values, work);
             rhs.extra = self->contact.rhs.extra;
             rhs.effort = self->contact.rhs.effort;
             if (with_series) rhs.series = make_series(self->compiled.series.module, values);
-            if (self->derived.mechanism.constraints.empty()) return rhs;
-            return self->projection.guarded(
-                std::move(rhs), values, friction_of_multipliers(self->compiled.jumps->program, values, *symbols));
+            return constrained ? self->projection.guarded(std::move(rhs), values, friction(values)) : rhs;
         });
     mode.side_sizes.assign(system.names.size(), 0);
     system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "language/say.hpp"
-#include "program/interpret.hpp"
 
 namespace alembert {
 
@@ -120,24 +119,19 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
 }
 
 Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
-                       std::vector<std::string> names, Work work, Projection* projection,
-                       std::recursive_mutex& symbols,
+                       std::vector<std::string> names, Work work, Correction correct,
                        std::function<Rhs(const std::vector<double>& values)> smooth) {
     const std::size_t count = names.size(), more = jumps.has_frictions() ? 2 * count : 0;
     const auto held = std::make_shared<HeldParameters>(module, values, jumps.held());
     Switching system;
     system.names = std::move(names);
     system.pairs = jumps.pairs;
-    system.rates = [module, held, work, projection, &jumps, &symbols](double t, const double* y,
+    system.rates = [module, held, work, correct = std::move(correct)](double t, const double* y,
                                                                       const double* sigma, double* rate) {
         const alembert_solver_table& table = module.table();
         const double* const par = held->with(sigma);
         table.rhs(t, y, par, rate);
-        if (projection != nullptr && projection->is_near_singular()) {
-            const std::vector<double> values = held->values({sigma, sigma + jumps.held()});
-            projection->accelerations(t, y, par, friction_of_multipliers(jumps.program, values, symbols),
-                                      rate + table.coordinates);
-        }
+        if (correct) correct(t, y, sigma, par, rate);
         if (work == Work::left_out) return;
         double energy[4], jacobi = 0;
         table.energy(t, y, rate, par, energy, &jacobi);
@@ -156,31 +150,6 @@ Switching switching_of(const Module& module, const std::vector<double>& values, 
         return smooth(held->values(sigma));
     };
     return system;
-}
-
-ForcesOfMultipliers friction_of_multipliers(const Program& program, const std::vector<double>& values,
-                                            std::recursive_mutex& symbols) {
-    std::vector<const Root*> entries;
-    for (const Root& root : program.roots)
-        if (root.group == Group::friction_column) entries.push_back(&root);
-    if (entries.empty()) return {};
-    return [&program, &symbols, entries,
-            state = State<double>{.parameters = values, .q = {}, .qdot = {}, .qddot = {}}](
-               double t, const double* y) mutable {
-        const auto n = static_cast<std::ptrdiff_t>(program.coordinates.size()),
-                   s = program.speeds.empty() ? n : static_cast<std::ptrdiff_t>(program.speeds.size());
-        state.t = t;
-        state.q.assign(y, y + n);
-        state.qdot.assign(y + n, y + n + s);
-        const std::lock_guard lock(symbols);
-        const std::vector<double> value = interpret(program, state);
-        const auto constraints = static_cast<Eigen::Index>(program.nodes_of(Group::velocity).size());
-        Eigen::MatrixXd C = Eigen::MatrixXd::Zero(s, constraints);
-        for (std::size_t k = 0; k < entries.size(); ++k)
-            C(static_cast<Eigen::Index>(k) % s, entries[k]->constraint) =
-                value[static_cast<std::size_t>(entries[k]->node)];
-        return C;
-    };
 }
 
 Events first_events(Events all, std::size_t count) {

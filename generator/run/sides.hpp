@@ -9,10 +9,8 @@
 
 #include <functional>
 #include <memory>
-#include <mutex>
 
 #include "alembert/module.hpp"
-#include "alembert/project.hpp"
 #include "alembert/switching.hpp"
 #include "program/switches.hpp"
 
@@ -37,19 +35,15 @@ private:
 /// `program` is the one from which `s` was made.
 std::vector<std::string> names_of_sides(const Program& program, const Switched& s);
 
-/// `smooth` is as in Switching; the caller adds the callbacks for steps and changes. `values` are the scene's
-/// parameters, without those that are held. `projection` keeps the constraints; null if there are none. It,
-/// `jumps` and `symbols` (below) must outlive the result.
-Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
-                       std::vector<std::string> names, Work work, Projection* projection,
-                       std::recursive_mutex& symbols,
-                       std::function<Rhs(const std::vector<double>& values)> smooth);
+/// Corrects the rates at a state for given σ, where the constraints need it; `par` is with these σ. May be empty.
+using Correction =
+    std::function<void(double t, const double* y, const double* sigma, const double* par, double* rate)>;
 
-/// What Projection::guarded needs where friction acts on multipliers, by interpretation; nothing where it does
-/// not. `program` must outlive it, and so must `symbols`, the lock under which threads interpret it; `values` are
-/// the scene's parameters, followed by those that are held.
-ForcesOfMultipliers friction_of_multipliers(const Program& program, const std::vector<double>& values,
-                                            std::recursive_mutex& symbols);
+/// `smooth` is as in Switching; the caller adds the callbacks for steps and changes. `values` are the scene's
+/// parameters, without those that are held.
+Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
+                       std::vector<std::string> names, Work work, Correction correct,
+                       std::function<Rhs(const std::vector<double>& values)> smooth);
 
 /// The scene's events, the first `count` of the module's.
 Events first_events(Events all, std::size_t count);
