@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linkages that pass a pose in which their constraints lose rank, beside a block C of mass 1 that is independent
-// of them and has a closed form. The crank A and the rod AB have length 1, and B slides along y = 0: with B at the
-// pivot the rows of the crank, the rod and the guide depend on each other.
+// A linkage passes a pose in which its constraints lose rank (inline_slider.hpp), beside a block C of mass 1 that
+// is independent of it and has a closed form.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "contacts.hpp"
 #include "files.hpp"
+#include "inline_slider.hpp"
 
 namespace commands_flat {
 
@@ -18,41 +18,17 @@ namespace {
 
 /// The position and speed of C after one second, with its initial rate, and with what acts on it.
 Json motion_beside_linkage(const std::string& rate, const std::string& acts, const char* method) {
-    const std::string scene = temporary("flat_beside.toml", R"toml(
-gravity = [0, -9.81]
-[coordinates]
-xa = { guess = 0.5, rate_guess = -0.87 }
-ya = { guess = 0.87, rate_guess = 0.5 }
-xb = { initial = 1, rate = -1.7 }
-yb = { guess = 0, rate_guess = 0 }
-xc = { initial = 0, rate = )toml" + rate + R"toml( }
-yc = 0
-[[particle]]
-name = "A"
-mass = 1
-position = ["xa", "ya"]
-[[particle]]
-name = "B"
-mass = 1
-position = ["xb", "yb"]
+    const std::string scene =
+        temporary("flat_beside.toml", "gravity = [0, -9.81]\n" +
+                                          inline_slider("xc = { initial = 0, rate = " + rate + " }\nyc = 0\n") +
+                                          R"toml(
 [[particle]]
 name = "C"
 mass = 1
 position = ["xc", "yc"]
 [[constraint]]
-name = "crank"
-holonomic = "xa^2 + ya^2 = 1"
-[[constraint]]
-name = "guide"
-holonomic = "yb = 0"
-[[constraint]]
-name = "rod"
-holonomic = "(xa - xb)^2 + (ya - yb)^2 = 1"
-[[constraint]]
 name = "floor"
 holonomic = "yc = 0"
-[simulation]
-duration = 1
 )toml" + acts);
     return json_of({"simulate", scene, "--method", method, "--tolerance", "1e-11"});
 }

@@ -11,6 +11,7 @@
 #include "contacts.hpp"
 #include "edits.hpp"
 #include "files.hpp"
+#include "inline_slider.hpp"
 
 namespace commands_painleve {
 
@@ -103,40 +104,16 @@ duration = 0.001
     CHECK(told >= 2);
 }
 
-// The crank A and the rod AB have length 1 and B slides along y = 0 with friction: x_B = 2 cos θ. With the tension
+// B slides with friction: x_B = 2 cos θ, θ being the angle of the crank (inline_slider.hpp). With the tension
 // S of the rod θ'' = −2 S sin θ cos θ, and from the equation of B, S ((1 + 4 sin²θ) cos θ − μ sin θ) = 2 θ'² cos θ
 // while B goes inward and S > 0. Where the factor of S becomes zero the slider jams, before it comes to the pivot.
 TEST_CASE("painleve: a slider whose friction lets its normal force grow without bound stops there, and is named") {
-    const std::string scene = temporary("inline_slider.toml", R"toml(
-[coordinates]
-xa = { guess = 0.5, rate_guess = -0.87 }
-ya = { guess = 0.87, rate_guess = 0.5 }
-xb = { initial = 1, rate = -1.7 }
-yb = { guess = 0, rate_guess = 0 }
-[[particle]]
-name = "A"
-mass = 1
-position = ["xa", "ya"]
-[[particle]]
-name = "B"
-mass = 1
-position = ["xb", "yb"]
-[[constraint]]
-name = "crank"
-holonomic = "xa^2 + ya^2 = 1"
-[[constraint]]
-name = "guide"
-holonomic = "yb = 0"
-[[constraint]]
-name = "rod"
-holonomic = "(xa - xb)^2 + (ya - yb)^2 = 1"
+    const std::string scene = temporary("inline_slider.toml", inline_slider() + R"toml(
 [[friction]]
 name = "slide"
 coefficient = 0.3
 slip = "xb'"
 on = "guide"
-[simulation]
-duration = 1
 )toml");
     for (const char* const method : {"verner98", "taylor", "radau"}) {
         CAPTURE(method);
