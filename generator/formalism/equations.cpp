@@ -3,6 +3,13 @@
 
 namespace alembert {
 
+Equations::Equations() = default;
+Equations::Equations(const Equations&) = default;
+Equations::Equations(Equations&&) noexcept = default;
+Equations& Equations::operator=(const Equations&) = default;
+Equations& Equations::operator=(Equations&&) noexcept = default;
+Equations::~Equations() = default;
+
 Mechanism in_terms_of(const Equations& equations, const Mechanism& mechanism) {
     Mechanism result = mechanism;
     result.z = std::make_shared<Intermediates>(*equations.z);

@@ -32,6 +32,14 @@ inline bool speeds_are_rates(const std::vector<GiNaC::symbol>& u, const std::vec
 }
 
 struct Equations {
+    // Defined in one file: inline, every file that holds one would compile the copies of all its parts.
+    Equations();
+    Equations(const Equations&);
+    Equations(Equations&&) noexcept;
+    Equations& operator=(const Equations&);
+    Equations& operator=(Equations&&) noexcept;
+    ~Equations();
+
     std::string formalism;            ///< its name: "lagrange"
     std::vector<GiNaC::symbol> q, u;  ///< coordinates; speeds
     std::vector<GiNaC::symbol> udot;  ///< the unknowns

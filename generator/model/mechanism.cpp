@@ -31,6 +31,13 @@ void append(Intermediates::Direction& direction, const std::vector<GiNaC::symbol
 
 }  // namespace
 
+Mechanism::Mechanism() = default;
+Mechanism::Mechanism(const Mechanism&) = default;
+Mechanism::Mechanism(Mechanism&&) noexcept = default;
+Mechanism& Mechanism::operator=(const Mechanism&) = default;
+Mechanism& Mechanism::operator=(Mechanism&&) noexcept = default;
+Mechanism::~Mechanism() = default;
+
 std::vector<const Mechanism::Constraint*> Mechanism::undetermined() const {
     std::vector<const Constraint*> result;
     for (const Unilateral& u : unilateral) result.push_back(&u.gap);

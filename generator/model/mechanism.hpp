@@ -97,6 +97,14 @@ struct Rotor {
 };
 
 struct Mechanism {
+    // Defined in one file: inline, every file that holds one would compile the copies of all its parts.
+    Mechanism();
+    Mechanism(const Mechanism&);
+    Mechanism(Mechanism&&) noexcept;
+    Mechanism& operator=(const Mechanism&);
+    Mechanism& operator=(Mechanism&&) noexcept;
+    ~Mechanism();
+
     struct Parameter {
         GiNaC::symbol symbol;
         GiNaC::ex value;  ///< an exact number, or an expression in other parameters

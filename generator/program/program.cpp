@@ -58,6 +58,13 @@ bool same(const Node& a, const Node& b) {
 
 }  // namespace
 
+Program::Program() = default;
+Program::Program(const Program&) = default;
+Program::Program(Program&&) noexcept = default;
+Program& Program::operator=(const Program&) = default;
+Program& Program::operator=(Program&&) noexcept = default;
+Program::~Program() = default;
+
 const char* name_of(Op op) {
     return op_names[static_cast<std::size_t>(op)];
 }

@@ -161,6 +161,14 @@ struct Operations {
 
 class Program {
 public:
+    // Defined in one file: inline, every file that holds one would compile the copies of all its parts.
+    Program();
+    Program(const Program&);
+    Program(Program&&) noexcept;
+    Program& operator=(const Program&);
+    Program& operator=(Program&&) noexcept;
+    ~Program();
+
     using Term = std::pair<Rational, int>;  ///< coefficient, node
     using Factor = std::pair<int, int>;     ///< node, exponent
 

@@ -271,6 +271,14 @@ struct Claim {
 };
 
 struct Scene {
+    // Defined in one file: inline, every file that holds one would compile the copies of all its parts.
+    Scene();
+    Scene(const Scene&);
+    Scene(Scene&&) noexcept;
+    Scene& operator=(const Scene&);
+    Scene& operator=(Scene&&) noexcept;
+    ~Scene();
+
     std::string file;  ///< the name of the file as the user gave it
     std::string text;  ///< the whole file, for messages that show its lines
     std::string title, source, notes;
