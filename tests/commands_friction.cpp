@@ -15,6 +15,7 @@
 #include "edits.hpp"
 #include "files.hpp"
 #include "json.hpp"
+#include "solved.hpp"
 
 namespace commands_friction {
 
@@ -52,8 +53,9 @@ struct Ladder {
         const double m = 10, l = 2, f = 0.2, w = 0.3, c = std::cos(theta), s = std::sin(theta);
         Eigen::Matrix3d A;
         A << m * l * c, f, -1, -m * l * s, -1, -w, m * l * l / 3, -l * s + f * l * c, l * c + w * l * s;
-        return A.partialPivLu().solve(
-            Eigen::Vector3d(m * l * s * rate * rate, m * l * c * rate * rate - m * g, 0));
+        return alembert::test::solved(A,
+                                      Eigen::Vector3d(m * l * s * rate * rate, m * l * c * rate * rate - m * g, 0))
+            .value();
     }
     double wall() const { return solved(theta, rate)[2]; }
     Ladder after(double h) const {

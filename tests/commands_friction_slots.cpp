@@ -12,6 +12,7 @@
 #include "contacts.hpp"
 #include "edits.hpp"
 #include "files.hpp"
+#include "solved.hpp"
 
 namespace commands_friction_slots {
 
@@ -143,21 +144,23 @@ struct Rubbed {
         for (auto* matrix : {&A, &w})
             for (Eigen::Index i = 0; i < 12; ++i) (*matrix)(i / 4, i % 4) = uniform(random);
         for (Eigen::Index i = 0; i < 4; ++i) F[i] = 5 * uniform(random);
-        rate = A.fullPivLu().kernel().col(0).normalized();
+        const Eigen::Matrix3d first = A.leftCols<3>();
+        rate << alembert::test::solved(first, -A.col(3)).value(), 1;  // A rate = 0
+        rate.normalize();
         mu = 0.25 + 0.25 * uniform(random);
     }
 
     /// λ = alone + D N for the normal forces N.
-    Eigen::Vector3d alone() const { return -(A * A.transpose()).ldlt().solve(A * F); }
+    Eigen::Vector3d alone() const { return -alembert::test::solved(A * A.transpose(), A * F).value(); }
     Eigen::Matrix3d D() const {
         Eigen::Matrix<double, 4, 3> c;
         for (Eigen::Index k = 0; k < 3; ++k)
             c.col(k) = -mu * std::copysign(1.0, w.row(k).dot(rate)) * w.row(k).transpose();
-        return -(A * A.transpose()).ldlt().solve(A * c);
+        return -alembert::test::solved(A * A.transpose(), A * c).value();
     }
     Eigen::Vector3d normal(const Eigen::Vector3d& signs) const {
         const Eigen::Matrix3d S = signs.asDiagonal();
-        return (Eigen::Matrix3d::Identity() - S * D()).fullPivLu().solve(S * alone());
+        return alembert::test::solved(Eigen::Matrix3d::Identity() - S * D(), S * alone()).value();
     }
     /// λ for each choice of signs that agrees with the λ that it gives. There is one if no choice has a
     /// determinant that is small or negative.

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "alembert/dense.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
@@ -291,9 +292,8 @@ TEST_CASE("import: equalities of MJCF accelerate from rest as MuJoCo's mass matr
     Eigen::VectorXd f(m.nv);
     for (int i = 0; i < m.nv; ++i) f[i] = d.qfrc_passive[i] - d.qfrc_bias[i];
     // M a = f + Jᵀλ, J a = 0. Some rows of J depend on others.
-    const Eigen::MatrixXd W = M.ldlt().solve(J.transpose());
-    const Eigen::VectorXd free = M.ldlt().solve(f),
-                          lambda = (J * W).completeOrthogonalDecomposition().solve(J * free),
+    const Eigen::MatrixXd W = solve_symmetric(M, J.transpose());
+    const Eigen::VectorXd free = solve_symmetric(M, f), lambda = least_norm(J * W, J * free).x,
                           a = free - W * lambda;
     check_against(in_scene(mj, told["names"]["coordinates"], a.data()), scene);
 }

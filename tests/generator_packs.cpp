@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "alembert/compile.hpp"
+#include "alembert/dense.hpp"
 #include "alembert/packs.hpp"
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
@@ -121,7 +122,7 @@ void agrees(const Mechanism& mechanism, const Program& program, const Module& mo
             }
             const Eigen::Map<const Eigen::MatrixXd> M(expected.mass.data(), static_cast<Eigen::Index>(n),
                                                       static_cast<Eigen::Index>(n));
-            const Eigen::VectorXd sigma = M.jacobiSvd().singularValues();
+            const Eigen::VectorXd sigma = singular_values(M).values;
             const double condition = sigma[0] / sigma[sigma.size() - 1],
                          scale = largest(program, size, Group::forcing) / sigma[sigma.size() - 1];
             if (condition < 1e6)

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "alembert/compile.hpp"
+#include "alembert/dense.hpp"
 #include "alembert/project.hpp"
 #include "emit/emit.hpp"
 #include "formalism/routh.hpp"
@@ -44,7 +45,7 @@ Seen seen(const Module& module, const std::vector<double>& par, const std::vecto
 
 /// The part of M x that is no combination of the rows of A, relative to |M x|.
 double off_span(const Seen& s, const VectorXd& x) {
-    const VectorXd force = s.M * x, multipliers = s.A.transpose().colPivHouseholderQr().solve(force);
+    const VectorXd force = s.M * x, multipliers = least_norm(s.A.transpose(), force).x;
     return (force - s.A.transpose() * multipliers).norm() / force.norm();
 }
 

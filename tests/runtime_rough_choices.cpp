@@ -99,9 +99,9 @@ std::optional<std::vector<Weighed>> weighed(const MatrixXd& M, const VectorXd& f
                 K(row + 1, row) = modes[i] == 1 ? c.coefficient : -c.coefficient;
             }
         }
-        const Eigen::FullPivLU<MatrixXd> lu(K);
-        if (!lu.isInvertible()) return std::nullopt;
-        const VectorXd x = lu.solve(right);
+        const std::optional<MatrixXd> solution = test::solved(K, right);
+        if (!solution) return std::nullopt;
+        const VectorXd x = *solution;
         Weighed one{.after = x.head(n), .slip = {0, 0}, .closed = {false, false}, .clear = true};
         bool holds = true;
         const auto need = [&](double value) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "alembert/dense.hpp"
 #include "alembert/tolerances.hpp"
 #include "formalism/routh.hpp"
 #include "language/libraries.hpp"
@@ -233,7 +234,7 @@ std::vector<std::string> touching_without_force(const ContactView& view, const S
         rows.row(here.bilateral.rows.rows() + k) =
             here.contacts.rows.row(lasting.closed[static_cast<std::size_t>(k)]);
     const Eigen::VectorXd reaction = here.M * lasting.acceleration - here.f;
-    const Eigen::VectorXd force = rows.transpose().completeOrthogonalDecomposition().solve(reaction).tail(closed);
+    const Eigen::VectorXd force = least_norm(rows.transpose(), reaction).x.col(0).tail(closed);
     std::vector<std::string> names;
     for (Eigen::Index k = 0; k < closed; ++k) {
         const double size = rows.row(here.bilateral.rows.rows() + k).cwiseAbs().maxCoeff();

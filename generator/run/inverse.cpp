@@ -73,13 +73,13 @@ Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& gi
         }
     }
     S.topRightCorner(n, m) = -s.A.transpose();
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(S);
-    if (!lu.isInvertible())
+    const LeastNorm solution = least_norm(S, right);
+    if (solution.rank < n + m)
         throw IntegrationError(say("loads along the coordinates whose accelerations are given do not determine "
                                    "the motion at this pose; "
                                    "give the accelerations of others, or of all"),
                                t, q);
-    const Eigen::VectorXd x = lu.solve(right);
+    const Eigen::VectorXd x = solution.x;
     Loads result{x.head(n), Eigen::VectorXd::Zero(n), x.tail(m)};
     for (Eigen::Index j = 0; j < n; ++j)
         if (const auto& a = given[static_cast<std::size_t>(j)]) result.load[j] = x[j], result.acceleration[j] = *a;
