@@ -103,6 +103,14 @@ std::optional<std::vector<int>> rates_of(Program& p, const std::vector<int>& con
     return rates;
 }
 
+/// Which g depend on positions and time alone; empty if none does.
+std::vector<bool> positional(const Program& p, const std::vector<int>& conditions) {
+    std::vector<bool> result;
+    for (const int g : conditions) result.push_back((p[g].depends & bit(Variable::Kind::rate)) == 0);
+    const bool any = std::find(result.begin(), result.end(), true) != result.end();
+    return any ? result : std::vector<bool>();
+}
+
 /// +1 or −1 if b is a positive or negative multiple of a at three arbitrary states, else 0. (The nodes may differ
 /// because one of them comes from a readable form.)
 int ratio_of(const Program& p, int a, int b) {
@@ -200,7 +208,11 @@ bool Switched::has_frictions() const {
     return std::any_of(frictions.begin(), frictions.end(), [](const auto& list) { return !list.empty(); });
 }
 
-std::optional<Switched> switched(const Program& program) {
+std::size_t Switched::events() const {
+    return functions.size() * (2U + (positional.empty() ? 0U : 1U) + (has_frictions() ? 2U : 0U));
+}
+
+std::optional<Switched> switched(const Program& program, SecondRates second) {
     if (program.singular) return std::nullopt;
     Holding holding(program);
     Program made = holding.finish();
@@ -216,6 +228,15 @@ std::optional<Switched> switched(const Program& program) {
     if (!rates) return std::nullopt;
     for (std::size_t k = components; k < conditions.size(); ++k)
         made.parameters.push_back({.name = fmt::format("side_{}", k + 1), .unit = "", .value = 1});
+    std::vector<bool> places = second == SecondRates::wanted ? positional(made, conditions) : std::vector<bool>();
+    std::vector<int> changing = *rates;  // 0 where it is not wanted
+    for (std::size_t k = 0; k < places.size(); ++k)
+        if (!places[k]) changing[k] = made.number(0);
+    const auto second_rates = places.empty() ? std::nullopt : rates_of(made, changing);
+    if (!second_rates) places.clear();
+    for (std::size_t k = 0; k < places.size(); ++k)
+        made.roots.push_back(
+            {Group::event, fmt::format("second rate of side function {}", k + 1), (*second_rates)[k]});
     for (std::size_t k = 0; k < conditions.size(); ++k)
         made.roots.push_back({Group::event, fmt::format("side function {}", k + 1), conditions[k]});
     for (std::size_t k = 0; k < conditions.size(); ++k)
@@ -223,7 +244,8 @@ std::optional<Switched> switched(const Program& program) {
     Switched result{.program = {},
                     .functions = functions,
                     .pairs = static_cast<int>(components / 2),
-                    .frictions = frictions_of(made, conditions)};
+                    .frictions = frictions_of(made, conditions),
+                    .positional = std::move(places)};
     if (result.has_frictions()) add_bounds(made, result);
     result.program = made.canonical();
     return result;

@@ -34,12 +34,19 @@ struct Switched {
     };
     std::vector<std::vector<Rubbing>> frictions = {};  ///< for each σ
     bool has_frictions() const;
+    /// Which g depend on positions and time alone, so that σ changes g̈ and not ġ. If it is not empty, the events
+    /// have g̈_1 … g̈_K, for the rates that events are given, before g_1 … g_K; g̈ is 0 for the other g.
+    std::vector<bool> positional = {};
+    /// The number of events that follow those of the scene.
+    std::size_t events() const;
     /// The number of parameters at the end of the program's that a run holds.
     int held() const { return 2 * pairs + static_cast<int>(functions.size()); }
 };
 
 /// Nothing if there is no such function, if some g contains accelerations, or if a derivative of a g would be
-/// longer than the program.
-std::optional<Switched> switched(const Program& program);
+/// longer than the program. `positional` is set only if it is wanted, some g are such, and their g̈ are not too
+/// long.
+enum class SecondRates { left_out, wanted };
+std::optional<Switched> switched(const Program& program, SecondRates second = SecondRates::left_out);
 
 }  // namespace alembert

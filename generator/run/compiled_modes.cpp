@@ -146,7 +146,7 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
     if (program.singular) need_accelerations(derived, program, first);
     std::optional<Switched> jumps;
     // rattle calculates with momenta, in which signs are not held constant.
-    if (!needs_canonical(method_.method)) jumps = switched(program);
+    if (!needs_canonical(method_.method)) jumps = switched(program, SecondRates::wanted);
     const Program& smooth = jumps ? jumps->program : program;
     std::optional<Differentiated> derivatives =
         uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;

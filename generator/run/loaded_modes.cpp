@@ -143,7 +143,7 @@ void LoadedMode::measure_sides(const Trajectory& motion) {
     if (!contact.switching) return;
     const std::size_t count = side_sizes.size();
     const std::vector<double> sigma = contact.switching->sigma(contact.switching->start());
-    std::vector<double> rate(static_cast<std::size_t>(contact.rhs.dimension)), g(2 * count);
+    std::vector<double> rate(static_cast<std::size_t>(contact.rhs.dimension)), g(contact.switching->numbers());
     for (std::size_t row = 0; row < motion.rows(); ++row) {
         contact.switching->values(motion.times[row], motion.state(row).data(), sigma.data(), rate.data(),
                                   g.data());
@@ -212,8 +212,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     const MethodChoice& method = compiled_.method();
     const Module& module = made.code.module;
     const std::optional<Switched>& jumps = made.jumps;
-    const std::size_t sides = jumps ? jumps->functions.size() : 0;
-    const std::size_t watched = jumps && jumps->has_frictions() ? 4 * sides : 2 * sides;
+    const std::size_t watched = jumps ? jumps->events() : 0;
     std::vector<double> values = with_held_parameters(start_.parameters, made.program);
     if (jumps) values.resize(start_.parameters.size() + static_cast<std::size_t>(jumps->held()), 1.0);
     std::vector<bool> stops;

@@ -137,15 +137,18 @@ Switching switching_of(const Module& module, const std::vector<double>& values, 
         table.energy(t, y, rate, par, energy, &jacobi);
         rate[table.coordinates + table.speeds] = energy[3];
     };
-    const auto events_from = [module, held, count](std::size_t before_end) {
+    const auto events_from = [module, held, count](std::size_t before_end, bool with_second) {
         return [=, all = std::vector<double>(static_cast<std::size_t>(module.table().events))](
                    double t, const double* y, const double* sigma, const double* rate, double* out) mutable {
             module.table().events_at(t, y, rate, held->with(sigma), all.data());
-            std::copy_n(all.end() - static_cast<std::ptrdiff_t>(before_end), 2 * count, out);
+            const auto first = all.end() - static_cast<std::ptrdiff_t>(before_end);
+            std::copy_n(first, 2 * count, out);
+            if (with_second) std::copy_n(first - static_cast<std::ptrdiff_t>(count), count, out + 2 * count);
         };
     };
-    system.values = events_from(2 * count + more);
-    if (more > 0) system.bounds = events_from(more);
+    system.positional = jumps.positional;
+    system.values = events_from(2 * count + more, !jumps.positional.empty());
+    if (more > 0) system.bounds = events_from(more, false);
     system.smooth = [held, smooth = std::move(smooth)](const std::vector<double>& sigma) {
         return smooth(held->values(sigma));
     };

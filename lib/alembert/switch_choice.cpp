@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "alembert/switch_moment.hpp"
 #include "alembert/switch_sides.hpp"
 
 namespace alembert {
@@ -80,8 +81,11 @@ void begin_to_slide_together(const Switching& system, SideSet& sides, const std:
 
 class SideJudge {
 public:
-    SideJudge(const Switching& system, double t, const std::vector<double>& state)
-        : system_(system), t_(t), state_(state) {}
+    SideJudge(const Switching& system, const SideSet& sides, const std::vector<int>& open, double t,
+              const std::vector<double>& state)
+        : system_(system), t_(t), state_(state), stands_(sides.size()) {
+        for (const int k : open) stands_[static_cast<std::size_t>(k)] = stands_still(system, sides, k, t, state);
+    }
 
     /// Chooses the directions of pairs that begin to slide.
     void direct(SideSet& sides, const std::vector<int>& open) const {
@@ -126,7 +130,7 @@ public:
             const bool jump = std::abs(up - down) > 1e-9 * size;
             choice.jumps = choice.jumps || jump;
             if (sides[k] != 0)
-                margin = size > 0 ? sides[k] * at.slope(k) / size : 0;
+                margin = size > 0 ? sides[k] * decisive(at, k) / size : 0;
             else if (!jump || up > down)
                 margin = -HUGE_VAL;  // there is nothing to slide along, or the motion is repelled from it
             else
@@ -165,10 +169,15 @@ private:
     double slope_of(const SideSet& sides, int k) const {
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
-        return at.slope(k);
+        return decisive(at, k);
     }
 
-    /// ġ at a side of the function while nothing else sticks.
+    /// The rate that decides to which side a function goes.
+    double decisive(const SwitchSides& at, int k) const {
+        return stands_[static_cast<std::size_t>(k)] ? at.push(k) : at.slope(k);
+    }
+
+    /// The decisive rate at a side of the function while nothing else sticks.
     double slope_alone(SideSet sides, int k, int side) const {
         for (int& other : sides.of) other = other == 0 ? 1 : other;
         sides[static_cast<std::size_t>(k)] = side;
@@ -182,6 +191,7 @@ private:
     const Switching& system_;
     double t_;
     const std::vector<double>& state_;
+    std::vector<bool> stands_;  ///< functions of positions that stand still
 };
 
 }  // namespace
@@ -266,7 +276,7 @@ std::vector<int> give_way(const Switching& system, SideSet& sides, int pair, dou
 
 std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state, const std::vector<int>& resting) {
-    const SideJudge judge(system, t, state);
+    const SideJudge judge(system, sides, open, t, state);
     for (const int k : resting) sides[k] = 0;
     // In a plane what can stick sticks, and no direction of sliding has to be looked for.
     if (std::all_of(open.begin(), open.end(), [&](int k) { return sides.is_pair(k); })) {
@@ -296,12 +306,15 @@ std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, con
 std::vector<double> consistent_signs(const Switching& system, const std::function<double(int k)>& still, double t,
                                      const double* y, int dimension, SideSet* found) {
     SideSet sides = system.start();
-    std::vector<double> none(static_cast<std::size_t>(dimension)), g(2 * sides.size());
+    std::vector<double> none(static_cast<std::size_t>(dimension)), g(system.numbers());
     for (int k = 0; k < system.count(); ++k) {  // a function may contain the signs of those before it
         const auto at = static_cast<std::size_t>(k);
         system.values(t, y, system.sigma(sides).data(), none.data(), g.data());
         if (!sides.is_pair(k)) {
-            sides[at] = std::abs(g[at]) <= still(k) ? 0 : g[at] > 0 ? 1 : -1;
+            const bool is_zero = std::abs(g[at]) <= still(k);
+            const bool goes =
+                is_zero && system.is_positional(k) && !stands_still(system, sides, k, t, {y, y + dimension});
+            sides[at] = is_zero && !goes ? 0 : g[goes ? sides.size() + at : at] > 0 ? 1 : -1;
             continue;
         }
         const double speed = std::hypot(g[at], g[at + 1]);
@@ -322,7 +335,7 @@ std::vector<double> consistent_signs(const Switching& system, const std::functio
             if (is_pair && k % 2 == 1) continue;
             const bool holds = is_pair ? at.resists(k) : at.steepness(i) < 0;
             if (holds && at.share(k) <= at.bound(k) * (1 + 1e-9)) continue;
-            set_side(sides, k, is_pair ? 1 : holds ? (alpha > 0 ? 1 : -1) : (at.slope(k) < 0 ? -1 : 1));
+            set_side(sides, k, is_pair ? 1 : holds ? (alpha > 0 ? 1 : -1) : (at.push(k) < 0 ? -1 : 1));
             if (is_pair) begin_to_slide(system, sides, k, t, {y, y + dimension});
             again = true;
         }

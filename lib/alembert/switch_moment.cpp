@@ -12,6 +12,7 @@ namespace {
 
 constexpr double known = 1e-9;        // components of a state are known to this part of themselves, and times to
 constexpr double known_time = 1e-12;  // this part of the run
+constexpr double known_rate = 1e-13;  // a rate is known to this part of its terms, after constraints are solved
 constexpr double little = 1e-3;       // part of the run in which a load gives a first size of sliding velocities
 constexpr double different = 1e-9;    // rates at both sides, relative to them
 // A function whose swings do not become less in so many changes, and are so much less than the largest, has come
@@ -24,25 +25,34 @@ double length(const SideSet& sides, const std::vector<double>& g, int k) {
     return sides.is_pair(k) ? std::hypot(g[k], g[k + 1]) : std::abs(g[k]);
 }
 
-/// Σ |∂g/∂y_i| size(y_i): how far a sliding velocity is off where the components of the state are off by these
-/// sizes.
-template <typename Size>
-double moved(const SwitchMoment& at, int k, const Size& size) {
-    const std::vector<double> none(at.state.size()), sigma = at.system.sigma(at.sides);
-    std::vector<double> y = at.state, here(2 * at.sides.size()), there = here;
-    at.system.values(at.t, y.data(), sigma.data(), none.data(), here.data());
+/// Σ |∂g/∂y_i| size(y_i): how far g, or what `length` makes of the numbers of Switching::values, is off where the
+/// components of the state are off by these sizes.
+template <typename Length, typename Size>
+double moved(const Switching& system, const SideSet& sides, double t, std::vector<double> y, const Length& length,
+             const Size& size) {
+    const std::vector<double> none(y.size()), sigma = system.sigma(sides);
+    std::vector<double> here(system.numbers()), there = here;
+    system.values(t, y.data(), sigma.data(), none.data(), here.data());
     double sum = 0;
     for (std::size_t i = 0; i < y.size(); ++i) {
         const double off = size(y[i]), kept = y[i];
         if (off == 0) continue;
         y[i] += std::max(off, std::sqrt(tolerance::epsilon) * std::abs(kept));
         const double step = y[i] - kept;
-        at.system.values(at.t, y.data(), sigma.data(), none.data(), there.data());
+        system.values(t, y.data(), sigma.data(), none.data(), there.data());
         for (std::size_t j = 0; j < there.size(); ++j) there[j] -= here[j];
-        sum += length(at.sides, there, k) * off / step;
+        sum += length(there) * off / step;
         y[i] = kept;
     }
     return sum;
+}
+
+/// The same for |g| of a function, or of both of a pair.
+template <typename Size>
+double moved(const SwitchMoment& at, int k, const Size& size) {
+    return moved(
+        at.system, at.sides, at.t, at.state,
+        [&](const std::vector<double>& off) { return length(at.sides, off, k); }, size);
 }
 
 }  // namespace
@@ -74,7 +84,7 @@ double SwitchMoment::speed(int pair) const {
     SideSet held = sides;
     held[pair] = held[pair + 1] = 0;
     const std::vector<double> sigma = system.sigma(held);  // α = 0
-    std::vector<double> rate(state.size()), g(2 * sides.size());
+    std::vector<double> rate(state.size()), g(system.numbers());
     system.rates(t, state.data(), sigma.data(), rate.data());
     system.values(t, state.data(), sigma.data(), rate.data(), g.data());
     const std::size_t slope = sides.size() + static_cast<std::size_t>(pair);
@@ -133,19 +143,17 @@ std::vector<int> Swings::at_rest(const SwitchMoment& moment, const std::vector<i
     return found;
 }
 
-void bring_to_zero(const SwitchMoment& moment, int k, std::vector<double>& state) {
-    const double g = moment.value(k);
-    std::vector<double> gradient(state.size());
-    double square = 0;
-    for (std::size_t i = 0; i < state.size(); ++i) {
-        const double y = state[i], step = 1e-7 * std::max(1.0, std::abs(y));
-        state[i] = y + step;
-        gradient[i] = (moment.value(k) - g) / step;
-        square += gradient[i] * gradient[i];
-        state[i] = y;
-    }
-    if (square > 0)
-        for (std::size_t i = 0; i < state.size(); ++i) state[i] -= g * gradient[i] / square;
+bool stands_still(const Switching& system, const SideSet& sides, int k, double t,
+                  const std::vector<double>& state) {
+    if (!system.is_positional(k)) return false;
+    const std::size_t rate = sides.size() + static_cast<std::size_t>(k);
+    const std::vector<double> none(state.size()), sigma = system.sigma(sides);
+    std::vector<double> g(system.numbers());
+    system.values(t, state.data(), sigma.data(), none.data(), g.data());
+    return std::abs(g[rate]) <= moved(
+                                    system, sides, t, state,
+                                    [&](const std::vector<double>& off) { return std::abs(off[rate]); },
+                                    [](double y) { return known_rate * std::abs(y); });
 }
 
 }  // namespace alembert

@@ -8,7 +8,7 @@
 ///     moment.stopped(k);     // a sliding velocity below this is none
 ///
 ///     Swings swings(count);
-///     for (const int k : swings.at_rest(moment, open, since)) bring_to_zero(moment, k, state);
+///     swings.at_rest(moment, open, since);   // the functions that have come to rest at their zeros
 
 #include <vector>
 
@@ -59,7 +59,9 @@ private:
     std::vector<Swing> of_;
 };
 
-/// Moves `state`, which is that of the moment, to g = 0 along the gradient of g, which is found by differences.
-void bring_to_zero(const SwitchMoment& moment, int k, std::vector<double>& state);
+/// Whether a function of positions that is zero stands still: its ġ is zero but for rounding, and g̈ decides where
+/// it goes.
+bool stands_still(const Switching& system, const SideSet& sides, int k, double t,
+                  const std::vector<double>& state);
 
 }  // namespace alembert

@@ -31,12 +31,12 @@ void SwitchSides::evaluate(double t, const double* y) {
     for (const int k : sliding_) sigma_[system_.place(k)] = 0;
     rates(t, y);
     if (s == 0) return;
-    const Eigen::VectorXd none = slopes();
+    const Eigen::VectorXd none = pushes();
     B_.resize(s, s);
     for (Eigen::Index j = 0; j < s; ++j) {
         held(j) = 1;
         rates(t, y);
-        B_.col(j) = slopes() - none;
+        B_.col(j) = pushes() - none;
         held(j) = 0;
     }
     const double enough = 1e-13 * B_.cwiseAbs().maxCoeff();
@@ -45,7 +45,7 @@ void SwitchSides::evaluate(double t, const double* y) {
         alpha = to;
         for (Eigen::Index j = 0; j < s; ++j) held(j) = alpha[j];
         rates(t, y);
-        slope = slopes();
+        slope = pushes();
         return !(slope.cwiseAbs().maxCoeff() > enough);
     };
     // Where ġ bends, the slope there takes the place of that between 0 and 1, which may have the other sign.
@@ -53,7 +53,7 @@ void SwitchSides::evaluate(double t, const double* y) {
         for (Eigen::Index j = 0; j < s; ++j) {
             held(j) = alpha[j] + probe;
             rates(t, y);
-            B_.col(j) = (slopes() - slope) / probe;
+            B_.col(j) = (pushes() - slope) / probe;
             held(j) = alpha[j];
         }
         rates(t, y);
@@ -80,7 +80,7 @@ void SwitchSides::evaluate(double t, const double* y) {
 SwitchSides::Quotient SwitchSides::by_quotient(double t, const double* y, double at_none, double at_one) {
     held(0) = -1;
     rates(t, y);
-    const double at_minus = slopes()[0];
+    const double at_minus = pushes()[0];
     const double c = (2 * at_none - at_one - at_minus) / (at_one - at_minus);
     const double b = at_one * (1 + c) - at_none, zero = -at_none / b, below = 1 + c * zero;
     return {.zero = zero, .slope = (b - at_none * c) / (below * below)};
@@ -107,9 +107,12 @@ void SwitchSides::find_bounds(double t, const double* y) {
 
 void SwitchSides::bring_back(double t, double* y) {
     const auto s = static_cast<Eigen::Index>(sliding_.size());
+    for (const int k : sliding_)
+        if (system_.is_positional(k)) bring_to_zero(k, t, y);
     evaluate(t, y);
     Eigen::VectorXd off(s);
-    for (Eigen::Index j = 0; j < s; ++j) off[j] = g_[sliding_[j]];
+    for (Eigen::Index j = 0; j < s; ++j)
+        off[j] = system_.is_positional(sliding_[j]) ? slope(sliding_[j]) : value(sliding_[j]);
     if (off.isZero(0)) return;
     const Eigen::VectorXd along = -with_least_sigma(B_).solve(off);
     const std::vector<double> alpha = sigma_, before = f_;
@@ -117,6 +120,26 @@ void SwitchSides::bring_back(double t, double* y) {
     rates(t, y);
     for (std::size_t i = 0; i < f_.size(); ++i) y[i] += f_[i] - before[i];
     sigma_ = alpha;
+}
+
+void SwitchSides::bring_to_zero(int k, double t, double* y) {
+    const auto at = [&] {
+        system_.values(t, y, sigma_.data(), f_.data(), g_.data());
+        return value(k);
+    };
+    const double g = at();
+    if (g == 0) return;
+    std::vector<double> gradient(f_.size());
+    double square = 0;
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+        const double kept = y[i], step = 1e-7 * std::max(1.0, std::abs(kept));
+        y[i] += step;
+        gradient[i] = (at() - g) / step;
+        square += gradient[i] * gradient[i];
+        y[i] = kept;
+    }
+    if (square > 0)
+        for (std::size_t i = 0; i < gradient.size(); ++i) y[i] -= g * gradient[i] / square;
 }
 
 }  // namespace alembert

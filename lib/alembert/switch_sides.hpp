@@ -5,7 +5,7 @@
 ///
 ///     SwitchSides at(system, {{1, 0}}, dimension);    // the first is positive, the second slides along its zero
 ///     at.evaluate(t, y);
-///     at.sigma()[1];                                  // α, for which ġ = 0
+///     at.sigma()[1];                                  // α, for which ġ = 0, or g̈ = 0 for functions of positions
 ///     at.rate();                                      // f
 
 #include <Eigen/Dense>
@@ -25,7 +25,7 @@ public:
           sides_(std::move(sides)),
           sigma_(system.sigma(sides_)),
           f_(dimension),
-          g_(2 * system.count()),
+          g_(system.numbers()),
           bounds_(2 * system.count(), 1.0) {
         for (int k = 0; k < system.count(); ++k)
             if (sides_[k] == 0) sliding_.push_back(k);
@@ -42,6 +42,8 @@ public:
     double share(int k) const { return sides_.is_pair(k) ? std::hypot(sign(k), sign(k + 1)) : std::abs(sign(k)); }
     double value(int k) const { return g_[k]; }
     double slope(int k) const { return g_[system_.count() + k]; }
+    /// The rate that σ changes: ġ, or g̈ of a function of positions.
+    double push(int k) const { return system_.is_positional(k) ? g_[2 * system_.count() + k] : slope(k); }
     /// v of a pair, and v'.
     Eigen::Vector2d velocity(int k) const { return {value(k), value(k + 1)}; }
     Eigen::Vector2d acceleration(int k) const { return {slope(k), slope(k + 1)}; }
@@ -55,7 +57,7 @@ public:
     /// The bound of |α_k|, and the numbers that must not be negative; both are known after `find_bounds`.
     double bound(int k) const { return bounds_[k]; }
     double normal(int k) const { return bounds_[system_.count() + k]; }
-    /// ∂ġ_k/∂σ_k at the last evaluation, for a function that slides.
+    /// The slope of `push` over σ_k at the last evaluation, for a function that slides.
     double steepness(std::size_t position) const {
         return B_(static_cast<Eigen::Index>(position), static_cast<Eigen::Index>(position));
     }
@@ -66,7 +68,8 @@ public:
         return even.trace() < 0 && even.determinant() > 0;
     }
 
-    /// Computes f, g and ġ at a state, and the σ of functions that slide; NaN where no σ keeps ġ = 0.
+    /// Computes f, g and its rates at a state, and the σ of functions that slide; NaN where no σ keeps them at
+    /// their zeros.
     void evaluate(double t, const double* y);
 
     /// To be called after `evaluate` at the same state. Where pairs stick and the motion does not determine their
@@ -76,11 +79,13 @@ public:
     bool shares_are_free() const { return shares_are_free_; }
 
     /// Moves the state to where the g of sliding functions are zero, along the directions in which their σ change
-    /// the motion.
+    /// the motion; where they depend on positions alone, so that ġ becomes zero, and g by `bring_to_zero`.
     void bring_back(double t, double* y);
+    /// Moves the state to g = 0 along the gradient of g, which is found by differences.
+    void bring_to_zero(int k, double t, double* y);
 
 private:
-    /// The zero of ġ(α) = (a + b α)/(1 + c α) and the slope there, with a, b and c such that it has the values
+    /// The zero of a rate (a + b α)/(1 + c α) and the slope there, with a, b and c such that it has the values
     /// found at −1, 0 and 1. Friction that changes its own normal force has this form.
     struct Quotient {
         double zero, slope;
@@ -93,9 +98,9 @@ private:
         system_.rates(t, y, sigma_.data(), f_.data());
         system_.values(t, y, sigma_.data(), f_.data(), g_.data());
     }
-    Eigen::VectorXd slopes() const {
+    Eigen::VectorXd pushes() const {
         Eigen::VectorXd result(static_cast<Eigen::Index>(sliding_.size()));
-        for (Eigen::Index j = 0; j < result.size(); ++j) result[j] = slope(sliding_[j]);
+        for (Eigen::Index j = 0; j < result.size(); ++j) result[j] = push(sliding_[j]);
         return result;
     }
 

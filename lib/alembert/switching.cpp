@@ -274,7 +274,8 @@ private:
         const SideChoice best = side_choices(system_, sides_, open, t_, state_, still)[0];
         if (!(best.margin > clear_margin) || !rests(best, open)) return false;
         sides_ = best.sides;
-        for (const int k : still) bring_to_zero(moment(), k, state_);
+        SwitchSides here(system_, sides_, dimension());
+        for (const int k : still) here.bring_to_zero(k, t_, state_.data());
         for (const auto* list : {&open, &still})
             for (const int k : *list) tell(k, SideChange::Kind::sliding);
         return true;

@@ -14,7 +14,8 @@
 ///  - along g_k = 0, where ġ₊ < 0 < ġ₋ (it slides along the jump; a block with dry friction sticks): there σ_k is
 ///    the number α between −1 and 1 for which ġ_k = 0 (Filippov, Differential Equations with Discontinuous
 ///    Righthand Sides, 1988, §4; for σ_k that enter linearly this is his convex combination), until |α|
-///    reaches 1;
+///    reaches 1. Where g_k depends on positions alone and stands still, as where a mass rests in a groove |x|, σ_k
+///    changes g̈_k only, which takes the place of ġ_k in all of this;
 ///  - to either side, where ġ₊ > 0 > ġ₋: the motion is then ambiguous, and the run fails with a message that names
 ///    the function.
 ///
@@ -83,7 +84,10 @@ struct Switching {
     std::function<void(double t, const double* y, const double* sigma, double* rate)> rates = {};
     /// The right-hand side for one fixed σ, with what methods need besides (series, Jacobian).
     std::function<Rhs(const std::vector<double>& sigma)> smooth = {};
-    /// K numbers g_k, then K numbers ġ_k for the y' given.
+    /// Which g_k depend on positions and time alone, so that σ_k changes g̈_k and not ġ_k; empty if none does.
+    std::vector<bool> positional = {};
+    /// K numbers g_k, then K numbers ġ_k for the y' given; then K numbers g̈_k if `positional` is not empty, of
+    /// which those of other functions are not used.
     std::function<void(double t, const double* y, const double* sigma, const double* rate, double* out)> values =
         {};
     /// K bounds r_k ≥ 1 of |α_k| (of |α| at the first function of a pair), then K numbers that must not become
@@ -97,6 +101,9 @@ struct Switching {
         {};  ///< called with σ before on_step; may be empty
 
     int count() const { return static_cast<int>(names.size()); }
+    /// How many numbers `values` gives.
+    std::size_t numbers() const { return names.size() * (positional.empty() ? 2 : 3); }
+    bool is_positional(int k) const { return !positional.empty() && positional[static_cast<std::size_t>(k)]; }
     /// The position of the function k in σ.
     std::size_t place(int k) const { return static_cast<std::size_t>(2 * pairs + k); }
     /// The σ of these sides; for functions that slide along their zeros it is 0.

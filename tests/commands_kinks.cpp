@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Motions that stand in a kink of the potential, whose sign depends on positions alone, against closed forms.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "contacts.hpp"
+#include "files.hpp"
+
+namespace commands_kinks {
+
+using namespace alembert::test;
+
+namespace {
+
+constexpr const char* methods[] = {"auto", "dop853", "verner98", "taylor", "radau"};
+
+std::string two_masses(const std::string& start) {
+    return temporary("kink_two.toml", R"toml(
+[coordinates]
+x = { initial = )toml" + start + R"toml( }
+y = { initial = )toml" + start + R"toml( }
+[energy]
+kinetic = "x'^2/2 + y'^2/2"
+potential = "abs(x - y) + x^2"
+[simulation]
+duration = 5
+tolerance = 1e-11
+)toml");
+}
+
+}  // namespace
+
+// Together the masses obey 2 x'' = −2 x; the force between them is that of y, x'' ≤ 1.
+TEST_CASE("kinks: two masses that |x − y| holds together move as one") {
+    for (const char* const method : methods) {
+        CAPTURE(method);
+        const Json motion = json_of({"simulate", two_masses("0.5"), "--method", method});
+        CHECK(motion["completed"] == true);
+        CHECK(coordinate(motion, "x") == doctest::Approx(0.5 * std::cos(5.0)).epsilon(1e-9));
+        CHECK(std::abs(coordinate(motion, "x") - coordinate(motion, "y")) < 1e-14);
+        CHECK(rate(motion, "y") == doctest::Approx(-0.5 * std::sin(5.0)).epsilon(1e-9));
+        CHECK(motion["energy_drift"].get<double>() < 1e-9);
+    }
+}
+
+// From 1.5 the force that would hold them is above 1: x = ½ + cos √2t, y = 1.5 − t²/2, until these meet.
+TEST_CASE("kinks: two masses that |x − y| cannot hold together separate at once") {
+    const Json first = json_of({"simulate", two_masses("1.5"), "--duration", "1"});
+    CHECK(coordinate(first, "x") == doctest::Approx(0.5 + std::cos(std::sqrt(2.0))).epsilon(1e-9));
+    CHECK(coordinate(first, "y") == doctest::Approx(1).epsilon(1e-9));
+    CHECK_FALSE(first.contains("switches"));
+}
+
+// The load −t/2 stands against at most 1: the mass leaves at t = 2, and then x'' = t/2 − 1.
+TEST_CASE("kinks: a mass at the bottom of |x| stays there until the load is larger than the slope") {
+    const std::string scene = temporary("kink_leaves.toml", R"toml(
+[coordinates]
+x = 0
+y = { initial = 1 }
+[energy]
+kinetic = "x'^2/2 + y'^2/2"
+potential = "abs(x) + y^2/2"
+[forces]
+x = "t/2"
+[simulation]
+duration = 4
+tolerance = 1e-11
+)toml");
+    for (const char* const method : methods) {
+        CAPTURE(method);
+        const Json motion = json_of({"simulate", scene, "--method", method});
+        CHECK(motion["completed"] == true);
+        CHECK(coordinate(motion, "x") == doctest::Approx(2.0 / 3).epsilon(1e-9));
+        CHECK(coordinate(motion, "y") == doctest::Approx(std::cos(4.0)).epsilon(1e-9));
+        REQUIRE(motion["switches"].size() == 2);  // from the start it stands
+        CHECK(std::abs(motion["switches"][1]["time"].get<double>() - 2) < 1e-11);
+    }
+}
+
+TEST_CASE("kinks: a mass on top of −|x| may fall to either side, and the message says so") {
+    const auto result = run({"simulate", temporary("kink_top.toml", R"toml(
+[coordinates]
+x = 0
+[energy]
+kinetic = "x'^2/2"
+potential = "-abs(x)"
+[simulation]
+duration = 1
+)toml")});
+    CHECK(result.exit == 4);
+    CHECK(result.err.find("to either side of sign(x) = 0") != std::string::npos);
+}
+
+}  // namespace commands_kinks
