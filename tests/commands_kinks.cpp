@@ -79,6 +79,27 @@ tolerance = 1e-11
     }
 }
 
+TEST_CASE("kinks: eval gives the accelerations with which a motion goes on from a zero of a sign") {
+    const Json together = json_of({"eval", two_masses("0.5"), "--json"});
+    CHECK(together["accelerations"]["x"].get<double>() == doctest::Approx(-0.5).epsilon(1e-12));
+    CHECK(together["accelerations"]["y"].get<double>() == doctest::Approx(-0.5).epsilon(1e-12));
+    const Json apart = json_of({"eval", two_masses("1.5"), "--json"});
+    CHECK(apart["accelerations"]["x"].get<double>() == doctest::Approx(-2).epsilon(1e-12));
+    CHECK(apart["accelerations"]["y"].get<double>() == doctest::Approx(-1).epsilon(1e-12));
+    for (const auto& [load, acceleration] : {std::pair("0.5", 0.0), {"3", 2.0}, {"-3", -2.0}}) {
+        const Json json = json_of({"eval", temporary("kink_eval.toml", R"toml(
+[coordinates]
+x = 0
+[energy]
+kinetic = "x'^2/2"
+[forces]
+x = ")toml" + std::string(load) + R"toml( - sign(x')"
+)toml"),
+                                   "--json"});
+        CHECK(std::abs(json["accelerations"]["x"].get<double>() - acceleration) < 1e-14);
+    }
+}
+
 TEST_CASE("kinks: a mass on top of −|x| may fall to either side, and the message says so") {
     const auto result = run({"simulate", temporary("kink_top.toml", R"toml(
 [coordinates]

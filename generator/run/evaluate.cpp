@@ -85,12 +85,14 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
         static_cast<Derived&>(e) =
             derived_again(e, with_directions_held(m, planes), closed.empty() ? e.by : "routh");
     Program program = lowered(e).program;
-    if (const auto jumps = program.nodes_of(Group::slip).empty() ? std::nullopt : switched(program);
-        jumps && jumps->has_frictions()) {
-        HeldState held = held_state(*jumps, std::move(state));
-        program = std::move(held.program);
-        state = std::move(held.state);
-        e.frictions = std::move(held.frictions);
+    if (const auto jumps = switched(program, SecondRates::wanted)) {
+        std::optional<HeldState> held =
+            jumps->has_frictions() ? held_state(*jumps, state) : standing_state(*jumps, state);
+        if (held) {
+            program = std::move(held->program);
+            state = std::move(held->state);
+            e.frictions = std::move(held->frictions);
+        }
     }
     state.qddot = accelerations_at(e, program, state);
     const std::vector<double> value = interpret(program, state);  // outputs may contain accelerations

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "alembert/switch_choice.hpp"
+#include "alembert/switch_sides.hpp"
 #include "alembert/switching.hpp"
 #include "language/say.hpp"
 
@@ -30,14 +32,19 @@ Switching interpreted(const Switched& s, const State<double>& state) {
         here.parameters.insert(here.parameters.end(), sigma, sigma + signs);
         return here;
     };
-    const auto events = [&s, at, count, held, n](std::size_t before_end) {
+    const auto events = [&s, at, count, held, n](std::size_t before_end, bool with_second) {
         return [=, &s](double t, const double* y, const double* sigma, const double* rate, double* out) {
             State<double> here = at(t, y, sigma, held);
             here.qddot.assign(rate + n, rate + n + here.qdot.size());
             const std::vector<double> value = interpret(s.program, here);
             const std::vector<int> nodes = s.program.nodes_of(Group::event);
+            const auto first = nodes.end() - static_cast<std::ptrdiff_t>(before_end);
             for (std::size_t k = 0; k < 2 * count; ++k)
-                out[k] = value[static_cast<std::size_t>(nodes[nodes.size() - before_end + k])];
+                out[k] = value[static_cast<std::size_t>(first[static_cast<std::ptrdiff_t>(k)])];
+            if (!with_second) return;
+            for (std::size_t k = 0; k < count; ++k)
+                out[2 * count + k] = value[static_cast<std::size_t>(
+                    first[static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(count)])];
         };
     };
     Switching system;
@@ -52,17 +59,23 @@ Switching interpreted(const Switched& s, const State<double>& state) {
         for (std::size_t i = n; i < all; ++i) rate[i] = value[static_cast<std::size_t>(second[i - n])];
     };
     const std::size_t more = s.has_frictions() ? 2 * count : 0;
-    system.values = events(2 * count + more);
-    if (more > 0) system.bounds = events(more);
+    system.positional = s.positional;
+    system.values = events(2 * count + more, !s.positional.empty());
+    if (more > 0) system.bounds = events(more, false);
     return system;
+}
+
+std::vector<double> with_rates(const State<double>& state) {
+    std::vector<double> y = state.q;
+    y.insert(y.end(), state.qdot.begin(), state.qdot.end());
+    return y;
 }
 
 }  // namespace
 
 HeldState held_state(const Switched& s, State<double> state) {
     const Switching system = interpreted(s, state);
-    std::vector<double> y = state.q;
-    y.insert(y.end(), state.qdot.begin(), state.qdot.end());
+    const std::vector<double> y = with_rates(state);
     double fastest = 0;
     for (const double rate : state.qdot) fastest = std::max(fastest, std::abs(rate));
     SideSet found;
@@ -94,6 +107,29 @@ HeldState held_state(const Switched& s, State<double> state) {
             held.frictions.emplace_back(name(k, i),
                                         sticks ? 0 : s.frictions[k][i].direction * (sign > 0 ? 1 : -1));
         }
+    return held;
+}
+
+std::optional<HeldState> standing_state(const Switched& s, State<double> state) {
+    constexpr std::size_t most_open = 6;  // as many as a run lets change together
+    const Switching system = interpreted(s, state);
+    const std::vector<double> y = with_rates(state), none(y.size());
+    std::vector<double> g(system.numbers());
+    SideSet sides = system.start();
+    std::vector<int> open;
+    for (int k = 0; k < system.count(); ++k) {  // a function may contain the signs of those before it
+        const auto at = static_cast<std::size_t>(k);
+        system.values(state.t, y.data(), system.sigma(sides).data(), none.data(), g.data());
+        sides[at] = g[at] < 0 ? -1 : 1;
+        if (g[at] == 0) open.push_back(k);
+    }
+    if (open.empty() || open.size() > most_open) return std::nullopt;
+    const std::vector<SideChoice> choices = side_choices(system, sides, open, state.t, y);
+    if (!choices[0].is_consistent() || are_ambiguous(choices)) return std::nullopt;
+    SwitchSides at(system, choices[0].sides, static_cast<int>(y.size()));
+    at.evaluate(state.t, y.data());
+    HeldState held{.program = s.program, .state = std::move(state), .frictions = {}};
+    held.state.parameters.insert(held.state.parameters.end(), at.sigma().begin(), at.sigma().end());
     return held;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Dry friction at one state, without a compiler. A contact that sticks gets the force that keeps it sticking.
+/// Dry friction and other signs at one state, without a compiler. A contact that sticks gets the force that keeps
+/// it sticking.
 ///
 ///     const HeldState held = held_state(*switched(program), state);
 ///     interpret(held.program, held.state);
@@ -23,6 +24,10 @@ struct HeldState {
 
 /// Throws IntegrationError if no mode is consistent, or more than one is.
 HeldState held_state(const Switched& s, State<double> state);
+
+/// The same for signs without friction: where functions are zero exactly, their signs are those with which the
+/// motion goes on from there. Nothing if none is zero, or if the equations do not say how it goes on.
+std::optional<HeldState> standing_state(const Switched& s, State<double> state);
 
 /// Says which friction makes its own normal force grow without bound at the state before which a motion ended, if
 /// one does: there 1 − S D (lower/normal_forces.hpp) comes to zero.

@@ -303,6 +303,10 @@ std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, con
     return found;
 }
 
+bool are_ambiguous(const std::vector<SideChoice>& choices) {
+    return choices.size() > 1 && choices[1].is_clear() && choices[0].jumps;
+}
+
 std::vector<double> consistent_signs(const Switching& system, const std::function<double(int k)>& still, double t,
                                      const double* y, int dimension, SideSet* found) {
     SideSet sides = system.start();

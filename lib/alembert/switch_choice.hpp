@@ -13,6 +13,11 @@ struct SideChoice {
     SideSet sides;
     double margin;  ///< the choice is consistent if this is positive
     bool jumps;     ///< whether f differs on the two sides of the open functions
+
+    /// Whether the motion may go on with it, within a margin relative to the rates of g on both sides.
+    bool is_consistent() const { return margin > -1e-9; }
+    /// The same beyond doubt.
+    bool is_clear() const { return margin > 1e-6; }
 };
 
 /// All choices of sides for the `open` functions, the most consistent first; the other functions have their sides
@@ -23,6 +28,9 @@ struct SideChoice {
 std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state,
                                      const std::vector<int>& resting = {});
+
+/// Whether the equations do not say which of these choices is taken.
+bool are_ambiguous(const std::vector<SideChoice>& choices);
 
 /// Gives a pair that begins to slide its direction d, for which v' = r d, and returns r; the other functions have
 /// their sides. If there are several, that with the largest r is taken, and r is negative if there is none.

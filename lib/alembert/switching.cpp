@@ -20,12 +20,9 @@ namespace alembert {
 namespace {
 
 constexpr int most_undecided = 6;  // the most signs that may be undecided together: at most 3⁶ choices are tried
-constexpr double most_gathered = 1e3;  // times the error of a step, which a motion has gathered at most
-constexpr int most_in_one_place = 50;  // the most changes without an advance of time
-// Margin within which a choice still counts as consistent, relative to the rates of g on both sides.
-constexpr double slack = 1e-9;
-// A second consistent choice with at least this margin makes the motion ambiguous.
-constexpr double clear_margin = 1e-6;
+constexpr double most_gathered = 1e3;     // times the error of a step, which a motion has gathered at most
+constexpr int most_in_one_place = 50;     // the most changes without an advance of time
+constexpr double negative_normal = 1e-6;  // relative to the largest so far, beyond doubt
 
 class SwitchedRun {
 public:
@@ -109,7 +106,7 @@ private:
         now.find_bounds(t_, state_.data());
         for (int k = 0; k < system_.count(); ++k) {
             (*normals_)[k] = std::max((*normals_)[k], std::abs(now.normal(k)));
-            if (now.normal(k) < -std::max(clear_margin * (*normals_)[k], moment().uncertain_normal(now, k)))
+            if (now.normal(k) < -std::max(negative_normal * (*normals_)[k], moment().uncertain_normal(now, k)))
                 return fail_negative(k);
             if (sides_[k] != 0) (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
         }
@@ -272,7 +269,7 @@ private:
         const std::vector<int> still = swings_.at_rest(moment(), open, since_change_);
         if (still.empty() || open.size() + still.size() > most_undecided) return false;
         const SideChoice best = side_choices(system_, sides_, open, t_, state_, still)[0];
-        if (!(best.margin > clear_margin) || !rests(best, open)) return false;
+        if (!best.is_clear() || !rests(best, open)) return false;
         sides_ = best.sides;
         SwitchSides here(system_, sides_, dimension());
         for (const int k : still) here.bring_to_zero(k, t_, state_.data());
@@ -287,7 +284,7 @@ private:
     bool can_all_rest(const std::vector<int>& all) const {
         if (all.size() > most_undecided) return false;
         const SideChoice best = side_choices(system_, sides_, all, t_, state_)[0];
-        return best.margin > clear_margin && rests(best, all);
+        return best.is_clear() && rests(best, all);
     }
 
     /// Chooses sides for the open functions; the others keep theirs.
@@ -300,7 +297,7 @@ private:
         const std::vector<SideChoice> found = side_choices(system_, sides_, open, t_, state_);
         std::string names;
         for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
-        const bool exists = found[0].margin > -slack;
+        const bool exists = found[0].is_consistent();
         if (!exists || !rests(found[0], open)) {
             std::vector<int> more = open;  // one that has stopped, too, may have gathered the errors of many steps
             open_what_has_stopped(more, most_gathered);
@@ -311,7 +308,7 @@ private:
                 fmt::format("at t = {} the sign of {} has no consistent side: the equations have no motion "
                             "that goes on from there",
                             t_, names));
-        if (found.size() > 1 && found[1].margin > clear_margin && found[0].jumps)
+        if (are_ambiguous(found))
             return fail(
                 fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
                             "say which; start close to that state instead",
