@@ -41,6 +41,11 @@ inline std::vector<std::string> every_third(const std::vector<std::string>& file
     return result;
 }
 
+/// How many things a test that meets every third scene has to find at least, if it is `count` without sanitizers.
+inline constexpr int at_least(int count) {
+    return is_sanitized ? count / 4 : count;
+}
+
 /// A state with coordinates in ±π and rates in ±3, at a time in 0 … 10, with the scene's parameters.
 inline State<double> random_state(const Start& start, std::mt19937_64& random) {
     std::uniform_real_distribution<double> turn(-M_PI, M_PI), rate(-3, 3), time(0, 10);
