@@ -167,20 +167,19 @@ holonomic = "sin(a) + 2*sin(c) = sin(b)"
 )toml" + more);
     };
     const std::string massless = scene("[simulation]\nduration = 1\n");  // b has no inertia
-    for (const char* verb : {"eval", "simulate"}) {
-        const auto result = run({verb, massless});
-        CHECK(result.exit == 4);
-        CHECK(result.err.find("constraint 'along' has no row left in this pose, and the rank of the constraints "
-                              "drops from 2 to 1") != std::string::npos);
-        CHECK(result.err.find("division") == std::string::npos);
+    const auto result = run({"eval", massless});
+    CHECK(result.exit == 4);
+    CHECK(result.err.find("constraint 'along' has no row left in this pose, and the rank of the constraints "
+                          "drops from 2 to 1") != std::string::npos);
+    CHECK(result.err.find("division") == std::string::npos);
+    // The linkage moves on as a parallelogram and turns at constant speed, also with a mass on that crank.
+    for (const std::string& file :
+         {massless, scene("[[particle]]\nname = \"B\"\nmass = 1\nposition = [\"2 + cos(b)\", "
+                          "\"sin(b)\"]\n[simulation]\nduration = 1\n")}) {
+        const auto motion = run({"simulate", file, "--json"});
+        REQUIRE(motion.exit == 0);
+        CHECK(std::abs(Json::parse(motion.out)["final"]["coordinates"]["b"].get<double>() - 1) < 1e-9);
     }
-    // With a mass on that crank the linkage moves on as a parallelogram and turns at constant speed.
-    const auto heavy = run({"simulate",
-                            scene("[[particle]]\nname = \"B\"\nmass = 1\nposition = [\"2 + cos(b)\", "
-                                  "\"sin(b)\"]\n[simulation]\nduration = 1\n"),
-                            "--json"});
-    REQUIRE(heavy.exit == 0);
-    CHECK(std::abs(Json::parse(heavy.out)["final"]["coordinates"]["b"].get<double>() - 1) < 1e-9);
 }
 
 TEST_CASE("commands: a value that is not a number is traced to its term, and a run that fails keeps its results") {

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <map>
 #include <set>
 
+#include "alembert/dense.hpp"
 #include "formalism/joint_tree.hpp"
 #include "formalism/kinematics.hpp"
 #include "language/say.hpp"
@@ -25,13 +27,28 @@ using GiNaC::is_a;
 
 namespace {
 
-/// A state for the pivots, if the constraints have to give some to coordinates without mass.
+/// Whether the mass matrix of n rows is singular for these values of nodes, in whatever units.
+bool is_singular(const std::vector<int>& mass, Eigen::Index n, const std::vector<double>& value) {
+    constexpr double negligible = 1e-12;
+    if (value.empty()) return false;
+    Eigen::MatrixXd M(n, n);
+    for (Eigen::Index i = 0, k = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j <= i; ++j, ++k)
+            M(i, j) = M(j, i) = value[static_cast<std::size_t>(mass[static_cast<std::size_t>(k)])];
+    const Eigen::VectorXd scale = M.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd unit = scale.asDiagonal() * M * scale.asDiagonal();
+    return unit.allFinite() && eigenpairs(unit).values[0] < negligible;
+}
+
+/// A state for the pivots, if the constraints have to give some to coordinates without mass, or to combinations of
+/// them that have none where the constraints hold (massless cranks that carry the middle of their coupler).
 Witness witness_of(const Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& mass,
                    const std::function<Start()>& admissible) {
     bool is_massless = false;
     for (int i = 0; i < e.size(); ++i) is_massless = is_massless || program.is_zero(mass[i * (i + 1) / 2 + i]);
-    if (!is_massless || m.constraints.empty() || !admissible) return {};
-    return Witness(state_of(admissible(), m, e));
+    if (m.constraints.empty() || !admissible) return {};
+    const Witness witness(state_of(admissible(), m, e));
+    return is_massless || is_singular(mass, e.size(), witness.values(program)) ? witness : Witness();
 }
 
 /// Defines q' = h(q,u,t) and q'' if the speeds are not the rates; u' are the nodes of `udot`.

@@ -134,6 +134,10 @@ private:
                 for (auto& b : b_) b[rows[i]] = minus(b[rows[i]], times(factor, b[rows[c]]));
             }
         }
+        std::vector<Program::Factor> squares;
+        for (std::size_t c = 0; c < left.size(); ++c) squares.emplace_back(rows_[rows[c]][left[c]], 2);
+        for (const int k : left)
+            if (k >= preferred_) later_pivots_[k - preferred_] = p_.product(1, squares);
         std::vector<std::vector<int>> solutions(b_.size(), std::vector<int>(n_, -1));
         for (std::size_t side = 0; side < b_.size(); ++side)
             for (std::size_t c = left.size(); c-- > 0;) {
@@ -153,7 +157,7 @@ private:
     std::vector<std::vector<int>> b_;     // right-hand sides, one after the other
     std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
     std::vector<int> order_;
-    std::vector<int> later_pivots_;  // with the sign changed; −1 if rows were exchanged
+    std::vector<int> later_pivots_;  // with the sign changed; −1 before the elimination
 };
 
 }  // namespace

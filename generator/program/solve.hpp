@@ -47,7 +47,8 @@ std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, c
 
 /// The pivots of the same elimination for the unknowns that are not preferred, in their order. For [M Aᵀ; A 0]
 /// they are, with the opposite sign, the pivots of A M⁻¹Aᵀ, some of which vanish where rows of A depend on each
-/// other. Empty if rows had to be exchanged.
+/// other. Where rows had to be exchanged, it is the square of the determinant of the rows that did, for each
+/// unknown among them. Empty if the matrix is structurally singular.
 std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, int size, int preferred,
                               const Witness& witness = {});
 

@@ -13,24 +13,25 @@ namespace alembert {
 
 namespace {
 
-/// The coordinates (or speeds) that have kinetic energy. If the constraints do not determine the rates of those
-/// that have none from the rates of the others (their columns of A are dependent), all n of them.
-std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const std::vector<double>& value) {
-    const std::vector<int> mass = program.nodes_of(Group::mass), rows = program.nodes_of(Group::row);
-    std::vector<Eigen::Index> heavy, massless, all;
-    for (int i = 0; i < n; ++i) {
-        bool any = false;
-        for (int j = 0; j < n; ++j)
-            any = any || !program.is_zero(mass[std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j)]);
-        (any ? heavy : massless).push_back(i);
-        all.push_back(i);
-    }
-    if (massless.empty() || rows.empty()) return all;
-    Eigen::MatrixXd A(rows.size() / n, massless.size());
+/// A in the n speeds.
+Eigen::MatrixXd rows_of(const Program& program, Eigen::Index n, const std::vector<double>& value) {
+    std::vector<int> entries = program.nodes_of(Group::speed_row);
+    if (entries.empty()) entries = program.nodes_of(Group::row);
+    Eigen::MatrixXd A(static_cast<Eigen::Index>(entries.size()) / n, n);
     for (Eigen::Index k = 0; k < A.rows(); ++k)
-        for (Eigen::Index i = 0; i < A.cols(); ++i) A(k, i) = value[rows[k * n + massless[i]]];
-    for (Eigen::Index i = 0; i < A.cols(); ++i) A.col(i).normalize();  // removes the units of the columns
-    return least_norm(A, Eigen::VectorXd::Zero(A.rows())).rank == A.cols() ? heavy : all;
+        for (Eigen::Index i = 0; i < n; ++i) A(k, i) = value[entries[k * n + i]];
+    return A;
+}
+
+/// An orthonormal basis of the rates that the rows of A allow, which may depend on each other.
+Eigen::MatrixXd allowed_by(Eigen::MatrixXd A) {
+    constexpr double dependent = 1e-10;
+    if (A.rows() == 0) return Eigen::MatrixXd::Identity(A.cols(), A.cols());
+    for (Eigen::Index k = 0; k < A.rows(); ++k)
+        if (const double size = A.row(k).norm(); size > 0) A.row(k) /= size;  // removes the units of the rows
+    const SingularValues parts = singular_values(A.transpose());
+    const Eigen::Index rank = (parts.values.array() > dependent * std::max(parts.values[0], 1e-300)).count();
+    return parts.left.rightCols(A.cols() - rank);
 }
 
 }  // namespace
@@ -44,11 +45,10 @@ std::optional<std::string> massless_combination(const Program& program, const St
     for (const Quantity& speed : program.speeds) names.push_back(speed.name);
     for (const Quantity& q : program.coordinates)
         if (program.speeds.empty()) names.push_back(q.name + "'");
-    const std::vector<Eigen::Index> of = to_be_resisted(program, static_cast<int>(names.size()), value);
-    const auto n = static_cast<Eigen::Index>(of.size());
+    const auto n = static_cast<Eigen::Index>(names.size());
     Eigen::MatrixXd M(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[lower[of[i] * (of[i] + 1) / 2 + of[j]]];
+        for (Eigen::Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[lower[i * (i + 1) / 2 + j]];
     if (n == 0 || !M.allFinite()) return std::nullopt;
     // The size of an entry depends on its units. Therefore it is compared with its row and its column.
     Eigen::VectorXd scale(n);
@@ -57,13 +57,24 @@ std::optional<std::string> massless_combination(const Program& program, const St
         scale[i] = M(i, i) > 0 ? 1 / std::sqrt(M(i, i)) : size > 0 ? 1 / std::sqrt(size) : 1;
     }
     const Eigen::MatrixXd unit = scale.asDiagonal() * M * scale.asDiagonal();
-    const Eigenpairs eigen = eigenpairs(unit);
-    Eigen::Index weakest = 0;
-    eigen.values.cwiseAbs().minCoeff(&weakest);
-    const double largest = eigen.values.cwiseAbs().maxCoeff();
-    if (std::abs(eigen.values[weakest]) > 1e-13 * largest && largest > 0) return std::nullopt;
+    const double largest = unit.cwiseAbs().maxCoeff();
+    const auto weakest_of = [](const Eigenpairs& pairs) {
+        Eigen::Index weakest = 0;
+        pairs.values.cwiseAbs().minCoeff(&weakest);
+        return weakest;
+    };
+    const auto resists = [&](double value) { return std::abs(value) > 1e-13 * largest && largest > 0; };
+    Eigenpairs eigen = eigenpairs(unit);
+    if (resists(eigen.values[weakest_of(eigen)])) return std::nullopt;
+    const Eigen::MatrixXd A = rows_of(program, n, value) * scale.asDiagonal();
+    if (!A.allFinite()) return std::nullopt;
+    const Eigen::MatrixXd Z = allowed_by(A);
+    if (Z.cols() == 0) return std::nullopt;
+    eigen = eigenpairs(Z.transpose() * unit * Z);
+    const Eigen::Index weakest = weakest_of(eigen);
+    if (resists(eigen.values[weakest])) return std::nullopt;
 
-    Eigen::VectorXd direction = scale.asDiagonal() * eigen.vectors.col(weakest);
+    Eigen::VectorXd direction = scale.asDiagonal() * (Z * eigen.vectors.col(weakest));
     Eigen::Index first = 0;
     const double size = direction.cwiseAbs().maxCoeff(&first);
     direction /= direction[first] < 0 ? -size : size;
@@ -73,7 +84,7 @@ std::optional<std::string> massless_combination(const Program& program, const St
         if (std::abs(c) < 1e-9) continue;
         const std::string number = std::abs(std::abs(c) - 1) < 1e-9 ? "" : fmt::format("{:.4g}*", std::abs(c));
         text += text.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
-        text += number + names[of[i]];
+        text += number + names[static_cast<std::size_t>(i)];
     }
     return text;
 }
@@ -107,7 +118,7 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
     }
     return say(
         "{} in this pose, and the rank of the constraints drops from {} to {}; start beside it "
-        "(audit lists such poses; dop853 goes through one where every coordinate has inertia)",
+        "(audit lists such poses, and simulate goes through most of them)",
         count == 1 ? say("constraint {} has no row left", names)
                    : say("the rows of constraints {} become dependent", names),
         m, left);

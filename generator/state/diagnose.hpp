@@ -12,11 +12,12 @@
 
 namespace alembert {
 
-/// The combination of rates without kinetic energy, as "theta1' - theta2'", if the mass matrix is singular to
-/// working precision at this state: the smallest eigenvalue of the matrix, scaled to a unit diagonal, is below
-/// 1e-13 of the largest (Higham, Accuracy and Stability of Numerical Algorithms (2002), §7.3 on such scaling).
-/// Coordinates without kinetic energy do not matter if the constraints determine their rates from the others,
-/// because the matrix of the equations with their constraints is then regular (a massless pulley on two ropes).
+/// The combination of rates without kinetic energy, as "theta1' - theta2'", that the constraints allow at this
+/// state, if there is one to working precision: the smallest eigenvalue of the mass matrix along the rates
+/// allowed, scaled to a unit diagonal, is below 1e-13 of the largest entry (Higham, Accuracy and Stability of
+/// Numerical Algorithms (2002), §7.3 on such scaling). Rates without kinetic energy do not matter if the
+/// constraints determine them from the others, because the matrix of the equations with their constraints is then
+/// regular (a massless pulley on two ropes).
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state);
 
 /// Constraints whose rows are dependent at this state, although the constraints `kept` (by index) are independent

@@ -31,10 +31,16 @@ Eigen::Index Orthogonal::rank() const {
     return factors_.rank();
 }
 
-Cholesky::Cholesky(const MatrixXd& M) : factors_(M) {}
+Cholesky::Cholesky(const MatrixXd& M) : factors_(M), diagonal_(M.diagonal()) {}
 
 bool Cholesky::exists() const {
-    return factors_.info() == Eigen::Success;
+    constexpr double negligible = 1e-12;
+    if (factors_.info() != Eigen::Success) return false;
+    for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
+        const double root = factors_.matrixLLT()(i, i);
+        if (!(root * root > negligible * diagonal_[i])) return false;
+    }
+    return true;
 }
 
 MatrixXd Cholesky::solve_lower(const MatrixXd& b) const {

@@ -46,13 +46,15 @@ private:
 class Cholesky {
 public:
     explicit Cholesky(const Eigen::MatrixXd& M);
-    bool exists() const;                                          ///< is M positive definite?
+    /// Whether M is positive definite, with no pivot below 1e-12 of its diagonal entry.
+    bool exists() const;
     Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& b) const;  ///< L⁻¹ b
     Eigen::VectorXd solve_upper(const Eigen::VectorXd& b) const;  ///< L⁻ᵀ b
     Eigen::VectorXd upper(const Eigen::VectorXd& x) const;        ///< Lᵀ x
 
 private:
     Eigen::LLT<Eigen::MatrixXd> factors_;
+    Eigen::VectorXd diagonal_;
 };
 
 /// Gaussian elimination of A with row pivots. A: n×n.
