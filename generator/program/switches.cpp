@@ -209,7 +209,7 @@ bool Switched::has_frictions() const {
 }
 
 std::size_t Switched::events() const {
-    return functions.size() * (2U + (positional.empty() ? 0U : 1U) + (has_frictions() ? 2U : 0U));
+    return functions.size() * (positional.empty() ? 2U : 3U) + bounds();
 }
 
 std::optional<Switched> switched(const Program& program, SecondRates second) {
@@ -228,24 +228,25 @@ std::optional<Switched> switched(const Program& program, SecondRates second) {
     if (!rates) return std::nullopt;
     for (std::size_t k = components; k < conditions.size(); ++k)
         made.parameters.push_back({.name = fmt::format("side_{}", k + 1), .unit = "", .value = 1});
-    std::vector<bool> places = second == SecondRates::wanted ? positional(made, conditions) : std::vector<bool>();
+    std::vector<bool> of_positions;
+    if (second == SecondRates::wanted) of_positions = positional(made, conditions);
     std::vector<int> changing = *rates;  // 0 where it is not wanted
-    for (std::size_t k = 0; k < places.size(); ++k)
-        if (!places[k]) changing[k] = made.number(0);
-    const auto second_rates = places.empty() ? std::nullopt : rates_of(made, changing);
-    if (!second_rates) places.clear();
-    for (std::size_t k = 0; k < places.size(); ++k)
-        made.roots.push_back(
-            {Group::event, fmt::format("second rate of side function {}", k + 1), (*second_rates)[k]});
-    for (std::size_t k = 0; k < conditions.size(); ++k)
-        made.roots.push_back({Group::event, fmt::format("side function {}", k + 1), conditions[k]});
-    for (std::size_t k = 0; k < conditions.size(); ++k)
-        made.roots.push_back({Group::event, fmt::format("rate of side function {}", k + 1), (*rates)[k]});
+    for (std::size_t k = 0; k < of_positions.size(); ++k)
+        if (!of_positions[k]) changing[k] = made.number(0);
+    const auto second_rates = of_positions.empty() ? std::nullopt : rates_of(made, changing);
+    if (!second_rates) of_positions.clear();
+    const auto add = [&made](const char* what, const std::vector<int>& nodes) {
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+            made.roots.push_back({Group::event, fmt::format("{} {}", what, k + 1), nodes[k]});
+    };
+    add("side function", conditions);
+    add("rate of side function", *rates);
+    if (second_rates) add("second rate of side function", *second_rates);
     Switched result{.program = {},
                     .functions = functions,
                     .pairs = static_cast<int>(components / 2),
                     .frictions = frictions_of(made, conditions),
-                    .positional = std::move(places)};
+                    .positional = std::move(of_positions)};
     if (result.has_frictions()) add_bounds(made, result);
     result.program = made.canonical();
     return result;

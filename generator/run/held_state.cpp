@@ -22,8 +22,7 @@ constexpr double jammed = 1e-3;    // a determinant of the normal forces below t
 /// The program in the form that the runtime needs, evaluated by interpretation; y is q, followed by the rates or
 /// speeds.
 Switching interpreted(const Switched& s, const State<double>& state) {
-    const std::size_t count = s.functions.size(), held = static_cast<std::size_t>(s.held()), n = state.q.size(),
-                      all = n + state.qdot.size();
+    const std::size_t held = static_cast<std::size_t>(s.held()), n = state.q.size(), all = n + state.qdot.size();
     const auto at = [state, n](double t, const double* y, const double* sigma, std::size_t signs) {
         State<double> here = state;
         here.t = t;
@@ -32,23 +31,18 @@ Switching interpreted(const Switched& s, const State<double>& state) {
         here.parameters.insert(here.parameters.end(), sigma, sigma + signs);
         return here;
     };
-    const auto events = [&s, at, count, held, n](std::size_t before_end, bool with_second) {
+    const auto events_from = [&s, at, held, n](std::size_t before_end, std::size_t count) {
         return [=, &s](double t, const double* y, const double* sigma, const double* rate, double* out) {
             State<double> here = at(t, y, sigma, held);
             here.qddot.assign(rate + n, rate + n + here.qdot.size());
             const std::vector<double> value = interpret(s.program, here);
             const std::vector<int> nodes = s.program.nodes_of(Group::event);
-            const auto first = nodes.end() - static_cast<std::ptrdiff_t>(before_end);
-            for (std::size_t k = 0; k < 2 * count; ++k)
-                out[k] = value[static_cast<std::size_t>(first[static_cast<std::ptrdiff_t>(k)])];
-            if (!with_second) return;
-            for (std::size_t k = 0; k < count; ++k)
-                out[2 * count + k] = value[static_cast<std::size_t>(
-                    first[static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(count)])];
+            const std::size_t first = nodes.size() - before_end;
+            for (std::size_t k = 0; k < count; ++k) out[k] = value[static_cast<std::size_t>(nodes[first + k])];
         };
     };
     Switching system;
-    system.names.resize(count);
+    system.names.resize(s.functions.size());
     system.pairs = s.pairs;
     system.rates = [&s, at, held, n, all](double t, const double* y, const double* sigma, double* rate) {
         const std::vector<double> value = interpret(s.program, at(t, y, sigma, held));
@@ -58,10 +52,9 @@ Switching interpreted(const Switched& s, const State<double>& state) {
             rate[i] = first.empty() ? y[n + i] : value[static_cast<std::size_t>(first[i])];
         for (std::size_t i = n; i < all; ++i) rate[i] = value[static_cast<std::size_t>(second[i - n])];
     };
-    const std::size_t more = s.has_frictions() ? 2 * count : 0;
     system.positional = s.positional;
-    system.values = events(2 * count + more, !s.positional.empty());
-    if (more > 0) system.bounds = events(more, false);
+    system.values = events_from(s.events(), system.numbers());
+    if (s.bounds() > 0) system.bounds = events_from(s.bounds(), s.bounds());
     return system;
 }
 

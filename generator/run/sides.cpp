@@ -121,7 +121,6 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
 Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
                        std::vector<std::string> names, Work work, Correction correct,
                        std::function<Rhs(const std::vector<double>& values)> smooth) {
-    const std::size_t count = names.size(), more = jumps.has_frictions() ? 2 * count : 0;
     const auto held = std::make_shared<HeldParameters>(module, values, jumps.held());
     Switching system;
     system.names = std::move(names);
@@ -137,18 +136,16 @@ Switching switching_of(const Module& module, const std::vector<double>& values, 
         table.energy(t, y, rate, par, energy, &jacobi);
         rate[table.coordinates + table.speeds] = energy[3];
     };
-    const auto events_from = [module, held, count](std::size_t before_end, bool with_second) {
+    const auto events_from = [module, held](std::size_t before_end, std::size_t count) {
         return [=, all = std::vector<double>(static_cast<std::size_t>(module.table().events))](
                    double t, const double* y, const double* sigma, const double* rate, double* out) mutable {
             module.table().events_at(t, y, rate, held->with(sigma), all.data());
-            const auto first = all.end() - static_cast<std::ptrdiff_t>(before_end);
-            std::copy_n(first, 2 * count, out);
-            if (with_second) std::copy_n(first - static_cast<std::ptrdiff_t>(count), count, out + 2 * count);
+            std::copy_n(all.end() - static_cast<std::ptrdiff_t>(before_end), count, out);
         };
     };
     system.positional = jumps.positional;
-    system.values = events_from(2 * count + more, !jumps.positional.empty());
-    if (more > 0) system.bounds = events_from(more, false);
+    system.values = events_from(jumps.events(), system.numbers());
+    if (jumps.bounds() > 0) system.bounds = events_from(jumps.bounds(), jumps.bounds());
     system.smooth = [held, smooth = std::move(smooth)](const std::vector<double>& sigma) {
         return smooth(held->values(sigma));
     };
