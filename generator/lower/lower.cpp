@@ -35,7 +35,7 @@ bool is_singular(const std::vector<int>& mass, Eigen::Index n, const std::vector
     for (Eigen::Index i = 0, k = 0; i < n; ++i)
         for (Eigen::Index j = 0; j <= i; ++j, ++k)
             M(i, j) = M(j, i) = value[static_cast<std::size_t>(mass[static_cast<std::size_t>(k)])];
-    const Eigen::VectorXd scale = M.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+    const Eigen::VectorXd scale = unit_scale(M);
     const Eigen::MatrixXd unit = scale.asDiagonal() * M * scale.asDiagonal();
     return unit.allFinite() && eigenpairs(unit).values[0] < negligible;
 }

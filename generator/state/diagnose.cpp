@@ -50,12 +50,7 @@ std::optional<std::string> massless_combination(const Program& program, const St
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[lower[i * (i + 1) / 2 + j]];
     if (n == 0 || !M.allFinite()) return std::nullopt;
-    // The size of an entry depends on its units. Therefore it is compared with its row and its column.
-    Eigen::VectorXd scale(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const double size = M.row(i).cwiseAbs().maxCoeff();
-        scale[i] = M(i, i) > 0 ? 1 / std::sqrt(M(i, i)) : size > 0 ? 1 / std::sqrt(size) : 1;
-    }
+    const Eigen::VectorXd scale = unit_scale(M);
     const Eigen::MatrixXd unit = scale.asDiagonal() * M * scale.asDiagonal();
     const double largest = unit.cwiseAbs().maxCoeff();
     const auto weakest_of = [](const Eigenpairs& pairs) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <cmath>
 
 namespace alembert {
 
@@ -62,6 +63,15 @@ void Elimination::factor(const MatrixXd& A) {
 
 void Elimination::solve(const VectorXd& b, VectorXd& x) const {
     x = factors_.solve(b);
+}
+
+VectorXd unit_scale(const MatrixXd& M) {
+    VectorXd scale(M.rows());
+    for (Eigen::Index i = 0; i < M.rows(); ++i) {
+        const double size = M(i, i) > 0 ? M(i, i) : M.row(i).cwiseAbs().maxCoeff();
+        scale[i] = size > 0 ? 1 / std::sqrt(size) : 1;
+    }
+    return scale;
 }
 
 Eigenpairs eigenpairs(const MatrixXd& M) {

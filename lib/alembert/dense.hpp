@@ -67,6 +67,10 @@ private:
     Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
 };
 
+/// Factors cᵢ that give cᵢ Mᵢⱼ cⱼ a size near 1 in any units: 1/√Mᵢᵢ where Mᵢᵢ is positive, otherwise 1/√ of the
+/// largest entry of the row, or 1 in an empty row. M: n×n, symmetric.
+Eigen::VectorXd unit_scale(const Eigen::MatrixXd& M);
+
 struct Eigenpairs {
     Eigen::VectorXd values;   ///< ascending
     Eigen::MatrixXd vectors;  ///< columns of length 1
