@@ -11,6 +11,7 @@
 
 #include "json.hpp"
 #include "program.hpp"
+#include "tables.hpp"
 
 namespace commands_branches {
 
@@ -102,8 +103,9 @@ inertia = 0.4
     return scene;
 }
 
-/// Two cranks, of which the second has no mass, and a massless coupler with an angle of its own.
-std::string by_a_massless_coupler(const Swing& swing, double zero) {
+/// Two cranks and a massless coupler with an angle of its own. The only mass is on it, at this distance from the
+/// tip of the first crank.
+std::string by_a_massless_coupler(const Swing& swing, double zero, double distance) {
     return head + fmt::format(R"toml(
 [coordinates]
 a0 = {{ initial = {0:.17g}, rate = {1} }}
@@ -113,7 +115,7 @@ c = {{ guess = {2:.17g}, rate_guess = 0 }}
 [[particle]]
 name = "P"
 mass = 1
-position = ["sin(a0 + {3:.17g})", "-cos(a0 + {3:.17g})"]
+position = ["sin(a0 + {3:.17g}) + {4}*cos(c + {3:.17g})", "-cos(a0 + {3:.17g}) + {4}*sin(c + {3:.17g})"]
 [[constraint]]
 name = "x"
 holonomic = "sin(a0 + {3:.17g}) + 2*cos(c + {3:.17g}) = 2 + sin(a1 + {3:.17g})"
@@ -124,7 +126,7 @@ holonomic = "-cos(a0 + {3:.17g}) + 2*sin(c + {3:.17g}) = -cos(a1 + {3:.17g})"
 name = "same"
 holonomic = "a2 = a1"
 )toml",
-                              swing.angle - zero, swing.rate, -zero, zero);
+                              swing.angle - zero, swing.rate, -zero, zero, distance);
 }
 
 /// Massless cranks carry a mass in the middle between their tips, whose distance is given: the mass matrix is
@@ -214,10 +216,34 @@ TEST_CASE(
         CAPTURE(swing.angle);
         const double truth = swung(swing);
         for (const double zero : zeros) {
-            check(by_a_massless_coupler(swing, zero), zero, truth);
+            for (const double distance : {0, 1}) check(by_a_massless_coupler(swing, zero, distance), zero, truth);
             check(by_the_middle(swing, zero), zero, truth);
         }
     }
+}
+
+// Only the rates at the start tell on which branch the cranks go on.
+TEST_CASE("branches: linkages with massless cranks begin in flat poses") {
+    for (const Swing& swing : {Swing{M_PI / 2, 1}, {M_PI / 2, -4}, {-M_PI / 2, 3}}) {
+        CAPTURE(swing.angle);
+        CAPTURE(swing.rate);
+        const double truth = swung(swing);
+        for (const double zero : zeros) {
+            check(by_a_body(swing, zero), zero, truth);
+            for (const double distance : {0, 1}) check(by_a_massless_coupler(swing, zero, distance), zero, truth);
+            check(by_the_middle(swing, zero), zero, truth);
+        }
+    }
+}
+
+TEST_CASE("branches: sweep follows the branch through flat poses as simulate does") {
+    const std::string scene =
+        temporary("swept_cranks.toml", by_a_massless_coupler({-1, 7}, 0, 0) + "[parameters]\nm = 1\n");
+    const std::string table = temporary("swept_cranks.csv", "");
+    REQUIRE(alembert::test::run({"sweep", scene, "--vary", "m=1:2:2", "-o", table}).exit == 0);
+    const double truth = swung({-1, 7});
+    for (const char* const angle : {"final_a0", "final_a1"})
+        for (const double end : alembert::test::column(table, angle)) CHECK(std::abs(end - truth) < of_cranks);
 }
 
 TEST_CASE("branches: audit names the distance that follows on this branch, from whatever zero") {

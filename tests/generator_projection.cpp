@@ -115,7 +115,7 @@ TEST_CASE("projection: a failed run is forgotten before the next") {
     at = home;
     projection(0, at.data());
     CHECK(projection.is_near_singular());  // its row is small beside that of the lost one
-    projection.forget();
+    projection.begin(0, home.data());
     at = home;
     projection(0, at.data());
     CHECK_FALSE(projection.is_near_singular());

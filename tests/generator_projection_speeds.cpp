@@ -214,7 +214,7 @@ TEST_CASE("projection: in speeds constraints hold to rounding along long runs, a
                             .on_step = on_step,
                             .project = projection.after_steps()};
             if (method == Method::abm) options.step = 1e-3;
-            projection.forget();
+            projection.begin(options.start, here.state.data());
             const Trajectory motion =
                 integrate(projection.guarded(make_rhs(here.module, here.start.parameters), here.start.parameters),
                           here.state, options);

@@ -35,7 +35,10 @@ public:
             const int place = next_pivot(left);
             if (place < 0) return with_exchanges(left);
             const int k = left[place];
-            if (k >= preferred_) later_pivots_[k - preferred_] = p_.product(-1, {{rows_[k][k], 1}});
+            if (k >= preferred_)
+                later_pivots_[k - preferred_] = p_.product(-1, {{rows_[k][k], 1}});
+            else if (has_moving_value(rows_[k][k]))
+                moving_pivots_.push_back(rows_[k][k]);
             left.erase(left.begin() + place);
             eliminate(k, left);
             order_.push_back(k);
@@ -45,11 +48,14 @@ public:
 
     /// Valid after `solve`.
     const std::vector<int>& later_pivots() const { return later_pivots_; }
+    /// Those of the preferred unknowns that depend on the state.
+    const std::vector<int>& moving_pivots() const { return moving_pivots_; }
 
 private:
     int times(int a, int b) { return p_.product(1, {{a, 1}, {b, 1}}); }
     int minus(int a, int b) { return p_.sum(0, {{1, a}, {-1, b}}); }
     bool zero(int i, int j) const { return p_.is_zero(rows_[i][j]); }
+    bool has_moving_value(int node) const { return !p_[node].is_constant(); }
 
     /// The position in `left` of the regular pivot with the fewest neighbours; among equals the last one, so that
     /// a chain is eliminated from its tip.
@@ -158,6 +164,7 @@ private:
     std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
     std::vector<int> order_;
     std::vector<int> later_pivots_;  // with the sign changed; −1 before the elimination
+    std::vector<int> moving_pivots_;
 };
 
 }  // namespace
@@ -190,6 +197,12 @@ std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, i
     elimination.solve();
     std::vector<int> pivots = elimination.later_pivots();
     if (std::count(pivots.begin(), pivots.end(), -1) > 0) pivots.clear();
+    if (pivots.empty() || !witness.has_state()) return pivots;
+    std::size_t place = 0;
+    for (const int moving : elimination.moving_pivots()) {
+        int& pivot = pivots[place++ % pivots.size()];
+        pivot = program.product(1, {{pivot, 1}, {moving, 1}});
+    }
     return pivots;
 }
 

@@ -19,6 +19,8 @@ public:
     Witness() = default;
     explicit Witness(State<double> state) : state_(std::move(state)) {}
 
+    bool has_state() const { return state_.has_value(); }
+
     /// The values of all nodes of a program, always the same one, which may have grown since the last call: each
     /// node is computed once. Empty without a state, or if a function is left open.
     const std::vector<double>& values(const Program& program) const;
@@ -48,7 +50,9 @@ std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, c
 /// The pivots of the same elimination for the unknowns that are not preferred, in their order. For [M Aᵀ; A 0]
 /// they are, with the opposite sign, the pivots of A M⁻¹Aᵀ, some of which vanish where rows of A depend on each
 /// other. Where rows had to be exchanged, it is the square of the determinant of the rows that did, for each
-/// unknown among them. Empty if the matrix is structurally singular.
+/// unknown among them. With a witness, as M then is singular in some poses, the preferred pivots that depend on
+/// the state are multiplied into them, one by one in turn: where the product vanishes, the elimination divides by
+/// next to nothing. Empty if the matrix is structurally singular.
 std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, int size, int preferred,
                               const Witness& witness = {});
 

@@ -150,7 +150,7 @@ public:
         start_ = start_of(m);
         assemble(start_, m, lower_constraints(m), {});
         const State<double> first = state_of(start_, m, result_.equations);
-        need_accelerations(result_, program, first);
+        need_accelerations(result_, program, first, FirstPose::may_be_singular);
         const double duration = wishes_.duration >= 0 ? wishes_.duration : start_.duration;
         if (has_jumps(m) || !m.frictions.empty() || switched(program)) return measure_jumps(program, first);
 

@@ -55,7 +55,7 @@ public:
 
     Trajectory follow(const Rhs& rhs, const std::vector<double>& initial, const Options& given) {
         passes.clear();
-        projection_->forget();
+        projection_->begin(given.start, to_other(initial).data());
         const double end = given.start + given.duration;
         Options options = given;
         options.by = {};

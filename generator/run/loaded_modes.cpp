@@ -80,8 +80,8 @@ LoadedModes::LoadedModes(CompiledModes& compiled, const Start& start, const Stat
                          OnModeStep on_step)
     : compiled_(compiled), start_(start), first_(first), on_step_(std::move(on_step)) {}
 
-void LoadedModes::forget() {
-    for (auto& entry : loaded_) entry.second->projection.forget();
+void LoadedModes::begin(double t, const double* state) {
+    for (auto& entry : loaded_) entry.second->projection.begin(t, state);
 }
 
 LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
@@ -207,7 +207,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     const CompiledMode& made = compiled_(closed, first_);
     if (loaded_.empty()) {
         const std::lock_guard lock(compiled_.symbols);
-        need_accelerations(made.derived, made.program, first_);
+        need_accelerations(made.derived, made.program, first_, FirstPose::may_be_singular);
     }
     const MethodChoice& method = compiled_.method();
     const Module& module = made.code.module;
@@ -251,6 +251,9 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     LoadedMode* const self = mode.get();
     if (jumps) hold_signs(*self, events);
     if (constrained) {
+        std::vector<double> first = first_.q;
+        first.insert(first.end(), first_.qdot.begin(), first_.qdot.end());
+        self->projection.begin(first_.t, first.data());
         mode->contact.project = self->projection.after_steps();
         if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs), values);
     }

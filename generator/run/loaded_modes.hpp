@@ -66,8 +66,8 @@ public:
     std::function<void(const SideChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
         on_side_change = {};
 
-    /// To be called before another run (Projection::forget).
-    void forget();
+    /// To be called before another run, with its first state (Projection::begin).
+    void begin(double t, const double* state);
 
     CompiledModes& compiled() { return compiled_; }
 

@@ -75,7 +75,7 @@ Measured Workbench::measure(Options options) {
     double sum = 0;
     Trajectory motion;
     do {
-        projection_.forget();
+        projection_.begin(options.start, parts_.initial.data());
         motion = integrate(rhs_, parts_.initial, options);
         seconds.push_back(motion.statistics.seconds);
         sum += seconds.back();
@@ -117,7 +117,7 @@ void Workbench::kept(const Options& given, Measured& result) {
     };
     std::vector<double> initial = parts_.initial;
     if (work) initial.push_back(0);
-    projection_.forget();
+    projection_.begin(options.start, parts_.initial.data());
     if (integrate(work ? with_work_ : rhs_, initial, options).failure) return;
     result.energy_drift = work ? drift.balance() : drift.energy();
     result.work = work;
@@ -128,7 +128,7 @@ std::optional<std::vector<double>> Workbench::end_of(const Options& given) {
     Options options = given;
     options.sample = options.duration > 0 ? options.duration : 1;
     if (!parts_.derived.mechanism.constraints.empty()) options.project = projection_.after_steps();
-    projection_.forget();
+    projection_.begin(options.start, parts_.initial.data());
     const Trajectory motion = integrate(rhs_, parts_.initial, options);
     if (motion.failure) return std::nullopt;
     return coordinates_and_rates(rhs_, motion.times.back(), motion.final_state().data(),

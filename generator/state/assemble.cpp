@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "alembert/dense.hpp"
@@ -22,6 +23,11 @@ namespace alembert {
 namespace {
 
 constexpr int most_rounds = 100;
+constexpr double small_step = 1e-8;  // a larger one does not remove what is only rounding
+/// An entry of a row of the constraints, compared with the largest of the row, that is the rounding of 0, like
+/// sin π.
+constexpr double rounded_off = 8 * std::numeric_limits<double>::epsilon();
+
 class Assembly {
 public:
     Assembly(Start& start, const Mechanism& m, const Program& p, const Overrides& held)
@@ -125,7 +131,11 @@ private:
             for (Eigen::Index k = 0; k < m; ++k) {
                 f[k] = value[nodes[k]];
                 const bool counts = group == Group::velocity || m_.constraints[k].position;
-                for (Eigen::Index j = 0; j < n; ++j) J(k, j) = counts ? value[rows_[k * m_.size() + free[j]]] : 0;
+                const double least = rounded_off * size_of_row(static_cast<std::size_t>(k), value);
+                for (Eigen::Index j = 0; j < n; ++j) {
+                    const double entry = value[rows_[k * m_.size() + free[j]]];
+                    J(k, j) = counts && !(std::abs(entry) < least) ? entry : 0;
+                }
             }
             const double misfit = f.lpNorm<Eigen::Infinity>();
             if (!(misfit > 0) || (misfit < 1e-12 && misfit > former / 2)) break;
@@ -134,7 +144,7 @@ private:
             // Far from the solution a full step may turn an angle by whole revolutions.
             if (const double length = step.lpNorm<Eigen::Infinity>(); group == Group::position && length > 1)
                 step /= length;
-            if (!step.allFinite()) break;
+            if (!step.allFinite() || (step.lpNorm<Eigen::Infinity>() > small_step && is_rounding(f, nodes))) break;
             for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
         }
         check(nodes, x, n > 0);
@@ -142,6 +152,22 @@ private:
             if (std::abs(x[i] - before[i]) >
                 1e-14 * std::max(1.0, std::abs(before[i])))  // a smaller change is rounding and is not reported
                 moved_.push_back(say("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
+    }
+
+    /// Whether the constraints are off by no more than the rounding of their own values. Where a linkage lies
+    /// flat, a step that removes it would be large.
+    bool is_rounding(const Eigen::VectorXd& f, const std::vector<int>& nodes) const {
+        const std::vector<double> rounded = rounding_errors(p_, start_.state());
+        for (Eigen::Index k = 0; k < f.size(); ++k)
+            if (!(std::abs(f[k]) <= rounded[nodes[k]])) return false;
+        return true;
+    }
+
+    double size_of_row(std::size_t k, const std::vector<double>& value) const {
+        double largest = 0;
+        for (std::size_t i = 0; i < m_.q.size(); ++i)
+            largest = std::max(largest, std::abs(value[rows_[k * m_.q.size() + i]]));
+        return largest;
     }
 
     /// The rounding error of a step, here or in the computation that gave the values; the terms themselves may all
@@ -217,6 +243,26 @@ std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, cons
     return moved;
 }
 
+namespace {
+
+/// The state a little further on along its rates; nothing if it does not move or the constraints cannot be met.
+std::optional<Start> moved_on(Start start, const Mechanism& movable, const Program& constraints) {
+    constexpr double distance = 0.01;  // of the coordinate that moves fastest
+    double fastest = 0;
+    for (const double rate : start.qdot) fastest = std::max(fastest, std::abs(rate));
+    if (!(fastest > 0)) return std::nullopt;
+    for (std::size_t i = 0; i < start.q.size(); ++i) start.q[i] += distance * start.qdot[i] / fastest;
+    start.t += distance / fastest;
+    try {
+        assemble(start, movable, constraints, {});
+    } catch (const std::runtime_error&) {
+        return std::nullopt;
+    }
+    return start;
+}
+
+}  // namespace
+
 Start admissible_start(const Mechanism& m) {
     const Program constraints = lower_constraints(m);
     Mechanism movable = m;
@@ -226,10 +272,10 @@ Start admissible_start(const Mechanism& m) {
         Start start = start_of(m);
         try {
             assemble(start, *one, constraints, {});
-            return start;
         } catch (const std::runtime_error&) {
             continue;
         }
+        return moved_on(start, movable, constraints).value_or(start);
     }
     return start_of(m);
 }

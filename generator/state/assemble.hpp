@@ -31,8 +31,10 @@ std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, cons
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, const LeftOut& left_out, bool rates_must_obey = true);
 
-/// The initial state with its guesses adjusted. Where the given values break the constraints (a contact that
-/// closes later), all others move too. If no state is found that obeys them, the initial values as they stand.
+/// A state that obeys the constraints: the initial one with its guesses adjusted, and then, because that may be a
+/// singular pose, a little further on along its rates. Where the given values break the constraints (a contact
+/// that closes later), all others move too. If no state is found that obeys them, the initial values as they
+/// stand.
 Start admissible_start(const Mechanism& mechanism);
 
 /// The sum of the sizes of the terms of a node, relative to which its value is judged.

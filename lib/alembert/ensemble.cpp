@@ -228,7 +228,7 @@ private:
         }
         const alembert_solver_table& table = e_.module.table();
         const bool works = e_.work == Work::integrated;
-        const Rhs rhs = rhs_of(e_, member.parameters);
+        Rhs rhs = rhs_of(e_, member.parameters);
         const std::vector<double> par = prepared(e_.module, member.parameters);
         const std::vector<double> state = with_quadratures(e_, member.state);
         Drift drift(table.coordinates, table.speeds, works);
@@ -253,8 +253,11 @@ private:
             along(t, y.data(), rate.data());
         };
         std::optional<Projection> projection;
-        if (table.constraints > 0)
-            options.project = projection.emplace(e_.module, member.parameters).after_steps();
+        if (table.constraints > 0) {
+            projection.emplace(e_.module, member.parameters).begin(options.start, state.data());
+            options.project = projection->after_steps();
+            rhs = projection->guarded(std::move(rhs), member.parameters);
+        }
         const Trajectory motion = integrate(
             rhs, state, options,
             e_.stops.empty() ? Events() : make_events(e_.module, member.parameters, e_.stops, e_.directions));

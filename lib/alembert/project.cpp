@@ -15,7 +15,6 @@ constexpr double small_change = 1e-8;     // its square is rounding
 constexpr double one_rounding = 0x1p-53;  // rounding of a number of size 1
 constexpr double singular_pivot = 1e-5;
 constexpr double held = 5e-5;
-constexpr double held_with_massless = 1e-5;
 
 }  // namespace
 
@@ -43,8 +42,7 @@ Projection::Projection(const Module& module, const std::vector<double>& values)
       misfit_(static_cast<std::size_t>(m_)),
       pivots_(misfit_.size()),
       largest_pivots_(misfit_.size()),
-      lengths_(misfit_.size()),
-      widths_(static_cast<std::size_t>(s_)) {}
+      saddle_(s_, m_) {}
 
 void Projection::evaluate(double t, const double* state, const double* par) {
     module_.table().constraints_at(t, state, par, position_.data(), velocity_.data(), rows_.data());
@@ -52,8 +50,35 @@ void Projection::evaluate(double t, const double* state, const double* par) {
 }
 
 void Projection::forget() {
-    for (auto* sizes : {&largest_pivots_, &lengths_, &widths_}) std::fill(sizes->begin(), sizes->end(), 0);
-    is_near_singular_ = false;
+    std::fill(largest_pivots_.begin(), largest_pivots_.end(), 0);
+    saddle_.forget();
+    is_near_singular_ = have_grown_ = false;
+}
+
+/// The pose beside the start is where the coordinate that moves fastest has gone a tenth of a radian, or of the
+/// largest coordinate if that is less than 1.
+void Projection::begin(double t, const double* start) {
+    constexpr double distance = 0.1;
+    forget();
+    if (module_.projection() == nullptr || module_.projection()->project == nullptr) return;
+    std::vector<double> state(start, start + n_ + s_), rate(state.size());
+    module_.table().rhs(t, start, par_.data(), rate.data());
+    const Eigen::Map<Eigen::VectorXd> q(state.data(), n_), along(rate.data(), n_);
+    const double fastest = along.lpNorm<Eigen::Infinity>(), size = q.lpNorm<Eigen::Infinity>();
+    if (!(fastest > 0 && fastest < HUGE_VAL)) return;
+    const auto look = [&] {
+        module_.projection()->project(t, state.data(), par_.data(), moved_.data(), misfit_.data(), pivots_.data());
+    };
+    Eigen::Map<Eigen::VectorXd>(state.data(), n_) +=
+        distance * (size > 0 ? std::min(size, 1.0) : 1) / fastest * along;
+    look();
+    if (!std::all_of(pivots_.begin(), pivots_.end(), [](double pivot) { return std::isfinite(pivot); })) return;
+    pivots_are_small();
+    evaluate(t, state.data());
+    saddle_.measure(mass_, Rows(in_speeds()));
+    std::copy_n(start, n_, state.begin());
+    look();
+    is_near_singular_ = pivots_are_small();
 }
 
 std::function<void(double t, double* state)> Projection::after_steps() {
@@ -72,58 +97,6 @@ bool Projection::pivots_are_small() {
         small = small || (pivots_[k] != 0 && !(size > singular_pivot * largest_pivots_[k]));
     }
     return small;
-}
-
-/// Measures A, which has been evaluated, for `with_massless`: rows in the metric of M, and then columns of
-/// massless speeds beside rows of length 1.
-void Projection::measure_rows() {
-    const Rows B = in_speeds();
-    for (int k = 0; k < m_; ++k) {
-        double heavy = 0, all = 0;
-        for (int i = 0; i < s_; ++i) {
-            if (mass_(i, i) > 0) heavy += B(k, i) * B(k, i) / mass_(i, i);
-            all = std::max(all, std::abs(B(k, i)));
-        }
-        double& length = lengths_[static_cast<std::size_t>(k)];
-        length = std::max(length, heavy > 0 ? std::sqrt(heavy) : all);
-    }
-    for (int i = 0; i < s_; ++i)
-        for (int k = 0; k < m_; ++k) {
-            double& width = widths_[static_cast<std::size_t>(i)];
-            if (mass_(i, i) > 0) continue;
-            if (const double length = lengths_[static_cast<std::size_t>(k)]; length > 0)
-                width = std::max(width, std::abs(B(k, i)) / length);
-        }
-}
-
-/// The first part of K⁻¹ (force, r) near a singular pose where M is singular.
-Eigen::VectorXd Projection::with_massless(const Eigen::VectorXd& force, const Eigen::VectorXd& r) const {
-    const int all = s_ + m_;
-    Eigen::VectorXd scale(all), right(all);
-    for (int i = 0; i < s_; ++i) {
-        const double width = widths_[static_cast<std::size_t>(i)];
-        scale[i] = mass_(i, i) > 0 ? 1 / std::sqrt(mass_(i, i)) : width > 0 ? 1 / width : 1;
-    }
-    for (int k = 0; k < m_; ++k) {
-        const double length = lengths_[static_cast<std::size_t>(k)];
-        scale[s_ + k] = length > 0 ? 1 / length : 1;
-    }
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(all, all);
-    K.topLeftCorner(s_, s_) = mass_;
-    K.bottomLeftCorner(m_, s_) = in_speeds();
-    K.topRightCorner(s_, m_) = K.bottomLeftCorner(m_, s_).transpose();
-    K = scale.asDiagonal() * K * scale.asDiagonal();
-    right << force, r;
-    right = scale.cwiseProduct(right);
-    if (!K.allFinite() || !right.allFinite()) return Eigen::VectorXd::Constant(s_, HUGE_VAL);
-    const Eigenpairs found = eigenpairs(K);
-    Eigen::VectorXd along = found.vectors.transpose() * right;
-    for (int i = 0; i < all; ++i) {
-        constexpr double square = held_with_massless * held_with_massless;
-        const double value = found.values[i], below = value * value + square;
-        along[i] *= value / below * (1 + square / below);  // the correction leaves τ⁴ in directions held well
-    }
-    return scale.head(s_).cwiseProduct((found.vectors * along).head(s_));
 }
 
 /// x of least norm with B x = r. Near a singular pose it is x = Bᵀ (B Bᵀ + τ²)⁻¹ r (Tikhonov), with each row
@@ -175,7 +148,7 @@ bool Projection::unrolled(double t, double* state) {
 Eigen::VectorXd Projection::along_speeds(const Eigen::VectorXd& misfit) const {
     const Rows B = in_speeds();
     const Cholesky factors(mass_);
-    if (!factors.exists() && is_near_singular_) return with_massless(Eigen::VectorXd::Zero(s_), misfit);
+    if (!factors.exists() && is_near_singular_) return saddle_.solve(mass_, B, Eigen::VectorXd::Zero(s_), misfit);
     if (!factors.exists()) {
         const Eigen::MatrixXd across = solve_symmetric(mass_, B.transpose());
         return across * least_norm(B * across, misfit).x;
@@ -217,7 +190,7 @@ void Projection::operator()(double t, double* state) {
     const bool is_done = unrolled(t, state);
     if (have_grown_) {
         evaluate(t, state);
-        measure_rows();
+        saddle_.measure(mass_, Rows(in_speeds()));
         have_grown_ = false;
     }
     if (is_done) return;
@@ -274,7 +247,7 @@ bool Projection::accelerations(double t, const double* state, const double* par,
     const Cholesky factors(mass_);
     if (!factors.exists()) {
         if (others) return false;
-        const Eigen::VectorXd found = with_massless(forcing_, gamma_);
+        const Eigen::VectorXd found = saddle_.solve(mass_, Rows(in_speeds()), forcing_, gamma_);
         std::copy_n(found.data(), s_, acceleration);
         return true;
     }

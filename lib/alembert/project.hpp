@@ -25,12 +25,8 @@
 /// projection then removes the departure and its energy, which is of second order. A smaller τ would gain nothing:
 /// rounding of the positions, 1e-16, changes the rates that obey the constraints by 1e-16/σ².
 ///
-/// Where M is singular, as with massless cranks, there is no L, and no inertia carries them through the pose.
-/// There K = [M Aᵀ; A 0], with its rows and columns scaled to a size of 1, is inverted with λ/(λ² + τ²) for 1/λ
-/// along each eigenvector: massless parts go on with their rates where nothing determines their accelerations, and
-/// the projection brings them back to the constraints after the pose. Each pass changes the motion by about τ²
-/// then, and by rounding divided by τ: with τ = 1e-5 three cranks with one redundant constraint, which turn eleven
-/// times through the pose, end within 3e-8. One object serves one thread, and one run after the other.
+/// Where M is singular, as with massless cranks, there is no L; the two are solved at once then, by
+/// `SaddlePoint`. One object serves one thread, and one run after the other.
 
 #include <Eigen/Dense>
 #include <functional>
@@ -38,6 +34,7 @@
 
 #include "alembert/module.hpp"
 #include "alembert/rhs.hpp"
+#include "alembert/saddle_point.hpp"
 
 namespace alembert {
 
@@ -54,9 +51,10 @@ public:
     /// none is holonomic.
     std::function<void(double t, double* state)> after_steps();
 
-    /// To be called before another run: the largest pivots of the last run, which may have failed, are no measure
-    /// for the next.
-    void forget();
+    /// To be called before each run with its first state: the largest pivots of the last run, which may have
+    /// failed, are no measure for the next. Because the run may begin in a singular pose, or near one, they begin
+    /// with those of a pose beside the start, along its rates.
+    void begin(double t, const double* start);
 
     /// The largest |f| and |A q' + b| at a state.
     double residual(double t, const double* state);
@@ -81,11 +79,10 @@ private:
     void evaluate(double t, const double* state) { evaluate(t, state, par_.data()); }
     void evaluate(double t, const double* state, const double* par);
     bool pivots_are_small();
+    void forget();
     Eigen::VectorXd least(Eigen::MatrixXd B, Eigen::VectorXd r) const;
     Eigen::VectorXd multipliers(Eigen::MatrixXd across, Eigen::MatrixXd others, Eigen::VectorXd r) const;
     Eigen::VectorXd along_speeds(const Eigen::VectorXd& misfit) const;
-    Eigen::VectorXd with_massless(const Eigen::VectorXd& force, const Eigen::VectorXd& r) const;
-    void measure_rows();
     Eigen::VectorXd in_positions(double t, const double* state) const;
     struct Guard;
     static void careful(const void* context, double t, const double* state, double* rate);
@@ -97,8 +94,7 @@ private:
     Rows mass_;
     std::vector<double> rows_;  ///< A, followed, if the speeds are not the rates, by A in terms of the speeds
     std::vector<double> moved_, misfit_, pivots_, largest_pivots_;  // one for each constraint in the file's order
-    /// The largest lengths of the rows of A, and of its columns for massless speeds, while pivots grew.
-    std::vector<double> lengths_, widths_;
+    SaddlePoint saddle_;                                            ///< measured where a pivot has grown
     bool is_near_singular_ = false, have_grown_ = false;
 };
 
