@@ -80,8 +80,16 @@ LoadedModes::LoadedModes(CompiledModes& compiled, const Start& start, const Stat
                          OnModeStep on_step)
     : compiled_(compiled), start_(start), first_(first), on_step_(std::move(on_step)) {}
 
-void LoadedModes::begin(double t, const double* state) {
-    for (auto& entry : loaded_) entry.second->projection.begin(t, state);
+void LoadedModes::begin() {
+    for (auto& entry : loaded_) begin_in(*entry.second);
+}
+
+void LoadedModes::begin_in(LoadedMode& mode) const {
+    std::vector<double> first = first_.q;
+    first.insert(first.end(), first_.qdot.begin(), first_.qdot.end());
+    const alembert_solver_table& table = mode.module.table();
+    const bool has_other_speeds = static_cast<int>(first.size()) != table.coordinates + table.speeds;
+    if (!has_other_speeds) mode.projection.begin(first_.t, first.data());
 }
 
 LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
@@ -251,9 +259,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     LoadedMode* const self = mode.get();
     if (jumps) hold_signs(*self, events);
     if (constrained) {
-        std::vector<double> first = first_.q;
-        first.insert(first.end(), first_.qdot.begin(), first_.qdot.end());
-        self->projection.begin(first_.t, first.data());
+        begin_in(*self);
         mode->contact.project = self->projection.after_steps();
         if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs), values);
     }

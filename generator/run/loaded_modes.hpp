@@ -66,13 +66,14 @@ public:
     std::function<void(const SideChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
         on_side_change = {};
 
-    /// To be called before another run, with its first state (Projection::begin).
-    void begin(double t, const double* state);
+    /// To be called before another run from the first state or near it (Projection::begin).
+    void begin();
 
     CompiledModes& compiled() { return compiled_; }
 
 private:
     std::unique_ptr<LoadedMode> bound(const std::vector<int>& closed);
+    void begin_in(LoadedMode& mode) const;
     void hold_signs(LoadedMode& mode, std::size_t events);
     Rhs with_jacobian(LoadedMode& mode);
     Rhs with_series(LoadedMode& mode);

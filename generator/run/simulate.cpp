@@ -159,7 +159,7 @@ private:
     }
 
     PhasedMotion followed(LoadedModes& modes, const Options& options, const std::vector<double>& from) const {
-        modes.begin(options.start, from.data());
+        modes.begin();
         return follow(
             contacts_, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; },
             from, options);

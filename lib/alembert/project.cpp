@@ -56,28 +56,31 @@ void Projection::forget() {
 }
 
 /// The pose beside the start is where the coordinate that moves fastest has gone a tenth of a radian, or of the
-/// largest coordinate if that is less than 1.
+/// largest coordinate if that is less than 1. It does not count if pivots grow like those beside a pole there.
 void Projection::begin(double t, const double* start) {
-    constexpr double distance = 0.1;
+    constexpr double distance = 0.1,
+                     steepest = 20;  // twice as far from a singular pose pivots are four times as large
     forget();
     if (module_.projection() == nullptr || module_.projection()->project == nullptr) return;
     std::vector<double> state(start, start + n_ + s_), rate(state.size());
     module_.table().rhs(t, start, par_.data(), rate.data());
-    const Eigen::Map<Eigen::VectorXd> q(state.data(), n_), along(rate.data(), n_);
+    Eigen::Map<Eigen::VectorXd> q(state.data(), n_);
+    const Eigen::VectorXd first = q, along = Eigen::Map<Eigen::VectorXd>(rate.data(), n_);
     const double fastest = along.lpNorm<Eigen::Infinity>(), size = q.lpNorm<Eigen::Infinity>();
     if (!(fastest > 0 && fastest < HUGE_VAL)) return;
-    const auto look = [&] {
+    const auto look = [&](double share) {
+        q = first + share * distance * (size > 0 ? std::min(size, 1.0) : 1) / fastest * along;
         module_.projection()->project(t, state.data(), par_.data(), moved_.data(), misfit_.data(), pivots_.data());
     };
-    Eigen::Map<Eigen::VectorXd>(state.data(), n_) +=
-        distance * (size > 0 ? std::min(size, 1.0) : 1) / fastest * along;
-    look();
-    if (!std::all_of(pivots_.begin(), pivots_.end(), [](double pivot) { return std::isfinite(pivot); })) return;
+    look(0.5);
+    const std::vector<double> halfway = pivots_;
+    look(1);
+    for (std::size_t k = 0; k < pivots_.size(); ++k)
+        if (!(std::abs(pivots_[k]) <= steepest * std::abs(halfway[k]))) return;
     pivots_are_small();
     evaluate(t, state.data());
     saddle_.measure(mass_, Rows(in_speeds()));
-    std::copy_n(start, n_, state.begin());
-    look();
+    look(0);
     is_near_singular_ = pivots_are_small();
 }
 
