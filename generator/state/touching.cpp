@@ -76,6 +76,7 @@ std::vector<Eigen::VectorXd> dependences(const Eigen::MatrixXd& A) {
     const SingularValues parts = singular_values(with_unit_rows(A));
     Eigen::Index rank = 0;
     while (rank < parts.values.size() && parts.values[rank] >= nearly_dependent) ++rank;
+    if (rank == A.rows()) return {};
     Eigen::MatrixXd N = parts.left.rightCols(A.rows() - rank);
     for (Eigen::Index r = 0; r < A.rows(); ++r)
         if (A.row(r).norm() > 0) N.row(r) /= A.row(r).norm();

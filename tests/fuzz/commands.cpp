@@ -37,15 +37,19 @@ const std::vector<Words> verbs = {{"derive"},
                                   {"stability"},
                                   {"agree"}};
 
+/// A folder that goes with the process.
+struct TemporaryFolder {
+    std::string name = (std::filesystem::temp_directory_path() / "fuzz-XXXXXX").string();
+    TemporaryFolder() {
+        if (!mkdtemp(name.data())) std::abort();
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(name); }
+};
+
 /// The folder in which the scene is written, for each process its own.
 std::filesystem::path folder() {
-    static const std::filesystem::path made = [] {
-        std::string name = (std::filesystem::temp_directory_path() / "fuzz-XXXXXX").string();
-        if (!mkdtemp(name.data())) std::abort();
-        std::atexit([] { std::filesystem::remove_all(folder()); });
-        return std::filesystem::path(name);
-    }();
-    return made;
+    static const TemporaryFolder made;
+    return made.name;
 }
 
 /// Words, numbers, and single other bytes.
