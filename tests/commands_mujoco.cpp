@@ -292,8 +292,8 @@ TEST_CASE("import: equalities of MJCF accelerate from rest as MuJoCo's mass matr
     Eigen::VectorXd f(m.nv);
     for (int i = 0; i < m.nv; ++i) f[i] = d.qfrc_passive[i] - d.qfrc_bias[i];
     // M a = f + Jᵀλ, J a = 0. Some rows of J depend on others.
-    const Eigen::MatrixXd W = solve_symmetric(M, J.transpose());
-    const Eigen::VectorXd free = solve_symmetric(M, f), lambda = least_norm(J * W, J * free).x,
+    const Eigen::MatrixXd W = alembert::solve_symmetric(M, J.transpose());
+    const Eigen::VectorXd free = alembert::solve_symmetric(M, f), lambda = alembert::least_norm(J * W, J * free).x,
                           a = free - W * lambda;
     check_against(in_scene(mj, told["names"]["coordinates"], a.data()), scene);
 }
