@@ -14,6 +14,8 @@ namespace alembert {
 
 namespace {
 
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 constexpr double two_digits = 1e-2, two_digits_of_energy = 2e-2, near = 0.1;
 
 /// The shortest time in which an input changes, apart from switches, which a step cannot pass over unnoticed.
@@ -24,17 +26,28 @@ const QuickTime* quickest(const std::vector<QuickTime>& inputs) {
     return found;
 }
 
-/// The smallest eigenvalue of M (n×n, row-major) scaled to ones on its diagonal; nothing if M has no such form.
-std::optional<double> conditioning(const std::vector<double>& M, std::size_t n) {
-    Eigen::MatrixXd scaled(n, n);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
-            const double own = M[i * n + i] * M[j * n + j];
-            if (!(own > 0) || !std::isfinite(own)) return std::nullopt;
-            scaled(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = M[i * n + j] / std::sqrt(own);
-        }
-    if (!scaled.allFinite()) return std::nullopt;
-    return std::max(0.0, eigenpairs(scaled).values[0]);
+/// How well a pose determines the motion there. Both numbers are the smallest eigenvalue of a matrix.
+struct Conditioning {
+    double inertia = 1;  ///< of M with ones on its diagonal, and AᵀA added: what A excludes needs no inertia
+    double rows = 1;     ///< of A Aᵀ
+};
+
+/// M: n×n; A: m×n, m may be 0. A has the scale of M and rows of length 1 here. Nothing if M has no ones on its
+/// diagonal in any scale.
+std::optional<Conditioning> conditioning(const Rows& M, Rows A) {
+    const Eigen::VectorXd own = M.diagonal();
+    for (Eigen::Index i = 0; i < own.size(); ++i)
+        if (!(own[i] > 0) || !std::isfinite(own[i])) return std::nullopt;
+    const Eigen::VectorXd scale = own.cwiseSqrt().cwiseInverse();
+    Eigen::MatrixXd scaled = scale.asDiagonal() * M * scale.asDiagonal();
+    A *= scale.asDiagonal();
+    for (Eigen::Index k = 0; k < A.rows(); ++k)
+        if (const double length = A.row(k).norm(); length > 0) A.row(k) /= length;
+    scaled += A.transpose() * A;
+    const Eigen::MatrixXd products = A * A.transpose();
+    if (!scaled.allFinite() || !products.allFinite()) return std::nullopt;
+    return Conditioning{.inertia = std::max(0.0, eigenpairs(scaled).values[0]),
+                        .rows = A.rows() == 0 ? 1 : std::max(0.0, eigenpairs(products).values[0])};
 }
 
 }  // namespace
@@ -113,20 +126,29 @@ double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const P
     constexpr int most_speeds = 40;  // for larger matrices the eigenvalues would take as long as the run
     const alembert_solver_table& table = mode.module.table();
     if (table.mass_forcing == nullptr || table.speeds > most_speeds || table.speeds < 2) return 1;
-    const auto n = static_cast<std::size_t>(table.speeds);
-    std::vector<double> M(n * n), forcing(n);
-    double smallest = HUGE_VAL, largest = 0;
+    const int n = table.coordinates, s = table.speeds, m = table.constraints;
+    const std::ptrdiff_t in_speeds = table.speed_names != nullptr ? std::ptrdiff_t(m) * n : 0;
+    Rows M(s, s);
+    std::vector<double> forcing(static_cast<std::size_t>(s)), position(static_cast<std::size_t>(m)),
+        velocity(position.size()), rows(static_cast<std::size_t>(in_speeds + std::ptrdiff_t(m) * s));
+    std::vector<Conditioning> found;
     const auto look = [&](double t, const double* state) {
         table.mass_forcing(t, state, mode.par.data(), M.data(), forcing.data());
-        if (const auto value = conditioning(M, n)) {
-            smallest = std::min(smallest, *value);
-            largest = std::max(largest, *value);
-        }
+        if (m > 0) table.constraints_at(t, state, mode.par.data(), position.data(), velocity.data(), rows.data());
+        if (const auto one = conditioning(M, Eigen::Map<const Rows>(rows.data() + in_speeds, m, s)))
+            found.push_back(*one);
     };
     for (const Phase& phase : motion.phases)
         for (std::size_t row = 0; row < phase.motion.rows(); row += 1 + phase.motion.rows() / 400)
             look(phase.motion.times[row], phase.motion.state(row).data());
     for (std::size_t k = 0; k < poses.states().size(); ++k) look(poses.time(k), poses.states()[k].data());
+    double smallest = HUGE_VAL, largest = 0, most_rows = 0;
+    for (const Conditioning& one : found) most_rows = std::max(most_rows, one.rows);
+    for (const Conditioning& one : found) {
+        if (one.rows < near * near * most_rows) continue;
+        smallest = std::min(smallest, one.inertia);
+        largest = std::max(largest, one.inertia);
+    }
     return largest > 0 ? smallest / largest : 1;
 }
 

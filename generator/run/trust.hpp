@@ -21,7 +21,9 @@
 /// Poses where the description is singular (gimbal lock, poles of spherical coordinates): there M, scaled to ones
 /// on its diagonal, has an eigenvalue that vanishes as the square of the distance. δ², its smallest value during
 /// the motion relative to the largest, shows how near the motion came. An error e of the state becomes e/δ in the
-/// rates, where e is the tolerance, or the estimated error of fixed steps.
+/// rates, where e is the tolerance, or the estimated error of fixed steps. Motions that the constraints exclude
+/// need no inertia: AᵀA is added to M. Poses near which the constraints lose rank, where linkages lie flat, do not
+/// count: the run passes them by other equations (project.hpp), and the estimated error tells what that costs.
 
 #include <optional>
 #include <span>
