@@ -10,6 +10,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "alembert/series_length.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
@@ -175,6 +176,45 @@ tolerance = 1e-10
         for (int k = 0; k < 3; ++k) std::getline(cells, line, ',');
         CHECK(std::abs(std::stod(line) - end) < 1e-8);
     }
+}
+
+// The length of a step at which the last terms of a series are as large as allowed, where nothing shortens it.
+TEST_CASE(
+    "taylor: the terms before the last two shorten a step where powers are missing, and not for entire "
+    "functions") {
+    constexpr int order = 17;
+    const double allowed = 1e-12, share = std::pow(allowed, 1. / order);
+    const alembert::SeriesLength lengths(order, std::log(allowed));
+    const auto length = [&](const auto& size) {
+        return lengths(size, [&](int first, int end, double ratio) {
+            double most = 0;
+            for (int k = first; k < end; ++k) most = std::max(most, size(k) * std::pow(ratio, k));
+            return most;
+        });
+    };
+    const auto by_last = [&](const auto& size) {
+        return std::min(std::pow(allowed / size(order - 1), 1. / (order - 1)),
+                        std::pow(allowed / size(order), 1. / order));
+    };
+    for (const double speed : {0.1, 1., 50.}) {
+        const auto rotation = [&](int k) { return std::pow(speed, k) / std::tgamma(k + 1.); };
+        CHECK(length(rotation) == doctest::Approx(by_last(rotation)).epsilon(1e-12));
+        const auto geometric = [&](int k) { return std::pow(speed, k); };
+        CHECK(length(geometric) == doctest::Approx(by_last(geometric)).epsilon(1e-12));
+        const auto every_fourth = [&](int k) { return k % 4 == 2 ? std::pow(speed, k) : 0; };
+        CHECK(length(every_fourth) == doctest::Approx(share / speed).epsilon(1e-12));
+        const auto tiny_last = [&](int k) { return std::pow(speed, k) * (k < order - 1 ? 1 : 1e-40); };
+        CHECK(length(tiny_last) == doctest::Approx(share / speed).epsilon(1e-12));
+    }
+    const auto none = [](int) { return 0.; };
+    CHECK(length(none) == HUGE_VAL);
+    CHECK(length([](int k) { return k == order ? std::nan("") : 1.; }) == 0);
+}
+
+// At 1e-9 the last two terms alone would give 112 steps.
+TEST_CASE("taylor: a fast top takes the steps that its series allows") {
+    const Json motion = simulated(benchmark("heavy_top_sleeping"), {"--tolerance", "1e-9"});
+    CHECK(motion["steps"].get<int>() < 125);
 }
 
 TEST_CASE("taylor: steps that are kept short are not looked into") {

@@ -144,8 +144,8 @@ PackTaylor::PackTaylor(const Module& module, const SeriesPacks& series, int dime
       controlled_(dimension - extra),
       order_(taylor_order(tolerance, series.order_cost, series.product_cost)),
       parameters_(series.parameters),
-      log_tolerance_(std::log(taylor_share * tolerance)),
       most_missed_(terms_left_out * tolerance),
+      lengths_(order_, std::log(taylor_share * tolerance)),
       y_(place(dimension)),
       rest_(y_.size()),
       next_(y_.size()),
@@ -186,12 +186,21 @@ ALEMBERT_WIDEST void PackTaylor::advance(unsigned accepted) {
     new_ &= ~accepted;
 }
 
+/// The largest of size(k) ratio^k, first ≤ k < end.
+double PackTaylor::most_of(int first, int end, double ratio, int lane) const {
+    double most = 0, power = whole_power(ratio, first);
+    for (int k = first; k < end; ++k, power *= ratio) most = std::max(most, size(k, lane) * power);
+    return most;
+}
+
 double PackTaylor::next_length(int lane) const {
-    return taylor_length(order_, log_tolerance_, [&](int k) { return sizes_[k + 7 - order_][lane]; });
+    return lengths_([&](int k) { return size(k, lane); },
+                    [&](int first, int end, double ratio) { return most_of(first, end, ratio, lane); });
 }
 
 bool PackTaylor::decays(int lane, double length) const {
-    return series_decays(order_, log_tolerance_, length, [&](int k) { return sizes_[k + 7 - order_][lane]; });
+    return lengths_.decays(length,
+                           [&](int first, int end, double ratio) { return most_of(first, end, ratio, lane); });
 }
 
 double PackTaylor::shorter_length(double h, double ratio) const {

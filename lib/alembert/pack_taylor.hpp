@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "alembert/packs.hpp"
+#include "alembert/series_length.hpp"
 #include "alembert/series_packs.hpp"
 
 namespace alembert {
@@ -59,11 +60,14 @@ private:
 
     static std::size_t place(int i) { return static_cast<std::size_t>(i); }
     const Lanes* series_now() const { return coefficients_.data(); }
+    double size(int k, int lane) const { return sizes_[k + 7 - order_][lane]; }
+    double most_of(int first, int end, double ratio, int lane) const;
 
     const alembert_pack_table& pack_;
     const SeriesPacks& series_;
     int dimension_, controlled_, order_, parameters_;
-    double log_tolerance_, most_missed_;
+    double most_missed_;
+    SeriesLength lengths_;
     std::vector<Lanes> y_, rest_, next_, next_rest_, slopes_, par_, series_par_, coefficients_, next_coefficients_,
         work_;
     Lanes sizes_[8];  ///< of the last terms, the last one last

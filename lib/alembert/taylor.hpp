@@ -8,7 +8,7 @@
 ///
 /// The step is chosen before it is taken: with n_j the largest of |c_j| / max(1, |y|),
 ///
-///     h = min over j = p−1, p of (a tolerance / n_j)^(1/j)
+///     h = min over j = p−1, p of (a tolerance / n_j)^(1/j)                (series_length.hpp)
 ///
 /// (Jorba & Zou, Experimental Math. 14 (2005) 99-117, §3.2: their ρ e^(−2 − 0.7/(p−1)) is that for p = ⌈1 − ½ ln
 /// tolerance⌉ and a = ½), so that the last terms are a times the tolerance and the omitted terms are smaller. Here
@@ -28,6 +28,7 @@
 #include <memory>
 #include <new>
 
+#include "alembert/series_length.hpp"
 #include "alembert/series_sum.hpp"
 #include "alembert/stepper.hpp"
 #include "alembert/straight.hpp"
@@ -63,50 +64,6 @@ inline double taylor_effort(double order_cost, double product_cost, int order, i
            each_product * product_cost * order * order;
 }
 
-inline double whole_power(double x, int exponent) {
-    double power = 1;
-    for (; exponent > 0; exponent /= 2, x *= x)
-        if (exponent % 2 == 1) power *= x;
-    return power;
-}
-
-/// The length of the step from a state at which term k of the series has the norm `size(k)`; 0 if one of the last
-/// two is not finite. A series may lack most of its powers: a pendulum that is let go horizontally has t², t⁶, t¹⁰
-/// … alone, and its last two terms say nothing. So the six terms before them, with |c_k|^(−1/k) for the radius of
-/// convergence, shorten the step where they say that it is clearly shorter.
-template <typename Size>
-double taylor_length(int order, double log_tolerance, const Size& size) {
-    constexpr double clearly = 0.85;
-    double shortest = HUGE_VAL;  // as a logarithm
-    for (const int k : {order - 1, order}) {
-        const double term = size(k);
-        if (!(term < HUGE_VAL)) return 0;
-        if (term > 0) shortest = std::min(shortest, (log_tolerance - std::log(term)) / k);
-    }
-    const double length = std::exp(shortest), share = log_tolerance / order;
-    const double radius = clearly * length * std::exp(-share);
-    const int first = std::max(2, order - 7);
-    double power = whole_power(radius, first), by_earlier = HUGE_VAL;
-    for (int k = first; k < order - 1; ++k, power *= radius)
-        if (const double term = size(k); term > 0 && term * power > 1)
-            by_earlier = std::min(by_earlier, share - std::log(term) / k);
-    return by_earlier < shortest ? std::exp(by_earlier) : length;
-}
-
-/// Whether terms before the last ones are clearly larger than these are allowed to be, at the length that these
-/// allow: so they are where the series decays geometrically. Several are asked, because a series may lack powers.
-template <typename Size>
-bool series_decays(int order, double log_tolerance, double length, const Size& size) {
-    constexpr double clearly = 10;
-    if (!(length < HUGE_VAL)) return false;
-    const double least = clearly * std::exp(log_tolerance);
-    const int first = std::max(1, order - 7);
-    double power = whole_power(length, first);
-    for (int k = first; k < order - 1; ++k, power *= length)
-        if (size(k) * power > least) return true;
-    return false;
-}
-
 /// By what a step is shortened whose last term is `ratio` times what is allowed, or whose end was not foreseen.
 inline double shorter_taylor_step(int order, double ratio) {
     return std::isfinite(ratio) ? std::min(0.8, 0.9 * std::pow(ratio, -1.0 / order)) : 0.5;
@@ -119,14 +76,15 @@ public:
     static constexpr Between between = Between::own;
 
     Taylor(const Ends& ends, double tolerance)
-        : log_tolerance_(std::log(taylor_share * tolerance)),
-          most_missed_(terms_left_out * tolerance),
+        : most_missed_(terms_left_out * tolerance),
           order_(
               taylor_order(tolerance, ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost)),
+          lengths_(order_, std::log(taylor_share * tolerance)),
           size_(ends.y.size()),
           coefficients_(static_cast<std::size_t>(order_ + 1) * size_ + room_behind_rows),
           next_(coefficients_.size()),
           slopes_(size_),
+          shrink_(static_cast<std::size_t>(ends.controlled)),
           work_(static_cast<std::size_t>(ends.rhs.series.workspace) + 8) {
         effort_ = taylor_effort(ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost, order_,
                                 static_cast<int>(size_));
@@ -166,7 +124,8 @@ public:
     bool foresees_end(Ends& ends) {
         if (ends.h < shortest_tried * std::max(1.0, std::abs(ends.t))) return true;  // a jump
         const int places = places_within(ends.h, ends.length_of_run);
-        return foresees(ends, 1, ends.end_rate) && (places <= 1 || decays(ends) || foresees_within(ends, places));
+        return foresees(ends, 1, ends.end_rate) &&
+               (places <= 1 || decays(ends) || foresees_within(ends, places));
     }
 
     void advance(const Ends&) { std::swap(coefficients_, next_); }
@@ -197,7 +156,8 @@ private:
     /// Compares `rate` at the part theta of the step with the slopes of the polynomial there.
     bool foresees(const Ends& ends, double theta, const std::vector<double>& rate) const {
         constexpr double rounded = 1e-8;
-        const auto miss = [&](std::size_t i) { return std::abs(slopes_[i] / theta - ends.h * rate[i]); };
+        const double of_whole = 1 / theta;
+        const auto miss = [&](std::size_t i) { return std::abs(slopes_[i] * of_whole - ends.h * rate[i]); };
         const auto count = static_cast<std::size_t>(ends.controlled);
         double largest = 0;
         for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, miss(i));
@@ -210,10 +170,10 @@ private:
     }
 
     /// Whether the series tells how far it holds; a step that was cut short has smaller terms than it might have.
-    bool decays(const Ends& ends) const {
-        const auto size = [&](int k) { return ends.norm(row(k)); };
-        return series_decays(order_, log_tolerance_, ends.h, size) ||
-               series_decays(order_, log_tolerance_, length(ends), size);
+    bool decays(const Ends& ends) {
+        const double longest = length(ends);
+        const auto most = [this](int first, int end, double ratio) { return most_of(first, end, ratio); };
+        return lengths_.decays(ends.h, most) || lengths_.decays(longest, most);
     }
 
     bool foresees_within(Ends& ends, int places) {
@@ -229,15 +189,43 @@ private:
         return true;
     }
 
-    double length(const Ends& ends) const {
-        return taylor_length(order_, log_tolerance_, [&](int k) { return ends.norm(row(k)); });
+    double length(const Ends& ends) {
+        for (std::size_t i = 0; i < shrink_.size(); ++i) shrink_[i] = 1 / std::max(1.0, std::abs(ends.y[i]));
+        return lengths_([this](int k) { return norm(k); },
+                        [this](int first, int end, double ratio) { return most_of(first, end, ratio); });
     }
 
-    double log_tolerance_, most_missed_, effort_ = 0;
+    /// The largest of |c_k| / max(1, |y|), y being that of the last call of `length`; infinite if one is not
+    /// finite.
+    double norm(int k) const {
+        double largest = 0, zero = 0;
+        for (std::size_t i = 0; i < shrink_.size(); ++i) {
+            largest = std::max(largest, std::abs(row(k)[i]) * shrink_[i]);
+            zero += row(k)[i] * 0;
+        }
+        return zero == 0 ? largest : HUGE_VAL;
+    }
+
+    /// The largest of norm(k) ratio^k, first ≤ k < end: component by component, each with its own maximum, because
+    /// these do not wait for each other.
+    double most_of(int first, int end, double ratio) const {
+        double power[SeriesLength::most_terms] = {whole_power(ratio, first)}, most = 0;
+        for (int k = 1; k < end - first; ++k) power[k] = power[k - 1] * ratio;
+        for (std::size_t i = 0; i < shrink_.size(); ++i) {
+            double largest = 0;
+            for (int k = first; k < end; ++k) largest = std::max(largest, std::abs(row(k)[i]) * power[k - first]);
+            most = std::max(most, largest * shrink_[i]);
+        }
+        return most;
+    }
+
+    double most_missed_, effort_ = 0;
     int order_;
+    SeriesLength lengths_;
     std::size_t size_;
     std::vector<double> coefficients_, next_;
     std::vector<double> slopes_;  ///< of the polynomial at the end of the step, times its length
+    std::vector<double> shrink_;  ///< 1 / max(1, |y|), for norms
     std::vector<double> work_;
     double* aligned_ = nullptr;
     bool expanded_ = false;  ///< whether the series at the start of the run has been computed
