@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "alembert/error.hpp"
@@ -292,6 +293,22 @@ std::vector<int> Program::right_hand_side() const {
     const std::vector<int> rates = nodes_of(Group::rate);
     nodes.insert(nodes.end(), rates.begin(), rates.end());
     return nodes;
+}
+
+std::vector<int> Program::needed_state() const {
+    std::set<int> components;
+    if (nodes_of(Group::acceleration).empty()) components.insert(-1);
+    for (const int id : needed(right_hand_side())) {
+        if (nodes_[id].op != Op::variable) continue;
+        const Variable& v = nodes_[id].variable;
+        if (v.kind == Variable::Kind::coordinate)
+            components.insert(v.index);
+        else if (v.kind == Variable::Kind::rate)
+            components.insert(static_cast<int>(coordinates.size()) + v.index);
+        else if (v.kind != Variable::Kind::parameter)
+            components.insert(-1);
+    }
+    return {components.begin(), components.end()};
 }
 
 void Program::refuse_unspecified(const Node& node) const {

@@ -198,6 +198,9 @@ public:
     /// The nodes that a step of an integration evaluates: the accelerations, and the rates if the speeds are not
     /// the rates.
     std::vector<int> right_hand_side() const;
+    /// The components of the state, coordinates first, on which these depend; −1 among them if time is one of what
+    /// they depend on, or anything else that changes during a run.
+    std::vector<int> needed_state() const;
 
     /// The operations at each evaluation of `roots`. Nodes that depend on parameters only are not counted.
     Operations count(std::span<const int> roots) const;

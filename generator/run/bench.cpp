@@ -128,6 +128,7 @@ Compilation compilation_of(const Derived& d, const Program& program, const Start
     Compiled compiled;
     if (is_compiled) compiled = compile(source.text, program.name, compile_options(wishes));
     Module module = is_compiled ? load(compiled.object) : solver_code(written, program.name, wishes).module;
+    if (is_compiled) module.tell_needed_state(written.needed_state());
     Compilation c{.source = std::move(source),
                   .compiled = std::move(compiled),
                   .module = std::move(module),

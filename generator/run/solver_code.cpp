@@ -52,14 +52,19 @@ CompileOptions compile_options(const RunOptions& wishes) {
 
 namespace {
 
-SolverCode compiled_text(const std::string& text, const std::string& name, const RunOptions& wishes) {
+/// Of a program and what it is as text.
+SolverCode compiled_text(const Program& program, const std::string& text, const std::string& name,
+                         const RunOptions& wishes) {
     const Compiled compiled = compile(text, name, compile_options(wishes));
-    return {.module = load(compiled.object), .from_cache = compiled.from_cache};
+    SolverCode code{.module = load(compiled.object), .from_cache = compiled.from_cache};
+    code.module.tell_needed_state(program.needed_state());
+    return code;
 }
 
 std::optional<SolverCode> code_in_memory(const Program& program, bool with_packs) {
     auto solver = memory_solver(program, with_packs);
     if (!solver) return std::nullopt;
+    solver->module.tell_needed_state(program.needed_state());
     return SolverCode{.module = std::move(solver->module), .go_over = std::move(solver->go_over)};
 }
 
@@ -111,16 +116,16 @@ SeriesModule compiled_series(const Program& program, bool with_work, const RunOp
 }
 
 SolverCode compiled_code(const Program& program, const std::string& name, const RunOptions& wishes) {
-    return compiled_text(emit(program).text, name, wishes);
+    return compiled_text(program, emit(program).text, name, wishes);
 }
 
 SolverCode batch_code(const Program& program, const std::string& text, const RunOptions& wishes) {
     const CodeWish wish = code_wish(wishes);
-    if (wish == CodeWish::compiled) return compiled_text(text, program.name, wishes);
+    if (wish == CodeWish::compiled) return compiled_text(program, text, program.name, wishes);
     if (auto code = code_in_memory(program, true)) return *std::move(code);
     if (wish == CodeWish::memory) return solver_code(program, program.name, wishes);
     try {
-        return compiled_text(text, program.name, wishes);
+        return compiled_text(program, text, program.name, wishes);
     } catch (const CompileError&) {  // without a compiler, one system after the other
         if (auto code = code_in_memory(program, false)) return *std::move(code);
         throw;

@@ -56,12 +56,20 @@ public:
     /// A function of that name (`emit --functions`); null if the file has none.
     const alembert_named_function* function(const std::string& name) const;
 
+    /// The components of the state on which the accelerations depend, and the rates if the speeds are not the
+    /// rates; −1 among them stands for time. Null if nobody has told.
+    const std::shared_ptr<const std::vector<int>>& needed_state() const { return needed_state_; }
+    void tell_needed_state(std::vector<int> components) {
+        needed_state_ = std::make_shared<const std::vector<int>>(std::move(components));
+    }
+
 private:
     std::shared_ptr<const alembert_solver_table> table_;  ///< owns what the tables point to
     const alembert_derivative_table* derivatives_;        ///< in it
     const alembert_projection_table* projection_;         ///< in it
     const alembert_pack_table* pack_;                     ///< in it
     const alembert_function_table* functions_;            ///< in it
+    std::shared_ptr<const std::vector<int>> needed_state_ = {};
 };
 
 Module load(const std::filesystem::path& object);

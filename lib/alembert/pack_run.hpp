@@ -7,12 +7,11 @@
 ///     PackRun(ensemble, options, source, PackStep<dop853_tableau>(module, dimension, extra)).go(width);
 ///
 /// A step is a class with the members of PackStep (pack_step.hpp). One that has `next_length(lane)` chooses the
-/// length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp); a lane whose
-/// series does not tell how far it holds is handed back, because a run by itself looks within its steps
-/// (straight.hpp). Each lane has the
+/// length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp). Each lane has the
 /// step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is not finite, a
 /// step that underflows, the budget) is handed back with `again`: the member is then run by itself, and that run
-/// reports what went wrong.
+/// reports what went wrong. So is a lane whose series does not tell how far it holds, and one in which a long step
+/// has passed over something (straight.hpp): a run by itself looks within its steps, and repeats them.
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +41,7 @@ struct MemberSource {
 template <class Step>
 class PackRun {
     static constexpr bool has_own_lengths = requires(const Step step) { step.next_length(0); };
+    static constexpr bool chooses_by_estimate = !has_own_lengths && !Step::has_fixed_step;
 
     struct Lane {
         Member member;
@@ -52,6 +52,7 @@ class PackRun {
         Drift drift{0, 0, false};
         Along along;
         Rhs rhs = {};  ///< of this member alone, if there are states within steps to look at
+        std::vector<double> start_state = {}, start_rate = {};  ///< of a step that is to be looked into, or none
         Outcome outcome;
     };
 
@@ -152,6 +153,7 @@ private:
         for (int i = 0; i < lanes; ++i) length[i] = step_.end[i] - step_.time[i];
         const unsigned begun = new_lanes();
         if (good != 0) {
+            if constexpr (chooses_by_estimate) note_starts(good, length);
             step_.advance(good);
             step_.energies(energy_);
         }
@@ -172,6 +174,11 @@ private:
                     give_back(i);
                     continue;
                 }
+            if constexpr (chooses_by_estimate)
+                if (is_good && !passes_over_nothing(i, length[i])) {
+                    give_back(i);
+                    continue;
+                }
             if (has_begun) continue;
             ++(is_good ? lane.outcome.steps : lane.outcome.rejected);
             if (!is_good) continue;
@@ -179,6 +186,50 @@ private:
             if (ensemble_.along) note_state(i, length[i]);
             if (step_.time[i] == lane.end) complete(i);
         }
+    }
+
+    /// Keeps the starts of the steps that are a good part of their runs and have next to no error.
+    void note_starts(unsigned good, const double (&length)[lanes]) {
+        for (int i = 0; i < lanes; ++i) {
+            Lane& lane = lane_[i];
+            lane.start_state.clear();
+            lane.start_rate.clear();
+            if ((good >> i & 1U) == 0 || step_.misfit[i] > next_to_none * options_.tolerance ||
+                places_within(length[i], lane.member.duration) <= 1)
+                continue;
+            for (int k = 0; k < dimension_; ++k) {
+                lane.start_state.push_back(step_.state(k, i));
+                lane.start_rate.push_back(step_.rate(k, i));
+            }
+        }
+    }
+
+    /// Of the step that ends where the lane is now: whether nothing is found within, where it is to be looked
+    /// into. Only a straight step is, on which the states are known from the rates at its ends.
+    bool passes_over_nothing(int i, double length) {
+        Lane& lane = lane_[i];
+        if (lane.start_state.empty()) return true;
+        if (lane.rhs.call == nullptr)
+            lane.rhs = make_rhs(ensemble_.module, lane.member.parameters, ensemble_.work);
+        for (int k = 0; k < dimension_; ++k) {
+            state_[static_cast<std::size_t>(k)] = step_.state(k, i);
+            rate_[static_cast<std::size_t>(k)] = step_.rate(k, i);
+        }
+        const auto between = [&](double theta, double* state) {
+            for (std::size_t k = 0; k < state_.size(); ++k) {
+                const double change = rate_[k] - lane.start_rate[k];
+                state[k] = lane.start_state[k] + theta * length * (lane.start_rate[k] + theta / 2 * change);
+            }
+        };
+        const Stretch stretch = {.start = step_.time[i] - length,
+                                 .end = step_.time[i],
+                                 .end_state = state_.data(),
+                                 .end_rate = rate_.data(),
+                                 .start_state = lane.start_state.data(),
+                                 .start_rate = lane.start_rate.data(),
+                                 .interpolate = between};
+        return is_clear(stretch, places_within(length, lane.member.duration), lane.rhs, options_.tolerance,
+                        lane.outcome.evaluations);
     }
 
     /// Those whose step is their first one, without length.

@@ -74,6 +74,7 @@ Rhs make_rhs(const Module& module, const std::vector<double>& values, Work work)
             .call = with_work ? rate_and_power : rate_of,
             .jacobian = nullptr};
     rhs.energies = energies_of;
+    rhs.needed_state = module.needed_state();
     if (module.derivatives() != nullptr) rhs.jacobian = with_work ? derivative_of<1> : derivative_of<0>;
     for (int i = 0; i < table.coordinates; ++i) rhs.names.emplace_back(table.coordinate_names[i]);
     for (int i = 0; i < table.speeds; ++i)

@@ -47,6 +47,8 @@ struct Rhs {
     /// Writes the rates of the components that depend on velocities alone, q and the time of a regularized system,
     /// and leaves the others; null for systems in t, where these are q' = v.
     Call drift = nullptr;
+    /// The components on which the rates depend besides q' = v, −1 among them for time; null if that is not known.
+    std::shared_ptr<const std::vector<int>> needed_state = {};
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 

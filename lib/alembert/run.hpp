@@ -235,7 +235,6 @@ private:
     /// step that is a good part of the run and has next to no error is looked at.
     bool is_foreseen_after(double misfit) {
         if constexpr (requires { step_.foresees_end(); }) return step_.foresees_end();
-        constexpr double next_to_none = 0.01;
         const int places = places_within(step_.length(), options_.duration);
         if (misfit > next_to_none * tolerance_ || places <= 1) return true;
         return is_clear(stretch(), places, step_.rhs(), tolerance_, further_evaluations_);

@@ -20,6 +20,9 @@ bool is_clear(const Stretch& step, int places, const Rhs& rhs, double tolerance,
         const double off = std::abs(end - step.start_state[i] - moved);
         if (!(off <= straight * tolerance * std::max(1.0, std::abs(end)))) return true;
     }
+    if (is_steady(rhs, step.start_state, tolerance,
+                  [&](int i) { return std::abs(step.end_state[i] - step.start_state[i]); }))
+        return true;
     const auto keeps = [&](double theta) {
         step.interpolate(theta, state.data());
         rhs(step.start + theta * h, state.data(), here.data());

@@ -11,7 +11,10 @@
 /// A step counts as straight if the state moves by the mean of the rates at its ends. Then the rate has to go from
 /// one end to the other in proportion to time, at places that are a 64th of the run apart: times the length of the
 /// step it may differ by terms_left_out tolerances. A step that is not straight is clear; its estimated error has
-/// seen how it bends.
+/// seen how it bends. So is one in which nothing changes that the rates depend on.
+
+#include <algorithm>
+#include <cmath>
 
 #include "alembert/events.hpp"
 #include "alembert/rhs.hpp"
@@ -20,8 +23,21 @@ namespace alembert {
 
 inline constexpr int places_in_run = 64;
 inline constexpr double terms_left_out = 30;  ///< what may change the slope of a step, in tolerances
+inline constexpr double next_to_none = 0.01;  ///< an estimated error that says nothing, in tolerances
 
-/// Into how many parts a step is divided by the places at which it is looked at: 1 for short ones.
+/// Whether nothing on which the rates depend (Rhs::needed_state) changes by more than `allowed` max(1, |y|),
+/// `change` being what a component changes in the step: so it is in steady motion and under constant forces, and
+/// then there is nothing within the step. False if it is not known what they depend on.
+template <typename Change>
+bool is_steady(const Rhs& rhs, const double* state, double allowed, const Change& change) {
+    if (!rhs.needed_state) return false;
+    return std::ranges::all_of(*rhs.needed_state, [&](int i) {
+        return i >= 0 && change(i) <= allowed * std::max(1.0, std::abs(state[i]));
+    });
+}
+
+/// Into how many parts a step is divided by the places at which it is looked at: 1 for short ones. Methods with an
+/// estimated error look if it is next to none.
 int places_within(double length, double length_of_run);
 
 /// The start of the step must be known; `evaluations` counts those that are made here.

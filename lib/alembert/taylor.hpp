@@ -76,7 +76,8 @@ public:
     static constexpr Between between = Between::own;
 
     Taylor(const Ends& ends, double tolerance)
-        : most_missed_(terms_left_out * tolerance),
+        : allowed_(tolerance),
+          most_missed_(terms_left_out * tolerance),
           order_(
               taylor_order(tolerance, ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost)),
           lengths_(order_, std::log(taylor_share * tolerance)),
@@ -125,7 +126,7 @@ public:
         if (ends.h < shortest_tried * std::max(1.0, std::abs(ends.t))) return true;  // a jump
         const int places = places_within(ends.h, ends.length_of_run);
         return foresees(ends, 1, ends.end_rate) &&
-               (places <= 1 || decays(ends) || foresees_within(ends, places));
+               (places <= 1 || decays(ends) || is_steady(ends) || foresees_within(ends, places));
     }
 
     void advance(const Ends&) { std::swap(coefficients_, next_); }
@@ -176,6 +177,14 @@ private:
         return lengths_.decays(ends.h, most) || lengths_.decays(longest, most);
     }
 
+    bool is_steady(const Ends& ends) const {
+        return alembert::is_steady(ends.rhs, ends.y.data(), allowed_, [&](int i) {
+            double change = 0, power = ends.h;
+            for (int k = 1; k <= order_; ++k, power *= ends.h) change += std::abs(row(k)[i]) * power;
+            return change;
+        });
+    }
+
     bool foresees_within(Ends& ends, int places) {
         std::vector<double> state(size_), rate(size_);
         for (int place = 1; place < places; ++place) {
@@ -219,7 +228,7 @@ private:
         return most;
     }
 
-    double most_missed_, effort_ = 0;
+    double allowed_, most_missed_, effort_ = 0;
     int order_;
     SeriesLength lengths_;
     std::size_t size_;
