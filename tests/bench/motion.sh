@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Speed against error for the hard cases, rivals in the same run:
+# Speed against error for the hard cases, rivals in the same run, with our code compiled by the compiler that compiles theirs:
 #   tests/bench/motion.sh [--case NAME] [--json FILE] [--reference-seconds S] [--folder FOLDER] [PROGRAM]
 # writes FOLDER/NAME.svg, .csv and .txt for each case and FOLDER/index.html with all of them, prints the fastest of each party to each error, and with --json a list of
 # {case, method, tolerance, error, microseconds, evaluations, who}. PROGRAM: build/release/generator/alembert; alembert-peers
@@ -32,7 +32,7 @@ for name in ${only:-$cases}; do
     [ "$name" = cartesian_pendulum ] && more=(--duration 10)
     [ -n "$seconds" ] && more+=(--reference-seconds "$seconds")
     echo "== $name"
-    if "$program" bench "$scene" --peers --json --svg "$folder/$name.svg" --csv "$folder/$name.csv" ${more[@]+"${more[@]}"} \
+    if "$program" bench "$scene" --peers --code compiled --json --svg "$folder/$name.svg" --csv "$folder/$name.csv" ${more[@]+"${more[@]}"} \
         > "$folder/$name.json" 2> "$folder/$name.err"; then
         results+=("$folder/$name.json")
         python3 - "$folder/$name.json" <<'PYTHON' | tee "$folder/$name.txt"
