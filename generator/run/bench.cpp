@@ -113,8 +113,7 @@ std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& mo
 /// The solver of a scene with everything that the measured methods need.
 struct Compilation {
     Source source;
-    Compiled compiled;
-    Module module;
+    SolverCode code;
     SeriesModule series = {}, series_with_work = {};
     std::shared_ptr<const Canonical> canonical = {};
 };
@@ -124,17 +123,12 @@ Compilation compilation_of(const Derived& d, const Program& program, const Start
     const Program written =
         with_jacobian(program, method_named(wishes.method).value_or(Method::radau), !conserved);
     Source source = emit(written);
-    const bool is_compiled = !in_memory(wishes);
-    Compiled compiled;
-    if (is_compiled) compiled = compile(source.text, program.name, compile_options(wishes));
-    Module module = is_compiled ? load(compiled.object) : solver_code(written, program.name, wishes).module;
-    if (is_compiled) module.tell_needed_state(written.needed_state());
-    Compilation c{.source = std::move(source),
-                  .compiled = std::move(compiled),
-                  .module = std::move(module),
-                  .series = series_of(program, false, wishes)};
+    SolverCode code = in_memory(wishes) ? solver_code(written, program.name, wishes)
+                                        : compiled_text(written, source.text, program.name, wishes);
+    Compilation c{
+        .source = std::move(source), .code = std::move(code), .series = series_of(program, false, wishes)};
     if (c.series && !conserved) c.series_with_work = series_of(program, true, wishes);
-    c.canonical = canonical_of(d, c.module, start.parameters, wishes);
+    c.canonical = canonical_of(d, c.code.module, start.parameters, wishes);
     return c;
 }
 
@@ -162,7 +156,7 @@ public:
         std::vector<double> initial = start_.q;
         initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
         Workbench workbench({.derived = result_,
-                             .module = c.module,
+                             .module = c.code.module,
                              .series = c.series,
                              .series_with_work = c.series_with_work,
                              .canonical = c.canonical,
@@ -290,7 +284,7 @@ private:
         for (int decade = first_decade; decade <= last_decade; ++decade)
             tolerances.push_back(std::pow(10.0, -decade));
         const Peers peers = measure_peers(
-            {.object = c.compiled.object,
+            {.object = c.code.object,
              .parameters = start_.parameters,
              .initial = initial,
              .start = start_.t,

@@ -52,15 +52,6 @@ CompileOptions compile_options(const RunOptions& wishes) {
 
 namespace {
 
-/// Of a program and what it is as text.
-SolverCode compiled_text(const Program& program, const std::string& text, const std::string& name,
-                         const RunOptions& wishes) {
-    const Compiled compiled = compile(text, name, compile_options(wishes));
-    SolverCode code{.module = load(compiled.object), .from_cache = compiled.from_cache};
-    code.module.tell_needed_state(program.needed_state());
-    return code;
-}
-
 std::optional<SolverCode> code_in_memory(const Program& program, bool with_packs) {
     auto solver = memory_solver(program, with_packs);
     if (!solver) return std::nullopt;
@@ -113,6 +104,14 @@ bool needs_compiler_for_series(const RunOptions& wishes) {
 SeriesModule compiled_series(const Program& program, bool with_work, const RunOptions& wishes) {
     return load_series(
         compile(emit_taylor(program, with_work).text, program.name + "_taylor", compile_options(wishes)).object);
+}
+
+SolverCode compiled_text(const Program& program, const std::string& text, const std::string& name,
+                         const RunOptions& wishes) {
+    const Compiled compiled = compile(text, name, compile_options(wishes));
+    SolverCode code{.module = load(compiled.object), .from_cache = compiled.from_cache, .object = compiled.object};
+    code.module.tell_needed_state(program.needed_state());
+    return code;
 }
 
 SolverCode compiled_code(const Program& program, const std::string& name, const RunOptions& wishes) {

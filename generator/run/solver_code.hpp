@@ -27,6 +27,7 @@ struct SolverCode {
     Module module;
     std::function<void(const Module& compiled)> go_over = {};  ///< set if the code is in memory
     bool from_cache = false;
+    std::string object = {};  ///< the file of compiled code
 };
 
 /// Where the scene's functions are, for people who ask.
@@ -39,6 +40,9 @@ CompileOptions compile_options(const RunOptions& wishes);
 /// ModelError for wishes that contradict each other, CompileError if the wished code cannot be made here.
 SolverCode solver_code(const Program& program, const std::string& name, const RunOptions& wishes);
 SolverCode compiled_code(const Program& program, const std::string& name, const RunOptions& wishes);
+/// Likewise, if the program has been emitted as `text` already.
+SolverCode compiled_text(const Program& program, const std::string& text, const std::string& name,
+                         const RunOptions& wishes);
 
 struct CodeOfSeries {
     SeriesModule module;

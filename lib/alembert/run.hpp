@@ -235,9 +235,9 @@ private:
     /// step that is a good part of the run and has next to no error is looked at.
     bool is_foreseen_after(double misfit) {
         if constexpr (requires { step_.foresees_end(); }) return step_.foresees_end();
+        if (misfit > next_to_none * tolerance_) return true;  // so it is for most steps
         const int places = places_within(step_.length(), options_.duration);
-        if (misfit > next_to_none * tolerance_ || places <= 1) return true;
-        return is_clear(stretch(), places, step_.rhs(), tolerance_, further_evaluations_);
+        return places <= 1 || is_clear(stretch(), places, step_.rhs(), tolerance_, further_evaluations_);
     }
 
     /// Records rows and events of the step that has just been finished; then its end becomes the new start.

@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace alembert {
 
@@ -62,13 +61,13 @@ public:
     /// lack powers.
     template <typename Most>
     bool decays(double length, const Most& most) const {
-        constexpr double larger = 10;
+        constexpr double larger = 10;  // at usual orders geometric decay makes 25 within two terms
         return length < HUGE_VAL &&
                most(std::max(1, order_ - 7), order_ - 1, length) > larger * std::exp(log_allowed_);
     }
 
 private:
-    static constexpr double clearly = 0.85;
+    static constexpr double clearly = 0.85;  ///< less is made by neighbouring terms that differ in size alone
 
     /// By the six terms before the last two.
     template <typename Size>

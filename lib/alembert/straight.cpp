@@ -7,10 +7,6 @@
 
 namespace alembert {
 
-int places_within(double length, double length_of_run) {
-    return static_cast<int>(std::ceil(std::min(1.0, length / length_of_run) * places_in_run));
-}
-
 bool is_clear(const Stretch& step, int places, const Rhs& rhs, double tolerance, long& evaluations) {
     constexpr double straight = 0.1;  // tolerances: a bend that makes more is seen by the estimated error
     const double h = step.end - step.start;

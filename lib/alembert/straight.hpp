@@ -38,7 +38,9 @@ bool is_steady(const Rhs& rhs, const double* state, double allowed, const Change
 
 /// Into how many parts a step is divided by the places at which it is looked at: 1 for short ones. Methods with an
 /// estimated error look if it is next to none.
-int places_within(double length, double length_of_run);
+inline int places_within(double length, double length_of_run) {
+    return static_cast<int>(std::ceil(std::min(1.0, length / length_of_run) * places_in_run));
+}
 
 /// The start of the step must be known; `evaluations` counts those that are made here.
 bool is_clear(const Stretch& step, int places, const Rhs& rhs, double tolerance, long& evaluations);
