@@ -10,13 +10,13 @@
 #include <random>
 #include <sstream>
 
-#include "alembert/process.hpp"
 #include "files.hpp"
 #include "run/exact_sum.hpp"
 #include "run/quantile_sketch.hpp"
 #include "run/samples.hpp"
 #include "run/sweep_queue.hpp"
 #include "shell.hpp"
+#include "tools.hpp"
 
 namespace commands_cluster {
 
@@ -85,8 +85,8 @@ Run in_folder(const std::string& script, const std::vector<std::string>& options
         export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
         export ASAN_OPTIONS=detect_leaks=0 # MPI's libraries do not free everything
         quiet() { "$ALEMBERT" sweep "$@" -o quiet.csv >/dev/null; }
-        # Waits until something is done, but not all.
-        begun() { for k in $(seq 2000); do [ "$(stat -c %s t.csv.unfinished 2>/dev/null || echo 0)" -gt 60 ] && return; sleep 0.005; done; }
+        # begun PROCESS: waits until it has done something, but not all, or has ended.
+        begun() { until [ "$(stat -c %s t.csv.unfinished 2>/dev/null || echo 0)" -gt 60 ] || grep -q ') Z' /proc/$1/stat; do sleep 0.005; done; }
         )sh" + script,
                      words);
 }
@@ -97,7 +97,7 @@ const std::vector<std::string> some{"--vary", "theta=0.1:2:40", "--vary", "n=1:6
 const std::string interrupted = R"sh(
         quiet "$@"
         "$ALEMBERT" sweep "$@" -o t.csv --chunk 8 >out 2>err & program=$!
-        begun
+        begun $program
         kill -TERM $program; wait $program; echo "exit $?"
         sed 's/.*: interrupted; [0-9]* of/interrupted at some of/' err
         printf 'cut short' >>t.csv.unfinished
@@ -110,8 +110,7 @@ const std::string as_quiet =
     "goes on\nbelongs to another sweep\nagain.json\nerr\nout\nquiet.csv\nt.csv\n";
 
 bool has_mpi() {
-    return !alembert::find_program("mpirun").empty() &&
-           std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-mpi.so");
+    return has_program("mpirun") && has_part("alembert-mpi.so");
 }
 
 }  // namespace
@@ -135,7 +134,7 @@ TEST_CASE("sweep: of 8 processes one is killed, and with --resume the table is t
         quiet "$@"
         mpirun -n 8 sh -c '[ "$OMPI_COMM_WORLD_RANK" != 3 ] || echo $$ >third; exec "$ALEMBERT" sweep "$@" -o t.csv --chunk 4' \
             sh "$@" >out 2>err & launcher=$!
-        begun
+        begun $launcher
         kill -KILL $(cat third); wait $launcher; [ $? != 0 ] && echo failed
         mpirun -n 3 "$ALEMBERT" sweep "$@" -o t.csv --resume --json >out 2>err || cat err
         grep -o '"ranks": 3' out

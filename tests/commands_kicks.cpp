@@ -2,6 +2,7 @@
 // `[[event]]` with impulses and a direction: kicks, compared with closed forms and with other coordinates for the
 // same system.
 #include "contacts.hpp"
+#include "tools.hpp"
 
 namespace commands_kicks {
 
@@ -472,8 +473,7 @@ TEST_CASE("kicks: bench compares them with a strict run") {
 }
 
 TEST_CASE("kicks: cvode and ida find the events, and kick as dop853 does") {
-    if (!std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-sundials.so"))
-        return;
+    if (!has_part("alembert-sundials.so")) return;
     const std::string scene = temporary("escapement.toml", escapement);
     const Json exact = simulated(scene, {"--duration", "5", "--tolerance", "1e-12", "--method", "dop853"});
     for (const std::string method : {"cvode", "ida"}) {

@@ -12,9 +12,11 @@
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
+#include "tools.hpp"
 
 namespace commands_rattle {
 
+using alembert::test::has_part;
 using alembert::test::Json;
 using alembert::test::json_of;
 using alembert::test::run;
@@ -207,17 +209,8 @@ TEST_CASE("rattle: constraints on rates are refused by name, and a step is requi
             .exit == 3);
 }
 
-namespace {
-
-/// The back end is built if SUNDIALS is installed.
-bool has_sundials() {
-    return std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-sundials.so");
-}
-
-}  // namespace
-
 TEST_CASE("sundials: cvode and ida end where dop853 ends, free, constrained, driven and stiff") {
-    if (!has_sundials()) return;
+    if (!has_part("alembert-sundials.so")) return;
     const std::string slider = textbook("slider_crank"), moved = temporary("driven.toml", driven);
     for (const std::string& scene : {textbook("double_pendulum"), textbook("cartesian_pendulum"), slider, moved,
                                      textbook("free_body_quaternion")}) {
@@ -242,7 +235,7 @@ TEST_CASE("sundials: cvode and ida end where dop853 ends, free, constrained, dri
 }
 
 TEST_CASE("sundials: rows fall on the grid, the error is estimated, and a used-up budget keeps the results") {
-    if (!has_sundials()) return;
+    if (!has_part("alembert-sundials.so")) return;
     const std::string scene = textbook("cartesian_pendulum"), file = temporary("rows.csv", "");
     const auto result =
         run({"simulate", scene, "--method", "cvode", "--duration", "1", "--sample", "0.25", "-o", file, "--json"});

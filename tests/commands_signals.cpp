@@ -23,8 +23,9 @@ cd "$1"
 cat >slow <<'END'
 #!/bin/sh
 echo $$ >"$NOTE"
-sleep 60 &
+sleep 600 &
 wait
+echo >"$NOTE.end"
 END
 chmod +x slow
 export CXX="$PWD/slow" NOTE="$PWD/note" TMPDIR="$PWD/temporary" XDG_CACHE_HOME="$PWD/$4"
@@ -32,13 +33,13 @@ mkdir temporary
 : >file
 "$ALEMBERT" simulate --code compiled "$2" >out 2>err &
 program=$!
-for k in $(seq 200); do [ -s note ] && break; sleep 0.05; done
+until [ -s note ] || grep -q ') Z' /proc/$program/stat; do sleep 0.05; done
 [ -s note ] || { cat err >&2; exit 99; }
 kill "-$3" "$program"
 wait "$program"
 echo $?
-sleep 0.1
-kill -0 "$(cat note)" 2>/dev/null && echo "the compiler still runs"
+while kill -0 "$(cat note)" 2>/dev/null; do sleep 0.05; done
+[ -e note.end ] && echo "the compiler went on to its end"
 find temporary cache -mindepth 1 -not -path cache/alembert 2>/dev/null
 exit 0
 )sh";

@@ -4,21 +4,17 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "contacts.hpp"
+#include "tools.hpp"
 
 namespace commands_sundials {
 
 using namespace alembert::test;
 
 namespace {
-
-bool has_sundials() {
-    return std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-sundials.so");
-}
 
 std::string friction(const std::string& name) {
     return source_path("scenes/friction/" + name + ".toml");
@@ -32,7 +28,7 @@ const std::vector<std::string> both = {"cvode", "ida"};
 // steps of each piece have local errors below the tolerance 1e-11, and there are some ten of them. Of bounces that
 // are not higher than that nothing is known: they take the time 2 √(2 h/g)/(1 − e) together.
 TEST_CASE("sundials: a ball bounces at the times of the closed form, and comes to rest") {
-    if (!has_sundials()) return;
+    if (!has_part("alembert-sundials.so")) return;
     const double fall = std::sqrt(2 / g), e = 0.7, off = 1e-8;
     for (const std::string& method : both) {
         CAPTURE(method);
@@ -57,7 +53,7 @@ TEST_CASE("sundials: a ball bounces at the times of the closed form, and comes t
 // The ball slides until t = 2 v0/(7 mu g), then rolls with 5/7 of its speed: the friction acts on the reaction of
 // a contact, which is a constraint of its mode.
 TEST_CASE("sundials: a billiard ball begins to roll at the time of the closed form") {
-    if (!has_sundials()) return;
+    if (!has_part("alembert-sundials.so")) return;
     for (const std::string& method : both) {
         CAPTURE(method);
         const Json motion = simulated(friction("billiard_ball"), {"--method", method, "--tolerance", "1e-10"});
@@ -72,7 +68,7 @@ TEST_CASE("sundials: a billiard ball begins to roll at the time of the closed fo
 // dop853 at 1e-12 is right to about 1e-11. Methods of orders up to 5 at 1e-10 take some hundred steps, whose
 // errors add up.
 TEST_CASE("sundials: contacts, impacts with friction, sticking and slipping are those of dop853") {
-    if (!has_sundials()) return;
+    if (!has_part("alembert-sundials.so")) return;
     std::vector<std::string> scenes{source_path("scenes/textbook/slack_pendulum.toml")};
     for (const char* const name : {"block_on_slope", "trammel", "spinning_ball", "rocking_block", "falling_tripod",
                                    "belt_blocks", "superball"})

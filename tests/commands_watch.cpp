@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <doctest/doctest.h>
 #include <sys/socket.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -14,6 +13,7 @@
 
 #include "files.hpp"
 #include "shell.hpp"
+#include "tools.hpp"
 
 namespace commands_watch {
 
@@ -39,7 +39,7 @@ struct Watching {
             run_shell("\"$ALEMBERT\" watch \"$1\" --no-motion >\"$2\" 2>&1 & echo $!", {scene, log});
         process = std::stoi(started.out);
         const std::string before = "http://127.0.0.1:";
-        for (int k = 0; k < 600 && port == 0; ++k) {
+        while (port == 0 && kill(process, 0) == 0) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
             const std::string said = contents(log);
             if (const std::size_t at = said.find(before);
@@ -60,8 +60,6 @@ struct Connection {
         address.sin_family = AF_INET;
         address.sin_port = htons(static_cast<std::uint16_t>(port));
         inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
-        const timeval limit{.tv_sec = 20, .tv_usec = 0};
-        setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
         REQUIRE(connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
         REQUIRE(send(descriptor, request.data(), request.size(), 0) == static_cast<ssize_t>(request.size()));
     }
@@ -91,14 +89,21 @@ int status(const std::string& answer) {
     return answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
 }
 
-/// Was the program built with a server? With one it serves until it is ended; port 1 is not available to users.
+/// Was the program built with a server? It gives up its start at once where the port that it is told is taken.
 bool is_built() {
-    static const bool built = [] {
-        const auto result =
-            run_shell("timeout 2 \"$ALEMBERT\" watch " + temporary("watched.toml", scene_text) + " --port 1");
-        return result.err.find("without cpp-httplib") == std::string::npos;
-    }();
-    return built;
+    const int taken = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    inet_pton(AF_INET, "127.0.0.1", &address.sin_addr);
+    socklen_t size = sizeof address;
+    REQUIRE(bind(taken, reinterpret_cast<const sockaddr*>(&address), size) == 0);
+    REQUIRE(listen(taken, 1) == 0);
+    REQUIRE(getsockname(taken, reinterpret_cast<sockaddr*>(&address), &size) == 0);
+    const std::string port = std::to_string(ntohs(address.sin_port));
+    const auto result = run({"watch", temporary("watched.toml", scene_text), "--port", port});
+    close(taken);
+    CHECK(result.exit == 5);
+    return alembert::test::is_provided(result.err.find("without cpp-httplib") == std::string::npos, "cpp-httplib");
 }
 
 }  // namespace

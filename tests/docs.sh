@@ -134,6 +134,17 @@ for verb in $verbs; do
     agree "docs/commands.md has other options of $verb" "$says" "$has"
 done
 
+# watched COMMAND: it makes a page and goes on until it is ended. A program without a server says so; that is enough where
+# not all packages are installed.
+watched() {
+    bash -c "exec $1" >"$work/printed" 2>&1 </dev/null &
+    local watching=$! code=0
+    until grep -q 'made in' "$work/printed" || ! kill -0 "$watching" 2>/dev/null; do sleep 0.1; done
+    kill "$watching" 2>/dev/null
+    wait "$watching" || code=$?
+    [ "$code" -eq 143 ] || { [ -z "${ALEMBERT_NO_SKIP-}" ] && grep -q 'without cpp-httplib' "$work/printed"; } || return 5
+}
+
 # The help of each verb begins with an example, which works; it fits a screen.
 for verb in '' $verbs; do
     # shellcheck disable=SC2086 # no verb is no word
@@ -151,10 +162,13 @@ for verb in '' $verbs; do
         echo "alembert $verb --help has $lines lines of up to $wide columns; expected $most_lines of 80"
         failed=1
     fi
-    timeout 60 bash -c "$([[ $verb != watch ]] || echo timeout 3) $example" >"$work/printed" 2>&1 </dev/null
+    if [ "$verb" = watch ]; then
+        watched "$example"
+    else
+        bash -c "$example" >"$work/printed" 2>&1 </dev/null
+    fi
     code=$?
-    # 1 is an answer too: unstable, refuted.
-    [ "$verb,$code" = watch,124 ] || [ "$code" -le 1 ] || {
+    [ "$code" -le 1 ] || { # 1 is an answer too: unstable, refuted.
         printf 'the example of alembert %s --help fails:\n$ %s\n' "$verb" "$example"
         tail -n 5 "$work/printed"
         failed=1

@@ -19,6 +19,7 @@
 #include "run/simulate.hpp"
 #include "shell.hpp"
 #include "state/prepared.hpp"
+#include "tools.hpp"
 
 namespace generator_four_ways {
 
@@ -119,7 +120,8 @@ double largest_difference(const End& a, const End& b) {
 /// where it is (tests/CMakeLists.txt).
 std::optional<std::string> by_python(const std::string& code) {
     const char *const python = std::getenv("ALEMBERT_PYTHON"), *const package = std::getenv("ALEMBERT_PACKAGE");
-    if (python == nullptr || package == nullptr) return std::nullopt;
+    const bool there = python != nullptr && package != nullptr;
+    if (!(is_sanitized ? there : is_provided(there, "the Python package"))) return std::nullopt;
     const std::string script =
         temporary("script.py", "import alembert, warnings\nwarnings.simplefilter('ignore')\n" + code);
     const auto told = run_shell(R"(PYTHONPATH="$1" "$2" "$3")", {package, python, script});

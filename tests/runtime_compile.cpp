@@ -22,6 +22,7 @@
 #include "alembert/integrate.hpp"
 #include "alembert/module.hpp"
 #include "alembert/process.hpp"
+#include "tools.hpp"
 
 namespace runtime_compile {
 
@@ -274,7 +275,7 @@ TEST_CASE("compile: $CXX may carry arguments") {
 TEST_CASE("compile: every installed compiler accepts the flags") {
     const Cache cache;
     for (const char* compiler : {"g++", "clang++"}) {
-        if (find_program(compiler).empty()) continue;
+        if (!test::has_program(compiler)) continue;
         for (const bool fast : {false, true}) {
             CAPTURE(compiler);
             CompileOptions options = cache.options();

@@ -2,9 +2,9 @@
 #include "symbolic/fourier.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
-#include <chrono>
-
+#include "allocations.hpp"
 #include "symbolic_cases.hpp"
 
 namespace symbolic_fourier {
@@ -107,16 +107,24 @@ TEST_CASE("fourier: the derivation of every mechanism is unchanged by conversion
     }
 }
 
-TEST_CASE("fourier: a product of many angles exceeds the budget at once") {
-    Symbols symbols;
-    ex product = 1;
-    for (int i = 0; i < 40; ++i)
-        product *= 1 + cos(symbols.declare(std::to_string(i).insert(0, 1, 'q'), SymbolInfo::Kind::coordinate, i));
-    const auto start = std::chrono::steady_clock::now();
-    CHECK_FALSE(fourier(product, symbols).has_value());
-    CHECK_FALSE(fourier(pow(product, 60), symbols).has_value());
-    // 20 000 terms at about a microsecond each, with room for a loaded machine and for sanitizers
-    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+// Terms are allocated, so that what was made is known without a clock. The product has more than 2ⁿ terms, and its
+// 60th power far more. In all at most 50 times the budget is made, with a few allocations for each term.
+TEST_CASE("fourier: a product of many angles is given up before more terms are made than the budget allows") {
+    constexpr std::size_t budget = 20000;
+    for (const int exponent : {1, 60}) {
+        CAPTURE(exponent);
+        const auto made_for = [&](int angles) {
+            Symbols symbols;
+            ex product = 1;
+            for (int i = 0; i < angles; ++i)
+                product *= 1 + cos(symbols.declare(fmt::format("q{}", i), SymbolInfo::Kind::coordinate, i));
+            return test::allocations_of(
+                [&] { CHECK_FALSE(fourier(pow(product, exponent), symbols, budget).has_value()); });
+        };
+        const std::size_t few = made_for(20), many = made_for(40);
+        CHECK(many < 10 * 50 * budget);
+        CHECK(many < 3 * few);
+    }
 }
 
 TEST_CASE_FIXTURE(Plane, "fourier: a budget that ends inside a quotient gives nothing, and no division by zero") {
