@@ -21,7 +21,7 @@ root=$(cd -- "$(dirname -- "$0")" && pwd)
     cd -- "$root"
     # shellcheck source=.ci/setup.sh
     . .ci/setup.sh
-    set_up release alembert
+    set_up release product
 )
 
 alembert=$root/build/release/generator/alembert

@@ -145,6 +145,12 @@ watched() {
     [ "$code" -eq 143 ] || { [ -z "${ALEMBERT_NO_SKIP-}" ] && grep -q 'without cpp-httplib' "$work/printed"; } || return 5
 }
 
+# The packages in the table of README.md are those that run.sh and test.sh install, apart from what builds anything.
+named=$(sed -n '/^## Packages/,/^## /s/^| \([^|]*\) |.*/\1/p' "$root/README.md" | tail -n +3 | tr -d ' ' | tr ',;' '\n' | sort)
+installed=$(. "$root/.ci/setup.sh" && eval "$(sed -n '/^wanted=/,/"$/p' "$root/test.sh")" && xargs -n 1 <<<"$needed $wanted" |
+    grep -vxE 'g[+][+]|cmake|ninja-build|pkg-config' | sort)
+agree 'README.md names other packages' "$named" "$installed"
+
 # The help of each verb begins with an example, which works; it fits a screen.
 for verb in '' $verbs; do
     # shellcheck disable=SC2086 # no verb is no word

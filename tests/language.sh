@@ -6,7 +6,7 @@
 set -u
 program=$(realpath "$1")
 root=$(cd "$(dirname "$0")/.." && pwd)
-command -v xgettext >/dev/null && command -v msgcmp >/dev/null || { echo 'gettext is not installed'; exit 77; }
+command -v xgettext >/dev/null && command -v msgcmp >/dev/null || { echo 'gettext is not installed'; exit "${ALEMBERT_NO_SKIP:-77}"; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export XDG_CACHE_HOME=$work/cache LC_ALL=C.UTF-8

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 import notebooks
-from python_shared import EXAMPLES
+from python_shared import EXAMPLES, NO_SKIP
 
 __all__ = ["Examples", "Notebooks"]
 
@@ -31,7 +31,7 @@ def printed(name, *arguments):
 
 
 class Examples(unittest.TestCase):
-    @unittest.skipIf(importlib.util.find_spec("scipy") is None, "SciPy is missing")
+    @unittest.skipIf(importlib.util.find_spec("scipy") is None and not NO_SKIP, "SciPy is missing")
     def test_scipy_integrates_solves_and_fits(self):
         self.assertEqual(printed("with_scipy.py"),
                          "Radau and alembert differ by less than 1e-6: True\n"

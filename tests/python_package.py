@@ -21,7 +21,7 @@ try:
     import numpy as np
 except ImportError:
     print("NumPy is missing: the Python package is not tested")
-    sys.exit(77)
+    sys.exit(int(os.environ.get("ALEMBERT_NO_SKIP", 77)))  # a failure where test.sh has installed it
 
 import alembert
 

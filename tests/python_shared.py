@@ -10,6 +10,7 @@ PROGRAM = os.path.abspath(sys.argv.pop(1))
 TESTS = os.path.dirname(os.path.abspath(__file__))
 SCENES = os.path.join(TESTS, "../scenes")
 EXAMPLES = os.path.join(TESTS, "../examples")
+NO_SKIP = "ALEMBERT_NO_SKIP" in os.environ  # test.sh has installed all that tests need
 
 PENDULUM = {
     "gravity": [0, "-g"],
