@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "check/any_motion.hpp"
+#include "check/arithmetic_error.hpp"
 #include "check/closed_claim.hpp"
 #include "check/combinations.hpp"
 #include "check/completeness.hpp"
@@ -33,13 +34,13 @@ public:
           now_{.scene = scene, .m = m, .e = e, .claims = claims_} {}
 
     Checked run() {
+        now_.verdicts.resize(now_.scene.claims.size());
         read();
-        now_.verdicts.resize(now_.forms.size());
         for (const Claim::At at : {Claim::At::motion, Claim::At::rest, Claim::At::impact}) {
             now_.at = at;
             std::vector<std::size_t> here;
             for (std::size_t k = 0; k < now_.forms.size(); ++k)
-                if (now_.scene.claims[k].at == at) here.push_back(k);
+                if (now_.scene.claims[k].at == at && !has_no_value(k)) here.push_back(k);
             if (here.empty()) continue;
             if (at == Claim::At::impact && !claims_.after_impact())
                 for (const std::size_t k : here) now_.verdicts[k].reason = claims_.impact_obstacle();
@@ -69,19 +70,29 @@ private:
     void read() {
         std::vector<Diagnostic> mistakes;
         for (const Claim& claim : now_.scene.claims) try {
-                now_.forms.push_back(claims_.read(claim));
+                now_.forms.emplace_back();
+                now_.forms.back() = claims_.read(claim);
+                Program p;
+                claims_.lower(p, {now_.forms.back().residual});
             } catch (const SceneMistake& mistake) {
                 mistakes.push_back(mistake.diagnostic);
+            } catch (const std::exception&) {
+                now_.verdicts[now_.forms.size() - 1].reason = words_of_arithmetic_error();
+                now_.forms.back() = {};
             }
         if (!mistakes.empty()) fail(now_.scene, mistakes);
         constants_.emplace(now_.scene, claims_, now_.forms);
         if (sheets_) now_.positive = sheets_->positive();
     }
 
+    /// Whether the claim's own arithmetic fails, so that there is nothing to compare.
+    bool has_no_value(std::size_t claim) const { return !now_.verdicts[claim].reason.empty(); }
+
     /// Claims that need no states: motions in closed form, first approximations.
     void settle_apart() {
         std::vector<std::size_t> solution;
         for (std::size_t k = 0; k < now_.forms.size(); ++k) {
+            if (has_no_value(k)) continue;
             if (now_.scene.claims[k].at == Claim::At::solution) solution.push_back(k);
             if (now_.scene.claims[k].at == Claim::At::near)
                 check_first_order(now_.scene.claims[k], claims_, now_.verdicts[k]);
@@ -164,7 +175,7 @@ private:
         std::vector<std::size_t> open;
         for (const std::size_t k : here)
             if (now_.forms[k].open.empty())
-                settle_closed_claim(now_, k, *states);
+                settle_alone(k, *states);
             else if (!states->motions.rubbed().empty())
                 now_.verdicts[k].reason =
                     say("it leaves names open, and the side that a constraint with friction presses is known in "
@@ -175,6 +186,13 @@ private:
                 now_.verdicts[k].reason =
                     say("the constraints cannot be solved one after the other, and it leaves names open");
         settle_open_claims(now_, open, *states);
+    }
+
+    void settle_alone(std::size_t k, ExactStates& states) try {
+        settle_closed_claim(now_, k, states);
+    } catch (const std::exception&) {
+        now_.verdicts[k] = {};
+        now_.verdicts[k].reason = words_of_arithmetic_error();
     }
 
     /// Do the claims of the motion that are right fix every acceleration?
