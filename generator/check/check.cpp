@@ -14,14 +14,6 @@ namespace alembert {
 
 namespace {
 
-/// The scene with these claims only.
-Scene with_some_claims(Scene scene, const std::vector<std::size_t>& claims) {
-    std::vector<Claim> some;
-    for (const std::size_t k : claims) some.push_back(std::move(scene.claims[k]));
-    scene.claims = std::move(some);
-    return scene;
-}
-
 /// The claims are judged together. If that meets an error of the arithmetic, each is judged alone, and the one
 /// that meets it is undecided.
 Checked check_together(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets,

@@ -14,6 +14,7 @@
 #include "check/kinematic.hpp"
 #include "check/open_claims.hpp"
 #include "check/solution.hpp"
+#include "formalism/driven.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/routh.hpp"
 #include "language/say.hpp"
@@ -22,6 +23,13 @@ namespace alembert {
 
 using GiNaC::ex;
 using GiNaC::numeric;
+
+Scene with_some_claims(Scene scene, const std::vector<std::size_t>& claims) {
+    std::vector<Claim> some;
+    for (const std::size_t k : claims) some.push_back(std::move(scene.claims[k]));
+    scene.claims = std::move(some);
+    return scene;
+}
 
 namespace {
 
@@ -32,6 +40,9 @@ public:
         : claims_(scene, m, e, sheets, by),
           sheets_(sheets),
           now_{.scene = scene, .m = m, .e = e, .claims = claims_} {}
+
+    /// `m` and `e` have rates that are counted from these (formalism/driven.hpp).
+    void count_rates_from(const GiNaC::exmap& driven) { claims_.count_rates_from(driven); }
 
     Checked run() {
         now_.verdicts.resize(now_.scene.claims.size());
@@ -215,11 +226,40 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// The claims of a scene at rest, or all others.
+std::vector<std::size_t> claims_at_rest(const Scene& scene, bool at_rest) {
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < scene.claims.size(); ++k)
+        if ((scene.claims[k].at == Claim::At::rest) == at_rest) result.push_back(k);
+    return result;
+}
+
+}  // namespace
+
 Checked check_of_one_mode(const Scene& scene, const Mechanism& mechanism,
                           const std::shared_ptr<RootSheets>& sheets, const std::string& by) {
     const Equations equations = routh(mechanism);
     const Mechanism m = in_terms_of(equations, mechanism);
-    return Checker(scene, m, equations, sheets, by).run();
+    const std::vector<std::size_t> resting = claims_at_rest(scene, true), others = claims_at_rest(scene, false);
+    const GiNaC::exmap driven = resting.empty() ? GiNaC::exmap() : driven_rates(m);
+    if (driven.empty()) return Checker(scene, m, equations, sheets, by).run();
+    Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size())};
+    const auto take = [&](const std::vector<std::size_t>& which, Checked checked) {
+        for (std::size_t i = 0; i < which.size(); ++i) result.claims[which[i]] = std::move(checked.claims[i]);
+        result.complete = result.complete || checked.complete;
+    };
+    const Scene moving = with_some_claims(scene, others), at_rest = with_some_claims(scene, resting);
+    if (!others.empty()) take(others, Checker(moving, m, equations, sheets, by).run());
+    Equations counted = equations;
+    counted.z = m.z;
+    counted = counted_from(std::move(counted), driven);
+    const Mechanism from_driven = counted_from(m, driven);
+    Checker checker(at_rest, from_driven, counted, sheets, by);
+    checker.count_rates_from(driven);
+    take(resting, checker.run());
+    return result;
 }
 
 }  // namespace alembert
