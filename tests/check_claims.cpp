@@ -280,4 +280,54 @@ TEST_CASE("check: the derivative of a multiplier, an acceleration or an unknown 
     }
 }
 
+// l'' = 0, so that a repair that is tried divides by zero: l'/l'' in place of l'/l.
+TEST_CASE(
+    "check: a pendulum whose string is drawn in evenly has the equation of the book, and its slip is refuted") {
+    const std::string scene =
+        "gravity = [0, \"-g\"]\nparameters = { m = 1, l0 = 1, v = 0.05, g = 9.81 }\ninputs = { l = \"l0 - v*t\" "
+        "}\n"
+        "coordinates = { theta = 0.2 }\n"
+        "[[particle]]\nname = \"bob\"\nmass = \"m\"\nposition = [\"l*sin(theta)\", \"-l*cos(theta)\"]\n";
+    const Checked result = checked(with_claims(parse_scene(scene, "s.toml"), R"(
+theta'' + 2*l'/l*theta' + g/l*sin(theta) = 0
+theta'' + l'/l*theta' + g/l*sin(theta) = 0
+constants E
+m*l^2*theta'^2/2 + m*l'^2/2 - m*g*l*cos(theta) = E
+)",
+                                               "claims.txt"));
+    check_verdicts(result, {Verdict::proved, Verdict::refuted, Verdict::refuted});
+    REQUIRE(result.claims[1].likely);
+    CHECK(result.claims[1].likely->kind == "factor");
+}
+
+TEST_CASE("check: a claim that divides by what is always zero is undecided, and the others are judged") {
+    const std::string scene =
+        "parameters = { m = 1, k = 2 }\ninputs = { s = \"3\", r = \"2*t\" }\ncoordinates = { x = 0.3, y = 0.2 }\n"
+        "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", \"y\"]\n"
+        "[[spring]]\nalong = \"x\"\nstiffness = \"k\"\n";
+    const Checked result = checked(with_claims(parse_scene(scene, "s.toml"), R"(
+x'' + k*x/m = 0
+x'' + k*x/s' = 0
+x'' + k*x/(r''*m) = 0
+y'' = x/s''
+x'' + k*x/(sin(x)^2 + cos(x)^2 - 1) = 0
+constants E
+m*x'^2/2 + k*x^2/2 = E + s/r''
+m*x'^2/2 + k*x^2/2 = E
+rest
+y = x/s'
+x = 0
+motion
+y'' = x
+y'' = 0
+)",
+                                               "claims.txt"));
+    check_verdicts(result, {Verdict::proved, Verdict::undecided, Verdict::undecided, Verdict::undecided,
+                            Verdict::undecided, Verdict::undecided, Verdict::proved, Verdict::undecided,
+                            Verdict::proved, Verdict::refuted, Verdict::proved});
+    for (const CheckedClaim& c : result.claims)
+        if (c.verdict == Verdict::undecided) CHECK(c.reason.find("divides by something") != std::string::npos);
+    CHECK(result.complete);
+}
+
 }  // namespace check_claims

@@ -211,4 +211,36 @@ x = "F"
     for (const CheckedClaim& c : result.claims) CHECK(c.reason.empty());  // rest has one branch
 }
 
+TEST_CASE(
+    "check: at rest, what constraints drive at a constant rate goes on, and its forces of inertia are there") {
+    const std::string scene =
+        "gravity = [0, 0, \"-g\"]\nparameters = { m = 1, a = 0.5, l = 0.3, Omega = 4, g = 9.81 }\n[coordinates]\n"
+        "phi = { initial = 0, rate = \"Omega\" }\ntheta = 0.4\n[[frame]]\nname = \"A\"\nrotate = [[\"z\", "
+        "\"phi\"]]\n"
+        "[[particle]]\nname = \"bob\"\nmass = \"m\"\nposition = [\"a + l*sin(theta)\", 0, \"-l*cos(theta)\"]\n"
+        "axes = \"A\"\n[[constraint]]\nname = \"motor\"\n";
+    for (const char* motor : {"holonomic = \"phi = Omega*t\"\n", "nonholonomic = \"phi' = Omega\"\n"}) {
+        CAPTURE(motor);
+        const Checked result = checked(with_claims(parse_scene(scene + motor, "arm.toml"), R"(
+lambda_motor = 2*m*phi'*l*theta'*cos(theta)*(a + l*sin(theta))
+rest
+(a + l*sin(theta))*Omega^2 = g*tan(theta)
+(a + l*sin(theta))*phi'^2*cos(theta) = g*sin(theta)
+phi' = Omega
+lambda_motor = 0
+sin(theta) = 0
+a*Omega^2 = g*tan(theta)
+)",
+                                                   "claims.txt"));
+        check_verdicts(result, {Verdict::proved, Verdict::proved, Verdict::proved, Verdict::proved,
+                                Verdict::proved, Verdict::refuted, Verdict::refuted});
+        const auto value = [&](const std::string& name) {
+            for (const auto& [key, text] : result.claims[5].counterexample)
+                if (key == name) return text;
+            return std::string();
+        };
+        CHECK(value("phi'") == value("Omega"));
+    }
+}
+
 }  // namespace check_rest

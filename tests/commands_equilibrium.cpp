@@ -347,6 +347,59 @@ y2 = "-1.5*y2'"
     CHECK(one["stable"] == "yes");
 }
 
+// (a + l·sin θ)·Ω²·cos θ = g·sin θ has no closed form; its two roots are found by bisection.
+TEST_CASE("equilibrium: an arm that a motor turns stands where the centrifugal force balances its weight") {
+    const double a = 0.5, l = 0.3, Omega = 4, g = 9.81, pi = std::acos(-1.0);
+    const auto force = [&](double x) {
+        return (a + l * std::sin(x)) * Omega * Omega * std::cos(x) - g * std::sin(x);
+    };
+    const auto root = [&](double from, double to) {
+        for (int k = 0; k < 100; ++k) (force((from + to) / 2) * force(from) > 0 ? from : to) = (from + to) / 2;
+        return from;
+    };
+    const std::vector<double> expected{root(-pi, -pi / 2), root(0, pi / 2)};
+    const std::string begin =
+        "gravity = [0, 0, \"-g\"]\nparameters = { m = 1, a = 0.5, l = 0.3, Omega = 4, g = 9.81 }\n"
+        "[coordinates]\nphi = { initial = 0, rate = \"Omega\" }\npsi = { initial = 0, rate = \"Omega/2\" }\n"
+        "theta = 0.4\n[[frame]]\nname = \"A\"\nrotate = [[\"z\", \"phi\"]]\n"
+        "[[particle]]\nname = \"bob\"\nmass = \"m\"\nposition = [\"a + l*sin(theta)\", 0, \"-l*cos(theta)\"]\n"
+        "axes = \"A\"\n";
+    for (const char* driven : {"[[constraint]]\nname = \"motor\"\nholonomic = \"phi = Omega*t\"\n"
+                               "[[constraint]]\nname = \"gear\"\nholonomic = \"phi = 2*psi\"\n",
+                               "[[constraint]]\nname = \"motor\"\nnonholonomic = \"phi' = Omega\"\n"
+                               "[[constraint]]\nname = \"gear\"\nholonomic = \"phi = 2*psi\"\n",
+                               "[[constraint]]\nname = \"motor\"\nholonomic = \"psi = Omega*t/2\"\n"
+                               "[[constraint]]\nname = \"gear\"\nholonomic = \"phi = 2*psi\"\n"}) {
+        CAPTURE(driven);
+        const std::string scene = temporary("arm.toml", begin + driven);
+        const Json result = found(scene);
+        CHECK(are_close(values(result, "theta"), expected, 1e-12));
+        for (const Json& one : result["equilibria"]) {
+            CHECK(one["moving"] == Json{"phi", "psi"});
+            const std::string at = "theta=" + std::to_string(one["coordinates"]["theta"].get<double>());
+            CHECK(run({"eval", scene, "--at", at}).exit == 0);
+        }
+        REQUIRE(result["equilibria"].size() == 2);
+        CHECK(result["equilibria"][0]["stable"] == "no");
+        CHECK(result["equilibria"][1]["stable"] != "no");
+    }
+}
+
+TEST_CASE("equilibrium: a pendulum hangs aslant on a carriage that is accelerated, and straight on an even one") {
+    const std::string
+        begin = "gravity = [0, \"-g\"]\nparameters = { m = 1, l = 1, g = 9.81, A = 2, v = 3 }\n[coordinates]\n",
+        end =
+            "theta = 0.1\n[[particle]]\nname = \"P\"\nmass = \"m\"\n"
+            "position = [\"x + l*sin(theta)\", \"-l*cos(theta)\"]\n[[constraint]]\nname = \"c\"\n";
+    const Json faster = found(temporary("faster.toml", begin + "x = 0\n" + end + "holonomic = \"x = A*t^2/2\"\n"));
+    const double pi = std::acos(-1.0), aslant = -std::atan(2 / 9.81);
+    CHECK(are_close(values(faster, "theta"), {aslant, pi + aslant}, 1e-12));
+    CHECK(faster["equilibria"][0]["moving"] == Json{"x"});
+    const Json even = found(
+        temporary("even.toml", begin + "x = { initial = 0, rate = \"v\" }\n" + end + "holonomic = \"x = v*t\"\n"));
+    CHECK(are_close(values(even, "theta"), {0, pi}, 1e-12));
+}
+
 TEST_CASE("equilibrium: scenes without equilibria are refused, each with its reason") {
     const auto says = [](const std::vector<std::string>& args, int code, const std::string& words) {
         const auto result = run(args);
@@ -356,6 +409,11 @@ TEST_CASE("equilibrium: scenes without equilibria are refused, each with its rea
     };
     says({"equilibrium", on_a_line("push.toml", "2*mu")}, 3, "the force along x' is 1 at every state");
     says({"equilibrium", on_a_line("none.toml", "1 + x^2")}, 2, "This is no proof that there is none");
+    const std::string driven =
+        temporary("driven.toml",
+                  "coordinates = { x = 0 }\n[[constraint]]\nname = \"c\"\nnonholonomic = \"x' = t\"\n"
+                  "[energy]\nkinetic = \"x'^2/2\"\n");
+    says({"equilibrium", driven}, 3, "the rate of x holds t");
     says({"equilibrium", textbook("linked_particles")}, 2, "This is no proof that there is none");
     says({"equilibrium", textbook("cart_pole")}, 3, "the input F changes with time");
     says({"equilibrium", textbook("bouncing_ball"), "--at", "y=0", "--at", "y'=0"}, 3, "is closed at this state");

@@ -79,4 +79,30 @@ TEST_CASE("derive: a row keeps the sign with which its own acceleration has a po
     CHECK(equations == std::vector<std::string>{"m*x'' - k*y'' = 0", "-k*x'' + J*y'' = -k*x"});
 }
 
+// With axes that turn by themselves, some coefficients are sums of sines and cosines that vanish in one of their
+// forms.
+TEST_CASE("derive: speeds along axes that are not the body's own have equations, each of them a right claim") {
+    const std::string begin =
+                          "parameters = { J = 1 }\ncoordinates = { phi = 0, a1 = 0.1, a2 = 0.2, a3 = 0 }\n"
+                          "[[frame]]\nname = \"A\"\nrotate = [[\"z\", \"phi\"]]\n"
+                          "[[frame]]\nname = \"B\"\nrotate = ",
+                      end =
+                          "\n[[body]]\nname = \"ball\"\nmass = 1\nframe = \"B\"\ninertia = [\"J\", \"J\", \"J\"]\n"
+                          "position = [0, 0, 0]\n"
+                          "[[particle]]\nname = \"arm\"\nmass = 1\nposition = [1, 0, 0]\naxes = \"A\"\n"
+                          "[speeds]\nu = \"phi'\"\nw1 = \"dot(omega(ball), ex(A))\"\n"
+                          "w2 = \"dot(omega(ball), ey(A))\"\nw3 = \"dot(omega(ball), ez(A))\"\n";
+    for (const char* turns : {"[[\"z\", \"a1\"], [\"x\", \"a2\"], [\"y\", \"a3\"]]",
+                              "[[\"y\", \"a1\"], [\"z\", \"a2\"], [\"x\", \"a3\"]]",
+                              "[[\"x\", \"a1\"], [\"y\", \"a2\"], [\"x\", \"a3\"]]"}) {
+        CAPTURE(turns);
+        const std::string scene = begin + turns + end;
+        const Derivation shown = derive(parse_scene(scene, "s.toml"), {}).shown;
+        CHECK(shown.equations.size() == 4);
+        if (shown.definitions.empty()) check_printed(scene, equations_of(shown));
+        // The angular velocity of a ball without a couple is constant; the axes turn at the rate u about z.
+        check_printed(scene, {"u' = 0", "w1' = u*w2", "w2' = -u*w1", "w3' = 0"});
+    }
+}
+
 }  // namespace derive_names

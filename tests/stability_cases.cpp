@@ -375,6 +375,42 @@ TEST_CASE("stability: rolling bodies of revolution, as long as their motion can 
     });
 }
 
+// Where a constraint gives a rate that depends on the coordinate itself, x' = x, nothing else need depend on it.
+TEST_CASE("stability: coordinates that constraints drive by themselves are no cyclic ones") {
+    const auto servo = [](const std::string& constraints, const std::string& more = "") {
+        std::string text =
+            "coordinates = { x = 0, y = 0, z = 0 }\n[energy]\nkinetic = \"(x'^2 + y'^2 + z'^2)/2\"\n"
+            "potential = \"z^2/2\"\n" +
+            more;
+        std::size_t from = 0;
+        for (int k = 0; from < constraints.size(); ++k) {
+            const std::size_t to = std::min(constraints.find(';', from), constraints.size());
+            text += "[[constraint]]\nname = \"c" + std::to_string(k) + "\"\nnonholonomic = \"" +
+                    constraints.substr(from, to - from) + "\"\n";
+            from = to + 1;
+        }
+        return text;
+    };
+    const std::string damped = "[forces]\nz = \"-z'\"\n";
+    check({{"x' = x", servo("x' = x;y' = 0"), {}, V::unstable, T::first_approximation},
+           {"x' = -x", servo("x' = -x;y' = -2*y", damped), {}, V::asymptotically_stable, T::first_approximation},
+           {"x' = x²", servo("x' = x^2;y' = -y", damped), {}, V::unstable, T::one_zero_root, true},
+           {"a saddle of two", servo("x' = -y;y' = -x"), {}, V::unstable, T::first_approximation},
+           {"a node of two",
+            servo("x' = -x - y;y' = x - y", damped),
+            {},
+            V::asymptotically_stable,
+            T::first_approximation},
+           {"a rate of both", servo("x' + y' = x - y;x' - y' = x + y"), {}, V::unstable, T::first_approximation}});
+    const std::string alone =
+        "coordinates = { x = 0 }\n[energy]\nkinetic = \"x'^2/2\"\n"
+        "[[constraint]]\nname = \"c\"\nnonholonomic = \"x' = x\"\n";
+    const Stability judged_by_V = stability(parse_scene(alone, "s.toml"), {.lyapunov = "x^2"});
+    CHECK(judged_by_V.verdict == V::unstable);
+    CHECK(judged_by_V.theorem == T::lyapunov_instability);
+    CHECK(judged_by_V.lyapunov);
+}
+
 TEST_CASE("stability: polynomials without a mechanism") {
     const auto polynomial = [](const std::string& list) {
         return "[polynomial]\ncoefficients = [" + list + "]\n";

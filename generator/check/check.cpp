@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "check/arithmetic_error.hpp"
 #include "check/one_mode.hpp"
 #include "language/say.hpp"
 #include "scene/sticking.hpp"
@@ -13,12 +14,22 @@ namespace alembert {
 
 namespace {
 
-/// The scene with these claims only.
-Scene with_some_claims(Scene scene, const std::vector<std::size_t>& claims) {
-    std::vector<Claim> some;
-    for (const std::size_t k : claims) some.push_back(std::move(scene.claims[k]));
-    scene.claims = std::move(some);
-    return scene;
+/// The claims are judged together. If that meets an error of the arithmetic, each is judged alone, and the one
+/// that meets it is undecided.
+Checked check_together(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets,
+                       const std::string& by) try {
+    return check_of_one_mode(scene, mechanism, sheets, by);
+} catch (const std::exception&) {
+    const std::string reason = words_of_arithmetic_error();
+    Checked result;
+    if (scene.claims.size() == 1) {
+        result.claims.emplace_back().reason = reason;
+        return result;
+    }
+    for (std::size_t k = 0; k < scene.claims.size(); ++k)
+        result.claims.push_back(
+            std::move(check_together(with_some_claims(scene, {k}), mechanism, sheets, by).claims[0]));
+    return result;
 }
 
 }  // namespace
@@ -30,18 +41,18 @@ Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_
         modes[scene.claims[k].at == Claim::At::sticking ? sticking_in(scene.claims[k], scene)
                                                         : std::vector<std::string>()]
             .push_back(k);
-    if (modes.size() == 1 && modes.begin()->first.empty()) return check_of_one_mode(scene, mechanism, sheets, by);
+    if (modes.size() == 1 && modes.begin()->first.empty()) return check_together(scene, mechanism, sheets, by);
     Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size())};
     for (const auto& [sticking, claims] : modes) {
         Scene part = with_some_claims(scene, claims);
         Checked checked;
         if (sticking.empty()) {
-            checked = check_of_one_mode(part, mechanism, sheets, by);
+            checked = check_together(part, mechanism, sheets, by);
             result.complete = checked.complete;
         } else {
             for (Claim& claim : part.claims) claim.at = Claim::At::motion;
             const Prepared stuck = prepared(with_sticking(std::move(part), sticking), {}, sheets != nullptr);
-            checked = check_of_one_mode(stuck.scene, stuck.mechanism, stuck.sheets, by);
+            checked = check_together(stuck.scene, stuck.mechanism, stuck.sheets, by);
         }
         for (std::size_t i = 0; i < claims.size(); ++i) result.claims[claims[i]] = std::move(checked.claims[i]);
     }

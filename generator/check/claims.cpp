@@ -190,6 +190,7 @@ ClaimForm Claims::read(const Claim& claim) {
     const ex residual = m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs));
     form.residual = without_third_derivatives(residual, claim.place);
     form.third = !form.residual.is_equal(residual);
+    form.residual = counted_from(form.residual, m_, driven_);
     if (claim.at == Claim::At::impact && after_impact()) form.residual = at_impact(form.residual);
     bool constants = find_open(form);
     if (!form.linear && !defined_.empty()) {

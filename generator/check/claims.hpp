@@ -9,6 +9,7 @@
 
 #include "contact/impact.hpp"
 #include "exact/motions.hpp"
+#include "formalism/driven.hpp"
 #include "model/formulas.hpp"
 
 namespace alembert {
@@ -43,7 +44,13 @@ public:
     /// From now on `read` puts the value of a constant of the motion, which another claim gives, into claims that
     /// are not linear in what they leave open: L = m r² θ' into m r'' − L²/(m r³) = …
     void define(const GiNaC::symbol& constant, const GiNaC::ex& value) { defined_[constant] = value; }
-    GiNaC::ex read(const Expression& expression) { return m_.z->name(formulas_.value(expression)); }
+    GiNaC::ex read(const Expression& expression) {
+        return counted_from(m_.z->name(formulas_.value(expression)), m_, driven_);
+    }
+    /// From now on the rates in mechanism and equations are counted from these (formalism/driven.hpp), and `read`
+    /// gives expressions in such rates.
+    void count_rates_from(GiNaC::exmap driven) { driven_ = std::move(driven); }
+    const GiNaC::exmap& driven() const { return driven_; }
 
     /// The rates after the scene's impulses (contact/impact.hpp), as expressions at the initial pose. Nothing if
     /// they are known only as numbers, or not at all; `impact_obstacle` then gives the reason.
@@ -70,7 +77,7 @@ private:
     const Equations& e_;
     Formulas formulas_;
     std::vector<Open> open_;
-    GiNaC::exmap defined_;
+    GiNaC::exmap defined_, driven_;
     std::vector<GiNaC::symbol> third_;  ///< q'''
     bool has_struck_ = false;
     std::optional<Impact::Exact> after_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "check/arithmetic_error.hpp"
 #include "check/diagnosis.hpp"
 
 namespace alembert {
@@ -32,17 +33,28 @@ void refute(CheckedClaim& verdict, const Counterexample& shown) {
     verdict.residual_value = shown.residual_value;
 }
 
+namespace {
+
+Diagnosis diagnosis_of(Comparison& now, std::size_t claim, ExactStates& states) try {
+    return diagnose({.scene = now.scene,
+                     .claims = now.claims,
+                     .law = now.law,
+                     .forms = now.forms,
+                     .wrong = now.wrong,
+                     .claim = claim,
+                     .in_motion = now.at == Claim::At::motion,
+                     .at_impact = now.at == Claim::At::impact,
+                     .known = now.known},
+                    states);
+} catch (const std::exception&) {
+    words_of_arithmetic_error();  // the claim is refuted, with a state to see it, even if nothing explains it
+    return {};
+}
+
+}  // namespace
+
 void explain(Comparison& now, std::size_t claim, ExactStates& states) {
-    const Diagnosis found = diagnose({.scene = now.scene,
-                                      .claims = now.claims,
-                                      .law = now.law,
-                                      .forms = now.forms,
-                                      .wrong = now.wrong,
-                                      .claim = claim,
-                                      .in_motion = now.at == Claim::At::motion,
-                                      .at_impact = now.at == Claim::At::impact,
-                                      .known = now.known},
-                                     states);
+    const Diagnosis found = diagnosis_of(now, claim, states);
     CheckedClaim& c = now.verdicts[claim];
     if (!found.reason.empty()) c.reason = found.reason;
     c.nearest = found.nearest;

@@ -21,13 +21,17 @@ bool is_small(const numeric& value) {
     return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
 }
 
+void add_value(const Told& told, const std::string& name, const ex& e, const RealState& state,
+               Counterexample& result) {
+    Program p;
+    const std::vector<int> node = told.claims.lower(p, {told.mechanism.z->name(e)});
+    if (const auto value = evaluate(p, state, node)) result.values.emplace_back(name, text_of((*value)[0]));
+}
+
 void describe_impact(const Told& told, const RealState& state, Counterexample& result) {
     const Impact::Exact& impact = *told.claims.after_impact();
     const auto add = [&](const std::string& name, const ex& e) {
-        Program p;
-        const ex here = told.mechanism.z->name(e.subs(impact.pose, GiNaC::subs_options::no_pattern));
-        const std::vector<int> node = told.claims.lower(p, {here});
-        if (const auto value = evaluate(p, state, node)) result.values.emplace_back(name, text_of((*value)[0]));
+        add_value(told, name, e.subs(impact.pose, GiNaC::subs_options::no_pattern), state, result);
     };
     const auto& q = told.mechanism.q;
     for (const auto& x : q) add(x.get_name(), x);
@@ -80,8 +84,13 @@ Counterexample described(const Told& told, const RealState& state, const numeric
         return result;
     }
     add("t", {Kind::time, 0});
-    for (const auto& part : {std::pair{Kind::coordinate, ""}, {Kind::rate, "'"}, {Kind::acceleration, "''"}})
-        for (int i = 0; i < m.size(); ++i) add(m.q[i].get_name() + part.second, {part.first, i});
+    for (int i = 0; i < m.size(); ++i) add(m.q[i].get_name(), {Kind::coordinate, i});
+    for (int i = 0; i < m.size(); ++i)
+        if (const auto driven = told.claims.driven().find(m.qdot[i]); driven == told.claims.driven().end())
+            add(m.q[i].get_name() + "'", {Kind::rate, i});
+        else
+            add_value(told, m.q[i].get_name() + "'", m.qdot[i] + driven->second, state, result);
+    for (int i = 0; i < m.size(); ++i) add(m.q[i].get_name() + "''", {Kind::acceleration, i});
     const auto& lambda = told.equations.lambda;
     for (std::size_t k = 0; k < lambda.size(); ++k)
         add(lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "check/any_motion.hpp"
+#include "check/arithmetic_error.hpp"
 #include "check/closed_claim.hpp"
 #include "check/combinations.hpp"
 #include "check/completeness.hpp"
@@ -13,6 +14,7 @@
 #include "check/kinematic.hpp"
 #include "check/open_claims.hpp"
 #include "check/solution.hpp"
+#include "formalism/driven.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/routh.hpp"
 #include "language/say.hpp"
@@ -21,6 +23,13 @@ namespace alembert {
 
 using GiNaC::ex;
 using GiNaC::numeric;
+
+Scene with_some_claims(Scene scene, const std::vector<std::size_t>& claims) {
+    std::vector<Claim> some;
+    for (const std::size_t k : claims) some.push_back(std::move(scene.claims[k]));
+    scene.claims = std::move(some);
+    return scene;
+}
 
 namespace {
 
@@ -32,14 +41,17 @@ public:
           sheets_(sheets),
           now_{.scene = scene, .m = m, .e = e, .claims = claims_} {}
 
+    /// `m` and `e` have rates that are counted from these (formalism/driven.hpp).
+    void count_rates_from(const GiNaC::exmap& driven) { claims_.count_rates_from(driven); }
+
     Checked run() {
+        now_.verdicts.resize(now_.scene.claims.size());
         read();
-        now_.verdicts.resize(now_.forms.size());
         for (const Claim::At at : {Claim::At::motion, Claim::At::rest, Claim::At::impact}) {
             now_.at = at;
             std::vector<std::size_t> here;
             for (std::size_t k = 0; k < now_.forms.size(); ++k)
-                if (now_.scene.claims[k].at == at) here.push_back(k);
+                if (now_.scene.claims[k].at == at && !has_no_value(k)) here.push_back(k);
             if (here.empty()) continue;
             if (at == Claim::At::impact && !claims_.after_impact())
                 for (const std::size_t k : here) now_.verdicts[k].reason = claims_.impact_obstacle();
@@ -69,19 +81,29 @@ private:
     void read() {
         std::vector<Diagnostic> mistakes;
         for (const Claim& claim : now_.scene.claims) try {
-                now_.forms.push_back(claims_.read(claim));
+                now_.forms.emplace_back();
+                now_.forms.back() = claims_.read(claim);
+                Program p;
+                claims_.lower(p, {now_.forms.back().residual});
             } catch (const SceneMistake& mistake) {
                 mistakes.push_back(mistake.diagnostic);
+            } catch (const std::exception&) {
+                now_.verdicts[now_.forms.size() - 1].reason = words_of_arithmetic_error();
+                now_.forms.back() = {};
             }
         if (!mistakes.empty()) fail(now_.scene, mistakes);
         constants_.emplace(now_.scene, claims_, now_.forms);
         if (sheets_) now_.positive = sheets_->positive();
     }
 
+    /// Whether the claim's own arithmetic fails, so that there is nothing to compare.
+    bool has_no_value(std::size_t claim) const { return !now_.verdicts[claim].reason.empty(); }
+
     /// Claims that need no states: motions in closed form, first approximations.
     void settle_apart() {
         std::vector<std::size_t> solution;
         for (std::size_t k = 0; k < now_.forms.size(); ++k) {
+            if (has_no_value(k)) continue;
             if (now_.scene.claims[k].at == Claim::At::solution) solution.push_back(k);
             if (now_.scene.claims[k].at == Claim::At::near)
                 check_first_order(now_.scene.claims[k], claims_, now_.verdicts[k]);
@@ -164,7 +186,7 @@ private:
         std::vector<std::size_t> open;
         for (const std::size_t k : here)
             if (now_.forms[k].open.empty())
-                settle_closed_claim(now_, k, *states);
+                settle_alone(k, *states);
             else if (!states->motions.rubbed().empty())
                 now_.verdicts[k].reason =
                     say("it leaves names open, and the side that a constraint with friction presses is known in "
@@ -175,6 +197,13 @@ private:
                 now_.verdicts[k].reason =
                     say("the constraints cannot be solved one after the other, and it leaves names open");
         settle_open_claims(now_, open, *states);
+    }
+
+    void settle_alone(std::size_t k, ExactStates& states) try {
+        settle_closed_claim(now_, k, states);
+    } catch (const std::exception&) {
+        now_.verdicts[k] = {};
+        now_.verdicts[k].reason = words_of_arithmetic_error();
     }
 
     /// Do the claims of the motion that are right fix every acceleration?
@@ -197,11 +226,40 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// The claims of a scene at rest, or all others.
+std::vector<std::size_t> claims_at_rest(const Scene& scene, bool at_rest) {
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < scene.claims.size(); ++k)
+        if ((scene.claims[k].at == Claim::At::rest) == at_rest) result.push_back(k);
+    return result;
+}
+
+}  // namespace
+
 Checked check_of_one_mode(const Scene& scene, const Mechanism& mechanism,
                           const std::shared_ptr<RootSheets>& sheets, const std::string& by) {
     const Equations equations = routh(mechanism);
     const Mechanism m = in_terms_of(equations, mechanism);
-    return Checker(scene, m, equations, sheets, by).run();
+    const std::vector<std::size_t> resting = claims_at_rest(scene, true), others = claims_at_rest(scene, false);
+    const GiNaC::exmap driven = resting.empty() ? GiNaC::exmap() : driven_rates(m);
+    if (driven.empty()) return Checker(scene, m, equations, sheets, by).run();
+    Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size())};
+    const auto take = [&](const std::vector<std::size_t>& which, Checked checked) {
+        for (std::size_t i = 0; i < which.size(); ++i) result.claims[which[i]] = std::move(checked.claims[i]);
+        result.complete = result.complete || checked.complete;
+    };
+    const Scene moving = with_some_claims(scene, others), at_rest = with_some_claims(scene, resting);
+    if (!others.empty()) take(others, Checker(moving, m, equations, sheets, by).run());
+    Equations counted = equations;
+    counted.z = m.z;
+    counted = counted_from(std::move(counted), driven);
+    const Mechanism from_driven = counted_from(m, driven);
+    Checker checker(at_rest, from_driven, counted, sheets, by);
+    checker.count_rates_from(driven);
+    take(resting, checker.run());
+    return result;
 }
 
 }  // namespace alembert

@@ -14,4 +14,7 @@ namespace alembert {
 Checked check_of_one_mode(const Scene& scene, const Mechanism& mechanism,
                           const std::shared_ptr<RootSheets>& sheets, const std::string& by);
 
+/// The scene with these claims only.
+Scene with_some_claims(Scene scene, const std::vector<std::size_t>& claims);
+
 }  // namespace alembert

@@ -189,10 +189,12 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
                         .multipliers = multipliers_at(problem, root.at),
                         .judgement = judge(problem, conservative, root.at)};
         if (penetrates(result, one.start)) return;
-        for (const std::string& name : result.cyclic)
-            for (int i = 0; i < result.mechanism.size(); ++i)
-                if (result.mechanism.q[i].get_name() == name && std::abs(one.start.qdot[i]) > 1e-12)
-                    one.moving.push_back(name);
+        // Coordinates that are cyclic, or moved by a constraint, from rest too.
+        const VectorOf<long double> udot = problem.linearized_at(root.at, root.at.u).tangent.udot;
+        for (int i = 0; i < result.mechanism.size(); ++i)
+            if (std::abs(one.start.qdot[i]) > 1e-12 ||
+                (problem.residuals().rates_are_speeds && std::abs(udot[i]) > 1e-9L))
+                one.moving.push_back(result.mechanism.q[i].get_name());
         result.list.push_back(std::move(one));
     };
     for (const SteadyRoot& root : result.search.roots) add(root);

@@ -153,7 +153,11 @@ StabilityHint judge(const SteadyProblem& problem, bool conservative, const Insta
     if (!t.speed_rates_by.allFinite() || is_singular(problem, at, t.mass))
         return {.because = say("the mass matrix is singular here")};
     const Reduced r = reduced(problem, here.split, t);
-    if (r.A.rows() == 0) return {.stable = Stable::yes, .because = say("nothing can move")};
+    if (r.A.rows() == 0)
+        return {.stable = Stable::yes,
+                .because = here.split.q.empty()
+                               ? say("nothing can move")
+                               : say("the constraints give all rates, the same wherever the coordinates are")};
     const auto found = eigenvalues(r.A);
     if (!found) return {.because = say("the eigenvalues do not converge")};
     StabilityHint result;

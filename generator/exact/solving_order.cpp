@@ -48,6 +48,31 @@ Occurrences occurrences(const Program& p, int root) {
     return result;
 }
 
+/// Leaves out the coordinates that cancel, as φ does in sin²φ + cos²φ: no value of theirs makes the condition vanish.
+void leave_out_cancelling(Occurrences& held, const Program& p, int condition) {
+    constexpr std::size_t most_work = 100000;  // in nodes
+    constexpr std::uint64_t seeds = 2;
+    const std::array<int, 1> root{condition};
+    if (p.needed(root).size() * held.size() > most_work) return;
+    const auto value = [&](const ModularPoint& point) -> std::optional<Prime> {
+        const auto at = evaluate_mod(p, point, root);
+        return at ? std::optional(at->value[condition]) : std::nullopt;
+    };
+    const auto cancels = [&](const std::pair<Variable::Kind, int>& variable) {
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+            ModularPoint point{.seed = seed};
+            const auto here = value(point);
+            point.given[variable] = point.random(950, seed);
+            const auto there = value(point);
+            if (!here || !there || !(*here - *there).is_zero()) return false;
+        }
+        return true;
+    };
+    std::erase_if(held, [&](const auto& entry) {
+        return entry.first.first == Variable::Kind::coordinate && cancels(entry.first);
+    });
+}
+
 /// Two conditions, each with two variables that no other condition contains.
 struct Coupled {
     std::size_t first, second;
@@ -127,7 +152,10 @@ SolvingOrder solving_order(const Program& program, std::vector<int> conditions, 
     std::sort(conditions.begin(), conditions.end());
     conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
     std::vector<Occurrences> held;
-    for (const int node : conditions) held.push_back(occurrences(program, node));
+    for (const int node : conditions) {
+        held.push_back(occurrences(program, node));
+        leave_out_cancelling(held.back(), program, node);
+    }
     TakenVariables taken;
     SolvingOrder result;
     while (!conditions.empty()) {

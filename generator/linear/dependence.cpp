@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "linear/dependence.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <random>
+
+#include "linear/dense_long.hpp"
 
 namespace alembert {
 
@@ -46,18 +51,123 @@ Dependences dependences(const Residuals& residuals, const Split& split, const In
     return result;
 }
 
-std::vector<bool> essential_coordinates(const Dependences& depends, Index p) {
+namespace {
+
+/// With those on which the rates of the speeds, and of coordinates that are essential already, depend.
+void close(std::vector<bool>& essential, const Dependences& depends, Index p) {
     const Index nr = depends.rows() - p;
-    std::vector<bool> result(static_cast<std::size_t>(nr), false);
     for (bool again = true; again;) {
         again = false;
         for (Index j = 0; j < nr; ++j) {
-            if (result[j]) continue;
+            if (essential[j]) continue;
             bool is_held = false;
-            for (Index i = 0; i < p + nr; ++i) is_held = is_held || ((i < p || result[i - p]) && depends(i, j));
-            if (is_held) result[j] = again = true;
+            for (Index i = 0; i < p + nr; ++i) is_held = is_held || ((i < p || essential[i - p]) && depends(i, j));
+            if (is_held) essential[j] = again = true;
         }
     }
+}
+
+/// What moves coordinates where the independent speeds w are zero: b of r' = S w + b.
+class Drift {
+public:
+    Drift(const Residuals& residuals, const Split& split, const Instant<long double>& at)
+        : residuals_(residuals), split_(split), at_(at), nr_(static_cast<Index>(split.q.size())) {
+        for (const int i : split.u) at_.u[i] = 0;
+    }
+
+    /// Row i, column j: whether b_i depends on coordinate j, at one of a few states.
+    Dependences by_coordinates() {
+        Dependences result(nr_, nr_);
+        result.setConstant(false);
+        for (int k = 0; k < random_states; ++k)
+            if (const auto here = moved(every()))
+                result = result.array() || (here->rates_by.leftCols(nr_).array().abs() > nothing);
+        return result;
+    }
+
+    /// Do speeds that are the same for all values of the coordinates `part` give their part of b?
+    bool is_of_speeds(const std::vector<Index>& part) {
+        const auto rows = static_cast<Index>(part.size()), p = static_cast<Index>(split_.u.size());
+        MatrixOf<long double> S(0, p);
+        VectorOf<long double> b(0);
+        if (moved(every()).has_value()) at_.q = state_;  // about which these coordinates are varied
+        for (int tries = 0; tries < 40 && S.rows() < p + 2 * rows; ++tries) {
+            const auto here = moved(part);
+            if (!here) continue;
+            S.conservativeResize(S.rows() + rows, p);
+            b.conservativeResize(b.size() + rows);
+            S.bottomRows(rows) = here->rates_by.middleCols(nr_, p)(part, Eigen::all);
+            b.tail(rows) = here->rates(part);
+        }
+        if (p == 0) return b.isZero(nothing);
+        return (S * least_norm(S, b, nothing).x - b).norm() <= nothing * std::max(1.0L, b.norm());
+    }
+
+private:
+    std::vector<Index> every() const {
+        std::vector<Index> all(static_cast<std::size_t>(nr_));
+        std::iota(all.begin(), all.end(), Index{0});
+        return all;
+    }
+
+    /// Where these coordinates have other values; nothing if the constraints do not allow these.
+    std::optional<Tangent<long double>> moved(const std::vector<Index>& coordinates) {
+        Instant<long double> other = at_;
+        for (const Index j : coordinates) {
+            const long double x = at_.q[split_.q[j]];
+            const long double unit = static_cast<long double>(random_() >> 11) / 4503599627370496.0L - 1;
+            other.q[split_.q[j]] = x + 0.3L * std::max(1.0L, std::abs(x)) * unit;
+        }
+        if (!settle(residuals_, split_, other)) return std::nullopt;
+        Tangent<long double> result = tangent(residuals_, split_, other);
+        if (!result.rates.allFinite() || !result.rates_by.allFinite()) return std::nullopt;
+        state_ = other.q;
+        return result;
+    }
+
+    const Residuals& residuals_;
+    const Split& split_;
+    Instant<long double> at_;
+    Index nr_;
+    std::vector<long double> state_;
+    std::mt19937_64 random_{31415};
+};
+
+/// The groups of coordinates outside `essential` each of which is moved by all of its group, one after the other.
+std::vector<std::vector<Index>> circles(Dependences by, const std::vector<bool>& essential) {
+    const Index n = by.rows();
+    for (Index i = 0; i < n; ++i)
+        if (essential[i]) {
+            by.row(i).setConstant(false);
+            by.col(i).setConstant(false);
+        }
+    for (Index k = 0; k < n; ++k)
+        for (Index i = 0; i < n; ++i)
+            if (by(i, k)) by.row(i) = by.row(i).array() || by.row(k).array();
+    std::vector<std::vector<Index>> result;
+    for (Index i = 0; i < n; ++i) {
+        if (!by(i, i)) continue;
+        std::vector<Index> group;
+        for (Index j = 0; j < n; ++j)
+            if (by(i, j) && by(j, i)) group.push_back(j);
+        if (group.front() == i) result.push_back(std::move(group));
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<bool> essential_coordinates(const Dependences& depends, const Residuals& residuals, const Split& split,
+                                        const Instant<long double>& at) {
+    const auto p = static_cast<Index>(split.u.size());
+    std::vector<bool> result(split.q.size(), false);
+    close(result, depends, p);
+    if (std::find(result.begin(), result.end(), false) == result.end()) return result;
+    Drift drift(residuals, split, at);
+    for (const std::vector<Index>& circle : circles(drift.by_coordinates(), result))
+        if (!drift.is_of_speeds(circle))
+            for (const Index j : circle) result[j] = true;
+    close(result, depends, p);
     return result;
 }
 

@@ -4,7 +4,7 @@
 /// Finds the coordinates on which the motion of the others depends, and those that are cyclic.
 ///
 ///     const Dependences depends = dependences(residuals, split, instant);
-///     const std::vector<bool> essential = essential_coordinates(depends, split.u.size());
+///     const std::vector<bool> essential = essential_coordinates(depends, residuals, split, instant);
 ///
 /// They are found at random states near the given one, not from the form of the equations. So a coordinate that
 /// cancels is cyclic too, also if constraints have been eliminated.
@@ -18,8 +18,11 @@ using Dependences = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
 Dependences dependences(const Residuals& residuals, const Split& split, const Instant<long double>& at);
 
-/// The independent coordinates on which the rates of the `speeds` speeds depend, those on which the rates of these
-/// coordinates depend, and so on. The others are cyclic.
-std::vector<bool> essential_coordinates(const Dependences& depends, Eigen::Index speeds);
+/// The independent coordinates on which the rates of the speeds depend, those on which the rates of these
+/// coordinates depend, and so on; and those that drive themselves, as x' = x does: in r' = S(r) w + b(r), b
+/// changes with the coordinates that it moves, and no speeds c, the same for all of their values, give b = S c. (A
+/// ball that rolls on a turntable has such c: the angles of its attitude are cyclic.) The others are cyclic.
+std::vector<bool> essential_coordinates(const Dependences& depends, const Residuals& residuals, const Split& split,
+                                        const Instant<long double>& at);
 
 }  // namespace alembert

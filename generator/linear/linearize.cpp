@@ -113,8 +113,8 @@ public:
                 say("the mass matrix, constraints eliminated, is singular or not finite at this state"), state_.t,
                 state_.q);
         depends_ = dependences(residuals_, split_, at_);
-        const std::vector<bool> essential = essential_coordinates(depends_, p_);
-        check_time(essential);
+        const std::vector<bool> essential = essential_coordinates(depends_, residuals_, split_, at_);
+        check_time();
         return find_motion(essential);
     }
 
@@ -128,9 +128,9 @@ private:
     std::string coordinate(Index j) const { return m_.q[split_.q[j]].get_name(); }
     std::string speed(Index i) const { return e_.u[split_.u[i]].get_name(); }
 
-    void check_time(const std::vector<bool>& essential) const {
+    void check_time() const {
         for (Index i = 0; i < p_ + nr_; ++i)
-            if (depends_(i, nr_ + p_) && (i < p_ || essential[i - p_]))
+            if (depends_(i, nr_ + p_))
                 throw ModelError(
                     say("the equations change with time ({}' holds t, and not through inputs); there is no "
                         "equilibrium or steady motion to linearize about",

@@ -27,6 +27,7 @@ constexpr long double longest_step = 0.5L;
 constexpr int most_long_steps = 30;     // where steps are that long after so many, hardly any search finds a root
 constexpr long double noise = 1e-17L;   // of the largest work that a force does in changes of the scales
 constexpr long double solved = 1e-13L;  // relative to the effect of a change of 1 in units of the scales
+constexpr long double stays = 1e-9L;    // likewise, of the equations with all that occurs in motion alone
 
 /// The least-squares solution of least length.
 Column least_step(const LongMatrix& J, const Column& r, bool& full_rank) {
@@ -83,9 +84,9 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
     const Split split = split_at(start_);
     const Index p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size());
     const Dependences depends = dependences(residuals_, split, start_);
-    const std::vector<bool> essential = essential_coordinates(depends, p);
+    const std::vector<bool> essential = essential_coordinates(depends, residuals_, split, start_);
     for (Index i = 0; i < p + nr; ++i)
-        if (depends(i, nr + p) && (i < p || essential[i - p]))
+        if (depends(i, nr + p))
             throw ModelError(
                 say("the equations change with time (the rate of {} holds t, and not through inputs); there is no "
                     "equilibrium or steady motion",
@@ -111,15 +112,22 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
 }
 
 std::vector<bool> SteadyProblem::resting() const {
-    // Coordinates that constraints of position tie to a cyclic one, directly or through others, may move with it.
+    // Coordinates that constraints of position tie to a cyclic one, or to the time, directly or through others,
+    // may move with it.
     std::vector<bool> result = essential_;
     std::vector<std::vector<int>> tied;
     for (const int root : residuals_.position) {
         tied.emplace_back();
-        for (const int id : residuals_.program.needed(std::vector<int>{root}))
-            if (residuals_.program[id].op == Op::variable &&
-                residuals_.program[id].variable.kind == Variable::Kind::coordinate)
-                tied.back().push_back(residuals_.program[id].variable.index);
+        bool is_driven = false;  // inputs are unknowns
+        for (const int id : residuals_.program.needed(std::vector<int>{root})) {
+            const Node& node = residuals_.program[id];
+            if (node.op != Op::variable) continue;
+            if (node.variable.kind == Variable::Kind::coordinate) tied.back().push_back(node.variable.index);
+            is_driven = is_driven || node.variable.kind == Variable::Kind::time ||
+                        node.variable.kind == Variable::Kind::unknown;
+        }
+        if (is_driven)
+            for (const int i : tied.back()) result[static_cast<std::size_t>(i)] = false;
     }
     const auto rests = [&](int i) { return result[static_cast<std::size_t>(i)]; };
     for (bool changed = true; changed;) {
@@ -214,6 +222,16 @@ long double SteadyProblem::size(const Column& change) const {
     return largest;
 }
 
+long double SteadyProblem::unbalanced(const SteadySystem& here) const {
+    long double worst = 0;
+    for (Index i = 0; i < here.residual.size(); ++i) {
+        long double does = 1e-3L;  // the reference if there is no other force
+        for (Index j = 0; j < here.by.cols(); ++j) does += std::abs(here.by(i, j)) * scale_of(here, j);
+        worst = std::max(worst, std::abs(here.residual[i]) / does);
+    }
+    return worst;
+}
+
 std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates rates, int most) const try {
     const std::vector<long double> given = at.u;
     if (residuals_.rates_are_speeds)
@@ -236,13 +254,10 @@ std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates ra
             moved = std::max(moved, std::abs(whole[residuals_.n + i]) / std::max(1.0L, std::abs(at.u[i])));
         if (!std::isfinite(moved)) return {};
         if (moved < small_step || (step > 8 && moved < 1e-14L && moved >= last)) {
-            long double worst = 0;
-            for (Index i = 0; i < here.residual.size(); ++i) {
-                long double does = 1e-3L;  // the reference if there is no other force
-                for (Index j = 0; j < here.by.cols(); ++j) does += std::abs(here.by(i, j)) * scale_of(here, j);
-                worst = std::max(worst, std::abs(here.residual[i]) / does);
-            }
+            const long double worst = unbalanced(here);
             if (worst > solved) return {};
+            // The full equations have the last word.
+            if (at_rest_ && unbalanced(linearized_at(at, given, rates)) > stays) return {};
             for (int i = 0; i < residuals_.n; ++i)
                 if (std::abs(at.q[i]) < rounding * scales_[i]) at.q[i] = 0;
             for (long double& u : at.u)

@@ -90,6 +90,8 @@ private:
     /// unknowns in it.
     SteadySystem resting_system(const Instant<long double>& at, const std::vector<long double>& given,
                                 Rates rates) const;
+    /// The largest residual, relative to the sum of the effects of all unknowns.
+    long double unbalanced(const SteadySystem& here) const;
     /// The size of an ordinary change of an unknown.
     long double scale_of(const SteadySystem& here, Eigen::Index unknown) const;
 

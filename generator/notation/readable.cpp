@@ -142,14 +142,16 @@ private:
     }
 
     int cost(const Lines& lines) {
-        int result = static_cast<int>(lines.size()) - 1;
+        int result = std::max(static_cast<int>(lines.size()) - 1, 0);
         for (const Polynomial& line : lines) result += compose_.cost(line);
         return result;
     }
 
     /// Writes one group as terms of the outermost sum. An acceleration keeps one coefficient; the other groups are
-    /// split or factored, whichever is shortest.
+    /// split or factored, whichever is shortest. A part of a sum may vanish in one of its forms, as
+    /// sin²α + cos²α − 1 does; it has no terms then.
     Lines split(const Polynomial& group) {
+        if (group.is_zero()) return {};
         if (group.size() == 1) return {group};
         const Class kind = classify(group.terms()[0].monomial);
         if (kind == Class::acceleration) return {group};

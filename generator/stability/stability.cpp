@@ -313,8 +313,10 @@ Stability stability(Scene scene, const StabilityOptions& options) {
     result.eigenvalues = eigenvalues_of(local->A, has_even_spectrum(*local));
     result.certain = true;
     if (local->A.rows == 0) {
-        take(result, {StabilityVerdict::stable, StabilityTheorem::routh,
-                      say("all coordinates are cyclic, and their momenta are constant")});
+        take(result,
+             {StabilityVerdict::stable, StabilityTheorem::routh,
+              local->split.u.empty() ? say("the constraints give all rates, the same wherever the coordinates are")
+                                     : say("all coordinates are cyclic, and their momenta are constant")});
         return result;
     }
     const bool linear = is_linear(local->mechanism, local->equations);
