@@ -48,7 +48,8 @@ Occurrences occurrences(const Program& p, int root) {
     return result;
 }
 
-/// Leaves out the coordinates that cancel, as φ does in sin²φ + cos²φ: no value of theirs makes the condition vanish.
+/// Leaves out the coordinates that cancel, as φ does in sin²φ + cos²φ: no value of theirs makes the condition
+/// vanish.
 void leave_out_cancelling(Occurrences& held, const Program& p, int condition) {
     constexpr std::size_t most_work = 100000;  // in nodes
     constexpr std::uint64_t seeds = 2;
