@@ -19,6 +19,8 @@ using GiNaC::ex;
 
 int order_of(const ex& e, const Mechanism& m) {
     std::vector<GiNaC::symbol> highest = m.qddot;
+    for (const Mechanism::Constraint& c : m.constraints) highest.push_back(c.multiplier);  // as unknown as q''
+    for (const Mechanism::Constraint* c : m.undetermined()) highest.push_back(c->multiplier);
     for (const Mechanism::Input& input : m.inputs) highest.push_back(input.derivative[2]);
     if (m.z->depends(e, highest)) return 2;
     highest = m.qdot;

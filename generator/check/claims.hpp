@@ -84,7 +84,7 @@ private:
     std::string impact_obstacle_;
 };
 
-/// At most `times` successive time derivatives, none of which contains q'''.
+/// The highest derivative of a coordinate or an input; multipliers count as accelerations.
 int order_of(const GiNaC::ex& e, const Mechanism& mechanism);
 
 }  // namespace alembert

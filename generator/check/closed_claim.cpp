@@ -2,10 +2,13 @@
 #include "check/closed_claim.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "check/multiple.hpp"
 #include "check/root_form.hpp"
+#include "check/speaks_of_scene.hpp"
 #include "check/vanishing.hpp"
+#include "exact/angle_sum.hpp"
 #include "language/say.hpp"
 #include "model/energy.hpp"
 #include "notation/readable.hpp"
@@ -55,9 +58,17 @@ bool holds_with_signs_turned(Comparison& now, std::size_t k, const ExactStates& 
     return false;
 }
 
+/// Whether `value` is positive on the scene's own branch: at all of several states of it, or at the initial state.
+bool is_positive_on_own_branch(Comparison& now, const Motions& motions, const GiNaC::ex& value) {
+    Program p;
+    const int root = now.claims.lower(p, {value})[0];
+    const std::optional<int> sign = sign_on_own_branch(told(now), motions, p, root);
+    return sign ? *sign > 0 : is_positive_at_start(value, now.claims, now.e);
+}
+
 /// A claim with a root that holds for one of the root's signs at every state: that of the initial state's
 /// branch.
-std::optional<std::vector<std::string>> branch_of(const Comparison& now, std::size_t k, ExactStates& states) {
+std::optional<std::vector<std::string>> branch_of(Comparison& now, std::size_t k, ExactStates& states) {
     if (now.at != Claim::At::motion) return std::nullopt;
     const std::optional<RootForm> form = root_form(now.forms[k].residual, now.m);
     if (!form) return std::nullopt;
@@ -65,8 +76,84 @@ std::optional<std::vector<std::string>> branch_of(const Comparison& now, std::si
     const int norm = now.claims.lower(p, {form->norm})[0];
     double failure = 0;
     if (!p.is_zero(norm) && vanishes_at(states, p, norm, failure) != std::optional(true)) return std::nullopt;
-    if (!is_positive_at_start(form->root, now.claims, now.e)) return std::nullopt;
-    return std::vector<std::string>{inequality(form->root, now.m)};
+    if (!is_positive_on_own_branch(now, states.motions, form->root)) return std::nullopt;
+    const std::optional<GiNaC::ex> position = root_of_positions(form->square, now.m);
+    if (!position) return std::vector<std::string>{inequality(form->root, now.m)};
+    const GiNaC::ex positive =
+        is_positive_on_own_branch(now, states.motions, *position) ? *position : (-*position).expand();
+    return std::vector<std::string>{inequality(positive, now.m)};
+}
+
+/// Tells where another branch decides otherwise.
+void tell_other_branch(Comparison& now, std::size_t k, const Motions& motions, const Program& p, int root,
+                       bool holds_there) {
+    now.verdicts[k].other_branch = {.holds = holds_there, .place = place_where(told(now), motions, p, root, holds_there)};
+}
+
+/// Does the claim hold at one of the first states, on any branch?
+bool holds_somewhere(ExactStates& states, const Program& p, int root) {
+    constexpr std::size_t enough = 32;
+    for (std::size_t s = 0; s < enough && states.get(s) != nullptr; ++s)
+        if (const auto at = evaluate_mod(p, states.get(s)->point, std::array{root}); at && at->value[root].is_zero())
+            return true;
+    return false;
+}
+
+/// Whether the claim says that a sum of angles is zero, as q1 = q2 does, and that sum is a number of whole turns on
+/// every motion. It changes by none along a branch, so that the initial state decides.
+bool is_whole_turns(Comparison& now, std::size_t k, const Motions& motions, ExactStates& states) {
+    if (now.at != Claim::At::motion || !motions.own()) return false;
+    Program p;
+    const std::vector<int> roots =
+        now.claims.lower(p, {now.forms[k].residual, 1 - cos(now.forms[k].residual)});
+    if (!is_sum_of_variables(p, roots[0])) return false;
+    Told own = told(now);
+    own.on_own_branch = true;
+    return vanishes_at(states, p, roots[1], now.verdicts[k].failure) == true &&
+           in_numbers(own, motions, p, roots[0]) == InNumbers::holds;
+}
+
+/// Of a claim that holds on one branch of the constraints and fails on another, the scene's own branch decides.
+/// Returns whether it did.
+bool settle_by_branch(Comparison& now, std::size_t k, ExactStates& states, const Program& p, int root) {
+    CheckedClaim& c = now.verdicts[k];
+    ExactStates& own = *now.on_own_branch;
+    double failure = 0;
+    if (own.get(0) != nullptr && is_whole_turns(now, k, own.motions, own)) {
+        c.verdict = Verdict::proved;
+        if (!is_whole_turns(now, k, own.motions, states)) {
+            Program turns;
+            const int turned = now.claims.lower(turns, {1 - cos(now.forms[k].residual)})[0];
+            tell_other_branch(now, k, states.motions, turns, turned, false);
+        }
+        return true;
+    }
+    const std::optional<bool> zero = own.get(0) != nullptr ? vanishes_at(own, p, root, failure) : std::nullopt;
+    if (zero == true) {
+        if (depends_on_sides(p, {root}) && in_numbers(told(now), own.motions, p, root) != InNumbers::holds) return false;
+        c.verdict = Verdict::proved;
+        c.failure = failure;
+        tell_other_branch(now, k, states.motions, p, root, false);
+        return true;
+    }
+    if (const auto sheet = branch_of(now, k, own.get(0) != nullptr ? own : states)) {
+        c.verdict = Verdict::proved;
+        c.where = *sheet;
+        return true;
+    }
+    if (const auto shown = counterexample(told(now), own.motions, p, root)) {
+        refute(c, *shown);
+        explain(now, k, own.get(0) != nullptr ? own : states);
+        if (!depends_on_sides(p, {root}) && holds_somewhere(states, p, root))
+            tell_other_branch(now, k, states.motions, p, root, true);
+        return true;
+    }
+    c.reason = states.motions.loose().empty()
+                   ? say("it fails on a branch of the constraints, and it could not be decided whether it holds on that of "
+                         "the initial state")
+                   : say("the constraints cannot be solved exactly one after the other; no state was found at which it "
+                         "fails");
+    return true;
 }
 
 }  // namespace
@@ -81,7 +168,8 @@ void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
     Program p;
     const int root = now.claims.lower(p, {now.forms[k].residual})[0];
     if (p.is_zero(root)) {
-        c.verdict = Verdict::proved;
+        const bool is_of_scene = now.at == Claim::At::impact || speaks_of_scene(now.scene.claims[k], now.m);
+        c.verdict = is_of_scene ? Verdict::proved : Verdict::vacuous;
         c.normal_form = true;
         if (now.at != Claim::At::impact) c.reason = say("it holds identically and says nothing of the motion");
         return;
@@ -91,6 +179,11 @@ void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
         c.reason =
             say("it could not be evaluated: it divides by something that is zero on every motion, or its degree "
                 "is too high");
+        return;
+    }
+    if (now.on_own_branch != nullptr && !*zero && settle_by_branch(now, k, states, p, root)) return;
+    if (!*zero && is_whole_turns(now, k, states.motions, states)) {
+        c.verdict = Verdict::proved;
         return;
     }
     const bool is_rubbed = !states.motions.rubbed().empty();

@@ -14,7 +14,8 @@ Told told(Comparison& now) {
             .claims = now.claims,
             .spoken = now.spoken,
             .positive = now.positive,
-            .is_impact = now.at == Claim::At::impact};
+            .is_impact = now.at == Claim::At::impact,
+            .on_own_branch = now.on_own_branch != nullptr};
 }
 
 int halvings_in(const Comparison& now, const std::vector<std::size_t>& claims) {

@@ -34,6 +34,9 @@ struct Comparison {
     Equations law = {};                       ///< the equations with the multipliers that these claims contain
     std::vector<std::size_t> spoken = {};     ///< positions of these multipliers in Mechanism::undetermined()
     std::optional<EquationTerms> known = {};  ///< of the law; made when it is first needed
+    /// Exact states on the scene's own branch of the constraints, if there are several branches: claims are judged
+    /// there.
+    ExactStates* on_own_branch = nullptr;
     std::set<std::size_t> wrong = {};         ///< the wrong ones of claims that share open names
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/counterexample.hpp"
 
+#include <cln/dfloat.h>
+#include <cln/rational.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -26,6 +29,15 @@ void add_value(const Told& told, const std::string& name, const ex& e, const Rea
     Program p;
     const std::vector<int> node = told.claims.lower(p, {told.mechanism.z->name(e)});
     if (const auto value = evaluate(p, state, node)) result.values.emplace_back(name, text_of((*value)[0]));
+}
+
+/// Whether the claim fails as much when the values are put in with the digits that are shown.
+bool is_as_typed(const Program& p, int root, RealState state, const numeric& residual) {
+    for (auto& [key, value] : state.value)
+        if (!state.angle.contains(key) && !value.is_rational())
+            value = numeric(cln::cl_N(cln::rational(cln::cl_DF(value.to_double()))));
+    const auto typed = evaluate(p, state, {root});
+    return typed && GiNaC::abs((*typed)[0] - residual) * 1000000 < GiNaC::abs(residual);
 }
 
 void describe_impact(const Told& told, const RealState& state, Counterexample& result) {
@@ -110,12 +122,14 @@ public:
         : motions_(motions),
           program_(program),
           positive_(told.claims.lower(program_, told.positive)),
-          needed_(roots) {
+          needed_(roots),
+          on_own_branch_(told.on_own_branch) {
         needed_.insert(needed_.end(), positive_.begin(), positive_.end());
     }
 
     std::optional<RealState> operator()(unsigned seed) const {
-        std::optional<RealState> state = real_state(motions_, program_, needed_, seed);
+        std::optional<RealState> state = on_own_branch_ ? real_state_on_own_branch(motions_, program_, needed_, seed)
+                                                        : real_state(motions_, program_, needed_, seed);
         if (!state || positive_.empty()) return state;
         const auto value = evaluate(program_, *state, positive_);
         const bool is_on_sheet =
@@ -127,9 +141,48 @@ private:
     const Motions& motions_;
     Program program_;
     std::vector<int> positive_, needed_;
+    bool on_own_branch_;
 };
 
 }  // namespace
+
+std::optional<int> sign_on_own_branch(const Told& told, const Motions& motions, const Program& p, int root) {
+    if (!motions.own()) return std::nullopt;
+    constexpr unsigned tries = 12;
+    constexpr int enough = 4;
+    Told own = told;
+    own.on_own_branch = true;
+    const StatesOnSheet states(own, motions, p, {root});
+    std::optional<int> sign;
+    int found = 0;
+    for (unsigned seed = 0; seed < tries; ++seed) {
+        const auto state = states(seed);
+        const auto value = state ? evaluate(p, *state, {root}) : std::nullopt;
+        if (!value) continue;
+        if (is_small((*value)[0]) || (sign && *sign != (*value)[0].csgn())) return std::nullopt;
+        sign = (*value)[0].csgn();
+        ++found;
+    }
+    return found >= enough ? sign : std::nullopt;
+}
+
+std::vector<std::pair<std::string, std::string>> place_where(const Told& told, const Motions& motions,
+                                                             const Program& p, int root, bool is_zero) {
+    constexpr unsigned tries = 40;
+    Told anywhere = told;
+    anywhere.on_own_branch = false;
+    const StatesOnSheet states(anywhere, motions, p, {root});
+    std::vector<std::pair<std::string, std::string>> place;
+    for (unsigned seed = first_float_seed; seed < first_float_seed + tries; ++seed) {
+        const auto state = states(seed);
+        const auto value = state ? evaluate(p, *state, {root}) : std::nullopt;
+        if (!value || is_small((*value)[0]) != is_zero) continue;
+        for (int i = 0; i < told.mechanism.size(); ++i)
+            place.emplace_back(told.mechanism.q[i].get_name(), text_of(*state, {Variable::Kind::coordinate, i}));
+        break;
+    }
+    return place;
+}
 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& p,
                                              int root) {
@@ -142,7 +195,7 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
         const auto state = states(seed);
         if (!state) continue;
         const auto value = evaluate(p, *state, {root});
-        if (!value || is_small((*value)[0])) continue;
+        if (!value || is_small((*value)[0]) || !is_as_typed(p, root, *state, (*value)[0])) continue;
         Counterexample result = described(told, *state, (*value)[0]);
         add_unspecified(told, motions, p, {root}, *state, result);
         return result;
@@ -192,7 +245,8 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
     const std::vector<int> roots = rows.roots();
     const std::size_t columns = names.size();
     for (unsigned seed = 0; seed < 600; ++seed) {
-        auto state = real_state(motions, rows.program, roots, seed);
+        auto state = told.on_own_branch ? real_state_on_own_branch(motions, rows.program, roots, seed)
+                                        : real_state(motions, rows.program, roots, seed);
         if (!state) continue;
         for (const Open& o : names) state->value[{o.variable.kind, o.variable.index}] = 0;
         const auto value = evaluate(rows.program, *state, roots);

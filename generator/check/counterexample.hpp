@@ -34,6 +34,7 @@ struct Told {
     const std::vector<GiNaC::ex>&
         positive;  ///< expressions that are positive on the sheet of roots on which the claims are checked
     bool is_impact = false;
+    bool on_own_branch = false;  ///< only states on the scene's own branch count
 };
 
 /// A counterexample for the node `root` of `program`, which is zero where the claim holds. Nothing after some
@@ -61,5 +62,14 @@ std::vector<bool> hold_in_numbers(const Told& told, const Motions& motions, cons
 /// which it has a value.
 enum class InNumbers { holds, fails, unknown };
 InNumbers in_numbers(const Told& told, const Motions& motions, const Program& program, int root);
+
+/// The sign of the node at several states of the scene's own branch; nothing if it is not the same at all of them, or
+/// if the motions do not know that branch.
+std::optional<int> sign_on_own_branch(const Told& told, const Motions& motions, const Program& program, int root);
+
+/// The coordinates of a state, on any branch of the constraints, at which the node is zero, or is not zero. Empty if
+/// none of the first states is of that kind.
+std::vector<std::pair<std::string, std::string>> place_where(const Told& told, const Motions& motions,
+                                                             const Program& program, int root, bool is_zero);
 
 }  // namespace alembert

@@ -18,6 +18,7 @@
 #include "formalism/elements.hpp"
 #include "formalism/routh.hpp"
 #include "language/say.hpp"
+#include "state/branch.hpp"
 
 namespace alembert {
 
@@ -149,6 +150,11 @@ private:
         return result;
     }
 
+    /// The scene's own branch of the constraints, if these have branches and the claims are about the motion.
+    std::optional<OwnBranch> branch() const {
+        return now_.at == Claim::At::motion ? own_branch(now_.m) : std::nullopt;
+    }
+
     void settle(const std::vector<std::size_t>& asked, Motions::At at) {
         const bool is_bound = std::any_of(now_.m.constraints.begin(), now_.m.constraints.end(),
                                           [](const Mechanism::Constraint& c) { return c.position.has_value(); });
@@ -157,9 +163,10 @@ private:
         if (here.empty()) return;
         // Angles in halves only where they occur: every halving doubles the degrees.
         const Mechanism mechanism = now_.at == Claim::At::impact ? struck() : now_.m;
-        std::optional<ExactStates> states;
+        const std::optional<OwnBranch> own = branch();
+        std::optional<ExactStates> states, on_own_branch;
         for (const int halves : {0, 1, 2}) {
-            states.emplace(mechanism, now_.law, at, halves, halvings_in(now_, here));
+            states.emplace(mechanism, now_.law, at, halves, halvings_in(now_, here), Motions::Positions::solved, 0, own);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
             bool all = true;
@@ -183,6 +190,13 @@ private:
             }
             return;
         }
+        now_.on_own_branch = nullptr;
+        if (own && (states->motions.has_branches() || !states->motions.loose().empty())) {
+            on_own_branch.emplace(mechanism, now_.law, at, states->motions.halves(), halvings_in(now_, here),
+                                  Motions::Positions::solved, 0, own);
+            on_own_branch->stay_on_own_branch();
+            now_.on_own_branch = &*on_own_branch;
+        }
         std::vector<std::size_t> open;
         for (const std::size_t k : here)
             if (now_.forms[k].open.empty())
@@ -197,6 +211,7 @@ private:
                 now_.verdicts[k].reason =
                     say("the constraints cannot be solved one after the other, and it leaves names open");
         settle_open_claims(now_, open, *states);
+        now_.on_own_branch = nullptr;
     }
 
     void settle_alone(std::size_t k, ExactStates& states) try {

@@ -17,7 +17,9 @@ bool mixes(const Comparison& now, std::size_t k) {
 
 void settle_group(Comparison& now, const std::vector<std::size_t>& group, ExactStates& states) {
     const OpenRows rows = open_rows(now.claims, now.forms, group);
-    const std::optional<OpenJudgement> judged = judge(rows, group, states);
+    std::optional<OpenJudgement> judged = judge(rows, group, states);
+    if (judged && !judged->wrong.empty() && now.on_own_branch != nullptr && now.on_own_branch->get(0) != nullptr)
+        judged = judge(rows, group, *now.on_own_branch);
     if (!judged) {
         for (const std::size_t k : group) now.verdicts[k].reason = say("it could not be evaluated at any state");
         return;

@@ -74,7 +74,7 @@ std::optional<OpenMatrix> open_matrix(const OpenRows& rows, const ExactState& st
     double degree = 1;
     for (const int id : roots) degree = std::max(degree, at->degree[id]);
     degree = (static_cast<double>(rows.list.size()) * degree + 1) * std::max(1.0, state.degree);
-    result.chance = std::log2(degree) + at->conditions + state.conditions - 61;
+    result.chance = std::log2(degree) + at->conditions + state.conditions - state.field;
     for (const OpenRows::Row& row : rows.list) {
         result.rows.emplace_back();
         for (const int id : row.slope) result.rows.back().push_back(at->value[id]);

@@ -41,7 +41,28 @@ std::optional<RootForm> root_form(const ex& residual, const Mechanism& m) {
     ex A = 0, B = 0;
     for (int k = 0; k <= in_S.degree(S); ++k) (k % 2 == 0 ? A : B) += in_S.coeff(S, k) * pow(s, k / 2);
     if (A.is_zero() || B.is_zero()) return std::nullopt;
-    return RootForm{.norm = m.z->name(A * A - B * B * s), .root = (-A / B).expand()};
+    return RootForm{.norm = m.z->name(A * A - B * B * s), .root = (-A / B).expand(), .square = s};
+}
+
+std::optional<ex> root_of_positions(const ex& s, const Mechanism& m) {
+    for (const auto* list : {&m.constraints, &m.redundant})
+        for (const Mechanism::Constraint& constraint : *list) {
+            if (!constraint.position || m.z->tree_size(*constraint.position) > largest_claim) continue;
+            const ex f = m.z->expand(*constraint.position).expand();
+            for (const GiNaC::symbol& q : m.q) {
+                if (!f.is_polynomial(q) || f.degree(q) != 2) continue;
+                const ex a = f.coeff(q, 2), b = f.coeff(q, 1), c = f.coeff(q, 0);
+                const ex ratio = ((b * b - 4 * a * c) / s).normal();
+                if (!GiNaC::is_a<GiNaC::numeric>(ratio)) {
+                    if (!is_identically_zero((b * b - 4 * a * c - 4 * a * a * s).expand(), m)) continue;
+                    return ((2 * a * q + b) / (2 * a)).normal().expand();
+                }
+                const ex root = sqrt(ratio);
+                if (root.info(GiNaC::info_flags::rational) && root.info(GiNaC::info_flags::positive))
+                    return ((2 * a * q + b) / root).expand();
+            }
+        }
+    return std::nullopt;
 }
 
 bool is_positive_at_start(const ex& value, const Claims& claims, const Equations& equations) {

@@ -14,11 +14,16 @@ namespace alembert {
 
 struct RootForm {
     GiNaC::ex norm;  ///< A² − B² s
-    GiNaC::ex root;  ///< −A/B, which is √s or −√s where `norm` vanishes
+    GiNaC::ex root;    ///< −A/B, which is √s or −√s where `norm` vanishes
+    GiNaC::ex square;  ///< s
 };
 
 /// Nothing if there is no root, or more than one, or if the expression is too long.
 std::optional<RootForm> root_form(const GiNaC::ex& residual, const Mechanism& mechanism);
+
+/// x with x² = s on the constraints, from one of them that is quadratic in a coordinate: of a q² + b q + c = 0, a
+/// multiple of 2 a q + b, whose square is b² − 4 a c. Nothing if no constraint is of this kind.
+std::optional<GiNaC::ex> root_of_positions(const GiNaC::ex& s, const Mechanism& mechanism);
 
 /// Is `value` (of coordinates, rates, accelerations and multipliers) positive at the scene's initial state? False
 /// also if that cannot be decided.

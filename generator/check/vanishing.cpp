@@ -28,7 +28,7 @@ std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root,
         ++usable;
         if (!at->value[root].is_zero()) return false;
         const double degree = std::max(1.0, at->degree[root]) * std::max(1.0, state->degree);
-        const double chance = std::log2(degree) + at->conditions + state->conditions - 61;
+        const double chance = std::log2(degree) + at->conditions + state->conditions - state->field;
         if (chance > -1) return std::nullopt;
         failure += chance;
         missed += chance_of_another_branch(*state);

@@ -3,6 +3,7 @@
 
 /// The verdict on one claim.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,12 @@
 namespace alembert {
 
 enum class Verdict { proved, refuted, undecided, vacuous };
+
+/// Another branch of the constraints on which the claim is otherwise: a place on it.
+struct OtherBranch {
+    bool holds = false;                                          ///< whether the claim holds there
+    std::vector<std::pair<std::string, std::string>> place{};  ///< coordinates; empty if none was found in numbers
+};
 
 struct CheckedClaim {
     Verdict verdict = Verdict::undecided;
@@ -25,6 +32,7 @@ struct CheckedClaim {
     std::string difference;  ///< claim − nearest right equation, term by term
     std::string nearest;     ///< that right equation
     std::optional<Slip> likely;
+    std::optional<OtherBranch> other_branch;
     std::vector<std::string> where;  ///< the sheet or branch of roots on which the verdict holds: "r > 0"
 };
 

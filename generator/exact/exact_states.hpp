@@ -9,12 +9,13 @@ namespace alembert {
 class ExactStates {
 public:
     ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves, int halvings,
-                Motions::Positions positions = Motions::Positions::solved, unsigned turned = 0)
-        : motions(m, e, at, halves, halvings, positions), turned_(turned) {}
+                Motions::Positions positions = Motions::Positions::solved, unsigned turned = 0,
+                std::optional<OwnBranch> own = {})
+        : motions(m, e, at, halves, halvings, positions, std::move(own)), turned_(turned) {}
 
     const ExactState* get(std::size_t k) {
-        while (made_.size() <= k && unusable_ < most_unusable && motions.obstacle().empty()) {
-            if (auto state = motions.at(++seed_, {}, turned_))
+        while (made_.size() <= k && unusable_ < (is_on_own_branch_ ? most_failures : most_unusable) && motions.obstacle().empty()) {
+            if (auto state = is_on_own_branch_ ? motions.on_own_branch(++seed_) : motions.at(++seed_, {}, turned_))
                 made_.push_back(std::move(*state));
             else
                 ++unusable_;
@@ -22,14 +23,23 @@ public:
         return k < made_.size() ? &made_[k] : nullptr;
     }
 
+    /// From now on the states are those of the scene's own branch.
+    void stay_on_own_branch() {
+        is_on_own_branch_ = true;
+        made_.clear();
+        seed_ = 0;
+        unusable_ = 0;
+    }
+
     const Motions motions;
 
 private:
-    static constexpr int most_unusable = 4000;
+    static constexpr int most_unusable = 4000, most_failures = 60;
     std::vector<ExactState> made_;
     std::uint64_t seed_ = 0;
     unsigned turned_;  ///< as in Motions::at
     int unusable_ = 0;
+    bool is_on_own_branch_ = false;
 };
 
 }  // namespace alembert

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "alembert/error.hpp"
+#include "exact/counted_angle.hpp"
 #include "exact/least_shares.hpp"
 #include "exact/reduced_sums.hpp"
 #include "exact/solve_condition.hpp"
@@ -69,8 +70,8 @@ std::vector<int> rubbed_rows(const Mechanism& m, const Equations& e) {
 }  // namespace
 
 Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halves, int halvings,
-                 Positions positions)
-    : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
+                 Positions positions, std::optional<OwnBranch> own)
+    : own_(std::move(own)), at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
     const Mechanism m = in_terms_of(e, mechanism);
     rubbed_ = rubbed_rows(m, e);
     if (!rubbed_.empty()) {
@@ -88,7 +89,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     for (int k = 0; k < m_; ++k)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
     for (const Mechanism::Constraint& c : m.redundant) list.insert(list.end(), c.row.begin(), c.row.end());
-    const std::size_t own = list.size();
+    const std::size_t implied = list.size();
     for (const Mechanism::Constraint& c : m.redundant)
         if (c.position) list.push_back(*c.position);
     // The multiplier of a contact may have any value, so it is a variable like any other.
@@ -116,11 +117,11 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     system_.gamma = take(m_);
     const auto redundant = static_cast<std::ptrdiff_t>(m.redundant.size() * m.q.size());
     gaps_ = static_cast<int>(m.unilateral.size());
-    std::vector<int> conditions(next, nodes.begin() + static_cast<std::ptrdiff_t>(own) - redundant);
-    system_.redundant.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own) - redundant,
-                             nodes.begin() + static_cast<std::ptrdiff_t>(own));
+    std::vector<int> conditions(next, nodes.begin() + static_cast<std::ptrdiff_t>(implied) - redundant);
+    system_.redundant.assign(nodes.begin() + static_cast<std::ptrdiff_t>(implied) - redundant,
+                             nodes.begin() + static_cast<std::ptrdiff_t>(implied));
     std::erase_if(conditions, [&](int node) { return program_.is_zero(node); });
-    implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own), nodes.end());
+    implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(implied), nodes.end());
 
     if (at == At::rest) {
         for (int k = 0; k < m_; ++k)
@@ -144,10 +145,14 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     }
     usable_.emplace(std::vector{SquarePoints::Part{&program_, all}}, solved);
     find_branches();
+    if (own_ && !steps_.empty() && loose_.empty() && at_ == At::motion)
+        own_points_.emplace(program_, steps_, *own_, halves_);
 }
 
 void Motions::order(const std::vector<int>& conditions) {
-    SolvingOrder found = solving_order(program_, conditions);
+    std::optional<OwnSlopes> slopes;
+    if (own_) slopes.emplace(program_, *own_);
+    SolvingOrder found = solving_order(program_, conditions, {}, slopes ? &*slopes : nullptr);
     steps_ = std::move(found.steps);
     loose_ = std::move(found.left);
 }
@@ -186,8 +191,10 @@ void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex
 
 void Motions::find_branches() {
     irreducible_.assign(steps_.size(), false);
+    has_branches_ = false;
     constexpr std::uint64_t most_tries = 40, other_seeds = 1000000;
     std::vector<bool> known(steps_.size(), false);
+    std::vector<std::size_t> highest(steps_.size(), 1);
     for (std::uint64_t seed = 1;
          seed < most_tries && obstacle_.empty() && std::find(known.begin(), known.end(), false) != known.end();
          ++seed) {
@@ -196,12 +203,15 @@ void Motions::find_branches() {
             const Solved outcome = solve_condition(program_, steps_[k], state);
             if (outcome.found) {
                 known[k] = known[k] || outcome.degree == 1;
+                highest[k] = std::max(highest[k], outcome.degree);
                 continue;
             }
             if (outcome.degree == 2) known[k] = irreducible_[k] = true;
             break;
         }
     }
+    for (std::size_t k = 0; k < steps_.size(); ++k)
+        has_branches_ = has_branches_ || (!irreducible_[k] && highest[k] > 1);
 }
 
 std::optional<ExactState> Motions::at(std::uint64_t seed,
@@ -209,6 +219,25 @@ std::optional<ExactState> Motions::at(std::uint64_t seed,
                                       unsigned turned) const {
     if (!obstacle_.empty()) return std::nullopt;
     ExactState state{.point = {.seed = seed, .given = given, .halves = halves_, .finer = finer_}};
+    return solved(std::move(state), nullptr, turned);
+}
+
+std::optional<ExactState> Motions::on_own_branch(std::uint64_t seed) const {
+    if (!obstacle_.empty() || !own_points_) return std::nullopt;
+    const std::optional<OwnPoint> own = own_points_->at(seed);
+    if (!own) return std::nullopt;
+    ExactState state{.point = {.seed = seed, .given = {}, .halves = halves_, .finer = finer_},
+                     .field = OwnPoints::field};
+    for (const auto& [key, value] : own->values) state.point.given[key] = value;
+    for (const auto& [key, x] : own->angles) {
+        const Prime plain = state.point.variable({key.first, key.second});
+        state.point.given[key] = plain;
+        state.point.given_angles[plain] = counted_angle::turn_at(x);
+    }
+    return solved(std::move(state), &*own, 0);
+}
+
+std::optional<ExactState> Motions::solved(ExactState state, const OwnPoint* own, unsigned turned) const {
     if (at_ == At::rest)
         for (int i = 0; i < n_; ++i)
             for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration})
@@ -221,9 +250,11 @@ std::optional<ExactState> Motions::at(std::uint64_t seed,
     if (!point) return std::nullopt;
     state.point = std::move(*point);
     for (std::size_t k = 0; k < steps_.size(); ++k) {
-        const Solved outcome = solve_condition(program_, steps_[k], state);
+        const OwnRoot* const root = own == nullptr ? nullptr : &own->roots[k];
+        const Solved outcome = solve_condition(program_, steps_[k], state, root);
         if (!outcome.found) return std::nullopt;
-        if (!irreducible_[k]) state.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
+        if (root == nullptr && !irreducible_[k])
+            state.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
     }
     if (at_ == At::motion && !move(state, turned)) return std::nullopt;
     if (!system_.redundant.empty() && !share_out(state)) return std::nullopt;

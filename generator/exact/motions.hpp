@@ -34,6 +34,10 @@
 /// branch is reached with at least 1/d of the seeds. If a quadratic equation has no root for some seed, it is
 /// irreducible, and a statement that holds at a random one of its roots also holds at the other.
 ///
+/// With the scene's own branch given, `on_own_branch` draws states on that branch alone (exact/own_point.hpp), and
+/// conditions are solved for variables that they determine there: a branch on which an angle is π whatever the others
+/// are is lost where the condition is solved for one of these.
+///
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
 /// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met. An
 /// equation of rest in parameters alone, g·(m₂ sin β − m₁ sin α) = 0, is solved for one of them if it has one
@@ -43,6 +47,7 @@
 #include <set>
 
 #include "exact/exact_state.hpp"
+#include "exact/own_point.hpp"
 #include "exact/solving_order.hpp"
 #include "exact/square_points.hpp"
 #include "formalism/equations.hpp"
@@ -57,7 +62,7 @@ public:
     /// Angles that are solved for may occur divided by up to 2^halves, and all others by up to 2^halvings
     /// (exact/square_points.hpp), in the equations and in the expressions that will be evaluated.
     Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0,
-            int halvings = 0, Positions positions = Positions::solved);
+            int halvings = 0, Positions positions = Positions::solved, std::optional<OwnBranch> own = {});
     Motions(const Motions&) = delete;
     Motions& operator=(const Motions&) = delete;
 
@@ -67,6 +72,12 @@ public:
     std::optional<ExactState> at(std::uint64_t seed,
                                  const std::map<std::pair<Variable::Kind, int>, Prime>& given = {},
                                  unsigned turned = 0) const;
+
+    /// The same, on the scene's own branch. Nothing also where the branches cannot be told apart.
+    std::optional<ExactState> on_own_branch(std::uint64_t seed) const;
+    /// Whether there may be several branches, so that `at` draws one of them.
+    bool has_branches() const { return has_branches_; }
+    const std::optional<OwnBranch>& own() const { return own_; }
 
     /// The conditions, as nodes of program(), that the states need not obey.
     const std::vector<int>& loose() const { return loose_; }
@@ -106,6 +117,7 @@ private:
     void order_rest(const std::vector<int>& positions, const std::vector<GiNaC::ex>& balance, const Mechanism& m,
                     const std::vector<std::pair<GiNaC::symbol, int>>& given);
     void find_branches();
+    std::optional<ExactState> solved(ExactState state, const OwnPoint* own, unsigned turned) const;
     bool move(ExactState& state, unsigned turned) const;
     bool accelerate(ExactState& state, unsigned turned) const;
     bool share_out(ExactState& state) const;
@@ -115,6 +127,9 @@ private:
     std::vector<SolvingStep> steps_;
     std::vector<int> loose_, implied_, rubbed_;
     std::vector<bool> irreducible_;  ///< for each step
+    bool has_branches_ = false;
+    std::optional<OwnBranch> own_;
+    std::optional<OwnPoints> own_points_;  ///< refers to program_, steps_ and own_
     std::string obstacle_;
     At at_;
     int n_ = 0, m_ = 0, gaps_ = 0, halves_ = 0, finer_ = 0;

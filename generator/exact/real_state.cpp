@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "exact/real_state.hpp"
 
+#include <cln/dfloat.h>
+#include <cln/rational.h>
+
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <random>
 #include <set>
 
+#include "exact/angle_variables.hpp"
 #include "exact/least_shares.hpp"
+#include "exact/solve_together.hpp"
 
 namespace alembert {
 
@@ -15,34 +21,6 @@ using GiNaC::numeric;
 namespace {
 
 using Key = RealState::Key;
-
-/// Finds the variables inside angles, and those outside. A variable of which only functions of [functions] hold
-/// more than angles is an angle too, because these functions take any value.
-void find_variables(const Program& p, const std::vector<int>& roots, std::set<Key>& angles, std::set<Key>& plain) {
-    enum class Where { outside, in_angle, in_unspecified };
-    std::set<Key> unspecified;
-    std::set<std::pair<int, Where>> seen;
-    std::vector<std::pair<int, Where>> stack;
-    for (const int root : roots) stack.emplace_back(root, Where::outside);
-    while (!stack.empty()) {
-        const auto [id, where] = stack.back();
-        stack.pop_back();
-        if (!seen.emplace(id, where).second) continue;
-        const Node& node = p[id];
-        if (node.op == Op::variable)
-            (where == Where::in_angle  ? angles
-             : where == Where::outside ? plain
-                                       : unspecified)
-                .insert({node.variable.kind, node.variable.index});
-        const bool turns = node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
-        const Where inside = turns                                                   ? Where::in_angle
-                             : node.op == Op::unspecified && where == Where::outside ? Where::in_unspecified
-                                                                                     : where;
-        for (const int arg : node.args) stack.emplace_back(arg, inside);
-    }
-    for (const Key& key : unspecified)
-        if (!angles.contains(key)) plain.insert(key);
-}
 
 /// Small numbers for the first seeds, less simple ones for larger seeds.
 class Numbers {
@@ -54,6 +32,8 @@ public:
     /// Numbers within (−1, 1) with a common denominator. The components of a unit quaternion are of this kind, and
     /// otherwise one is rarely found.
     numeric small() { return numeric(pick(1, below_ - 1)) / numeric(pick(0, 1) != 0 ? below_ : -below_); }
+    /// Between −1 and 1, in hundredths.
+    double share() { return static_cast<double>(pick(-100, 100)) / 100; }
     unsigned choice(unsigned count) { return static_cast<unsigned>(pick(0, static_cast<int>(count) - 1)); }
     numeric tangent() {
         const int below = pick(2, 2 + spread_ / 2);
@@ -68,6 +48,16 @@ private:
     std::mt19937 random_;
     int spread_, below_;
 };
+
+/// The value with so many significant digits.
+numeric decimal(double value, int digits) {
+    if (value == 0) return 0;
+    const int power = digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+    const numeric ten = 10;
+    return numeric(cln::cl_N(cln::round1(cln::rational(cln::cl_DF(value)) *
+                                         cln::the<cln::cl_RA>(GiNaC::pow(ten, numeric(power)).to_cl_N())))) /
+           GiNaC::pow(ten, numeric(power));
+}
 
 /// A root of the polynomial through the values at −1, 0, 1 (and at 2, to check that its degree is not higher), a
 /// fraction if there is one. `seed` chooses among several.
@@ -120,50 +110,19 @@ void put(RealState& state, const Key& key, const numeric& x) {
         state.value[key] = x;
 }
 
-/// Newton's method with 50 digits from `x`. Derivatives are differences over 1e-25; if there are more unknowns
-/// than conditions, steps have least length. Angles are changed by the tangent of their half.
-bool solve_together(const Motions& motions, RealState& state, const std::vector<int>& conditions,
-                    const std::vector<Key>& keys, std::vector<numeric> x) {
-    const std::size_t rows = conditions.size();
-    const numeric small = GiNaC::ex_to<numeric>(GiNaC::ex(GiNaC::pow(numeric(10), numeric(-25))).evalf());
-    for (numeric& value : x) value = GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
-    const auto at = [&](std::size_t moved) {
-        for (std::size_t i = 0; i < keys.size(); ++i) put(state, keys[i], i == moved ? x[i] + small : x[i]);
+/// Newton's method from `x`. Angles are changed by the tangent of their half.
+bool solve_for(const Motions& motions, RealState& state, const std::vector<int>& conditions,
+               const std::vector<Key>& keys, std::vector<numeric> x) {
+    const auto at = [&](const std::vector<numeric>& values) {
+        for (std::size_t i = 0; i < keys.size(); ++i) put(state, keys[i], values[i]);
         return evaluate(motions.program(), state, conditions);
     };
-    for (int round = 0; round < 60; ++round) {
-        const auto f = at(keys.size());
-        if (!f) return false;
-        std::vector<std::vector<numeric>> slopes;  // for each unknown
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            auto moved = at(i);
-            if (!moved) return false;
-            for (std::size_t k = 0; k < rows; ++k) (*moved)[k] = ((*moved)[k] - (*f)[k]) / small;
-            slopes.push_back(std::move(*moved));
-        }
-        std::vector<std::vector<numeric>> normal(rows, std::vector<numeric>(rows + 1));
-        for (std::size_t k = 0; k < rows; ++k) {
-            normal[k][rows] = (*f)[k];
-            for (std::size_t j = 0; j < rows; ++j)
-                for (const std::vector<numeric>& slope : slopes) normal[k][j] += slope[k] * slope[j];
-        }
-        const auto weights = solve_rows(std::move(normal), rows);
-        if (!weights) return false;
-        numeric length = 0;
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            numeric step = 0;
-            for (std::size_t k = 0; k < rows; ++k) step += slopes[i][k] * (*weights)[k];
-            x[i] -= step;
-            length += GiNaC::abs(step);
-        }
-        if (length > 1000) return false;
-        if (length < GiNaC::pow(numeric(10), numeric(-45))) return at(keys.size()).has_value();
-    }
-    return false;
+    const auto found = solve_together(at, std::move(x));
+    return found && at(*found);
 }
 
 bool solve_two(const Motions& motions, RealState& state, const SolvingStep& step, unsigned seed) {
-    return solve_together(
+    return solve_for(
         motions, state, {step.node, step.second->node},
         {{step.variable.kind, step.variable.index}, {step.second->variable.kind, step.second->variable.index}},
         {numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)});
@@ -181,7 +140,7 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
         x.emplace_back(static_cast<int>((seed * 7 + keys.size() * 5) % 23) - 11, 9);
         keys.push_back(key);
     }
-    return solve_together(motions, state, motions.loose(), keys, std::move(x));
+    return solve_for(motions, state, motions.loose(), keys, std::move(x));
 }
 
 bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
@@ -330,34 +289,51 @@ bool share_out(const Motions& motions, RealState& state, Numbers& numbers) {
     return true;
 }
 
+/// The variables of the equations and of the claims.
+struct AllVariables {
+    AllVariables(const Motions& motions, const Program& claims, const std::vector<int>& roots) {
+        const Motions::System& s = motions.entries();
+        std::vector<int> entries = s.M;
+        for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma, &s.redundant, &motions.loose(), &motions.implied()})
+            entries.insert(entries.end(), part->begin(), part->end());
+        for (const SolvingStep& step : motions.steps()) entries.push_back(step.node);
+        find_variables(motions.program(), entries, angles, plain);
+        find_variables(claims, roots, angles, plain);
+        for (const std::set<Key>* keys : {&angles, &plain}) all.insert(keys->begin(), keys->end());
+        for (int i = 0; i < motions.size(); ++i) all.insert({Variable::Kind::coordinate, i});
+    }
+    bool is_angle(const Key& key) const {
+        return angles.contains(key) && !plain.contains(key) &&
+               (key.first == Variable::Kind::coordinate || key.first == Variable::Kind::parameter ||
+                key.first == Variable::Kind::time);
+    }
+
+    std::set<Key> angles, plain, all;
+};
+
+/// The rates, accelerations and multipliers of a state with positions.
+std::optional<RealState> moving(const Motions& motions, RealState state, Numbers& numbers) {
+    if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers)) return std::nullopt;
+    if (!motions.entries().redundant.empty() && !share_out(motions, state, numbers)) return std::nullopt;
+    for (auto& [key, value] : state.value)
+        if (is_almost_zero(value)) value = 0;
+    for (const auto& [key, value] : state.value)
+        state.exact = state.exact && (value.is_rational() || state.angle.contains(key));
+    return state;
+}
+
 }  // namespace
 
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
                                     unsigned seed) {
     if (!motions.obstacle().empty()) return std::nullopt;
-    const Precision digits;
+    const FiftyDigits digits;
     Numbers numbers(seed);
     const bool floats = seed >= first_float_seed;
-    std::set<Key> angles, plain;
-    const Motions::System& s = motions.entries();
-    std::vector<int> entries = s.M;
-    for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma, &s.redundant})
-        entries.insert(entries.end(), part->begin(), part->end());
-    for (const SolvingStep& step : motions.steps()) entries.push_back(step.node);
-    entries.insert(entries.end(), motions.loose().begin(), motions.loose().end());
-    entries.insert(entries.end(), motions.implied().begin(), motions.implied().end());
-    find_variables(motions.program(), entries, angles, plain);
-    find_variables(claims, roots, angles, plain);
-
+    const AllVariables variables(motions, claims, roots);
     RealState state;
-    std::set<Key> all = angles;
-    all.insert(plain.begin(), plain.end());
-    for (int i = 0; i < motions.size(); ++i) all.insert({Variable::Kind::coordinate, i});
-    for (const Key& key : all) {
-        const bool is_angle = angles.contains(key) && !plain.contains(key) &&
-                              (key.first == Variable::Kind::coordinate || key.first == Variable::Kind::parameter ||
-                               key.first == Variable::Kind::time);
-        if (is_angle)
+    for (const Key& key : variables.all) {
+        if (variables.is_angle(key))
             put_angle(state, key, {numbers.tangent()});
         else if (key.first == Variable::Kind::parameter || key.first == Variable::Kind::time)
             state.value[key] = numbers.positive();
@@ -372,11 +348,40 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
         for (int k = 0; k < motions.constraints(); ++k) state.value[{Variable::Kind::unknown, k}] = numbers.any();
     }
     if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
-    if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers)) return std::nullopt;
-    if (!s.redundant.empty() && !share_out(motions, state, numbers)) return std::nullopt;
-    for (const auto& [key, value] : state.value)
-        state.exact = state.exact && (value.is_rational() || state.angle.contains(key));
-    return state;
+    return moving(motions, std::move(state), numbers);
+}
+
+std::optional<RealState> real_state_on_own_branch(const Motions& motions, const Program& claims,
+                                                  const std::vector<int>& roots, unsigned seed) {
+    constexpr double reach = 0.02;
+    if (!motions.own() || motions.own()->places.empty()) return std::nullopt;
+    const FiftyDigits digits;
+    Numbers numbers(seed);
+    std::vector<int> conditions = motions.loose();
+    for (const SolvingStep& step : motions.steps()) {
+        conditions.push_back(step.node);
+        if (step.second) conditions.push_back(step.second->node);
+    }
+    const State<double>& place = motions.own()->places[seed % motions.own()->places.size()];
+    const auto solved = OwnSlopes(motions.program(), *motions.own()).determined(conditions, place);
+    if (solved.size() < conditions.size()) return std::nullopt;
+    const auto put = [&](RealState& to, const Key& key, double value) {
+        const bool stays = seed == 0 && key.first != Variable::Kind::coordinate;
+        to.value[key] = stays ? decimal(value, 12) : decimal(value + reach * numbers.share() * (value == 0 ? 1 : std::abs(value)), 3);
+    };
+    auto state = state_beside(motions.program(), conditions, place, solved, reach, put);
+    if (!state) return std::nullopt;
+    for (const Key& key : AllVariables(motions, claims, roots).all) {
+        if (state->value.contains(key)) continue;
+        if (key.first == Variable::Kind::coordinate || key.first == Variable::Kind::parameter ||
+            key.first == Variable::Kind::time)
+            put(*state, key, value_at(place, key));
+        else
+            state->value[key] = numbers.any();
+    }
+    const auto implied = evaluate(motions.program(), *state, motions.implied());
+    if (!implied || !std::all_of(implied->begin(), implied->end(), is_almost_zero)) return std::nullopt;
+    return moving(motions, *std::move(state), numbers);
 }
 
 }  // namespace alembert

@@ -207,7 +207,7 @@ void put_angle(RealState& state, const RealState::Key& key, const RealState::Ang
 
 std::optional<std::vector<numeric>> evaluate(const Program& program, const RealState& state,
                                              const std::vector<int>& roots) {
-    const Precision digits;
+    const FiftyDigits digits;
     return Evaluation(program, state).run(roots);
 }
 

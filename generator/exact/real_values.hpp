@@ -31,12 +31,12 @@ struct RealState {
 };
 
 /// Sets the precision to fifty digits during its lifetime.
-class Precision {
+class FiftyDigits {
 public:
-    Precision() : former_(GiNaC::Digits) { GiNaC::Digits = 50; }
-    ~Precision() { GiNaC::Digits = former_; }
-    Precision(const Precision&) = delete;
-    Precision& operator=(const Precision&) = delete;
+    FiftyDigits() : former_(GiNaC::Digits) { GiNaC::Digits = 50; }
+    ~FiftyDigits() { GiNaC::Digits = former_; }
+    FiftyDigits(const FiftyDigits&) = delete;
+    FiftyDigits& operator=(const FiftyDigits&) = delete;
 
 private:
     long former_;

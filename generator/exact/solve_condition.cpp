@@ -5,6 +5,7 @@
 
 #include "exact/angle_sum.hpp"
 #include "exact/common_zeros.hpp"
+#include "exact/counted_angle.hpp"
 
 namespace alembert {
 
@@ -17,7 +18,32 @@ std::optional<Prime> value_of(const Program& p, int node, const ExactState& stat
     return at->value[node];
 }
 
-Solved solve_two(const Program& program, const SolvingStep& step, ExactState& state) {
+/// Whether roots are on the own branch.
+class IsOwn {
+public:
+    IsOwn(const OwnRoot* own, const ExactState& state) : own_(own) {
+        if (own == nullptr || own->theta.empty()) return;
+        for (const auto& [unknown, weight] : own->theta) {
+            weights_[{unknown.variable.kind, unknown.variable.index}] = weight;
+            const auto found = state.roots.find({unknown.variable.kind, unknown.variable.index});
+            if (found != state.roots.end()) before_ += weight * found->second;
+        }
+    }
+    bool operator()(const std::vector<std::pair<SolvedUnknown, Prime>>& roots) const {
+        if (own_ == nullptr) return true;
+        if (own_->factor.empty()) return true;
+        Prime theta = before_;
+        for (const auto& [unknown, x] : roots)
+            theta += weights_.at({unknown.variable.kind, unknown.variable.index}) * x;
+        return value_at(own_->factor, theta).is_zero();
+    }
+private:
+    const OwnRoot* own_;
+    std::map<std::pair<Variable::Kind, int>, Prime> weights_;
+    Prime before_ = 0;  ///< what the roots of the steps before add
+};
+
+Solved solve_two(const Program& program, const SolvingStep& step, ExactState& state, const OwnRoot* own) {
     const std::array<SolvedUnknown, 2> both{step, *step.second};
     std::array<Prime, 2> plain;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -26,11 +52,11 @@ Solved solve_two(const Program& program, const SolvingStep& step, ExactState& st
     }
     const auto put = [&](std::size_t k, Prime x) {
         if (both[k].turned)
-            state.point.given_angles[plain[k]] = PrimeTurn::rational(x);
+            state.point.given_angles[plain[k]] = counted_angle::turn_at(x);
         else
             state.point.given[{both[k].variable.kind, both[k].variable.index}] = x;
     };
-    const CommonZeros zeros = common_zeros(
+    CommonZeros zeros = common_zeros(
         [&](Prime x, Prime y) -> std::optional<std::array<Prime, 2>> {
             put(0, x), put(1, y);
             const std::array<int, 2> nodes{both[0].node, both[1].node};
@@ -39,24 +65,30 @@ Solved solve_two(const Program& program, const SolvingStep& step, ExactState& st
             return std::array{at->value[nodes[0]], at->value[nodes[1]]};
         },
         {.turned = {both[0].turned, both[1].turned}, .seed = state.point.seed});
+    const IsOwn is_own(own, state);
+    std::erase_if(zeros.list, [&](const std::array<Prime, 2>& zero) {
+        return !is_own({{both[0], zero[0]}, {both[1], zero[1]}});
+    });
     if (zeros.list.empty()) return {false, zeros.degree};
     const auto& zero =
         zeros.list[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % zeros.list.size()];
     put(0, zero[0]), put(1, zero[1]);
+    for (std::size_t k = 0; k < 2; ++k) state.roots[{both[k].variable.kind, both[k].variable.index}] = zero[k];
     state.degree *= static_cast<double>(zeros.degree + 1);
     return {true, zeros.degree};
 }
 
 }  // namespace
 
-Solved solve_condition(const Program& program, const SolvingStep& step, ExactState& state) {
-    if (step.second) return solve_two(program, step, state);
+Solved solve_condition(const Program& program, const SolvingStep& step, ExactState& state, const OwnRoot* own) {
+    if (step.second) return solve_two(program, step, state, own);
+    const IsOwn is_own(own, state);
     const std::pair key{step.variable.kind, step.variable.index};
     const Prime plain = state.point.variable(step.variable);
     state.point.given[key] = plain;
     const auto put = [&](Prime x) {
         if (step.turned)
-            state.point.given_angles[plain] = PrimeTurn::rational(x);
+            state.point.given_angles[plain] = counted_angle::turn_at(x);
         else
             state.point.given[key] = x;
     };
@@ -76,23 +108,18 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
             put(x.back());  // the condition holds for every value
             return {true, 1};
         }
+        const std::size_t count = f.size() - 1;
+        if (own != nullptr && own->factor.empty() && count > 1) return {false, count};
         std::vector<Prime> found = roots(f, state.point.seed);
-        std::vector<std::optional<Prime>> all(found.begin(), found.end());
-        if (step.turned) {  // a half turn corresponds to a root at infinity
-            state.point.given_angles[plain] = PrimeTurn{-1, 0};
-            if (value_of(program, step.node, state) == Prime(0)) all.emplace_back();
-        }
-        const std::size_t count = f.size() - 1 + (all.size() > found.size() ? 1 : 0);
-        if (all.empty()) return {false, count};
-        const std::size_t pick =
-            state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % all.size();
-        if (all[pick])
-            put(*all[pick]);
-        else
-            state.point.given_angles[plain] = PrimeTurn{-1, 0};
+        std::erase_if(found, [&](Prime root) { return !is_own({{step, root}}); });
+        if (found.empty()) return {false, count};
+        const Prime root =
+            found[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % found.size()];
+        put(root);
+        state.roots[key] = root;
         if (!step.turned)
             if (const auto sum = angle_sum(program, step.node, step.variable))
-                set_angle(state.point, *sum, *all[pick]);
+                set_angle(state.point, *sum, root);
         state.degree *= static_cast<double>(f.size() - 1);
         return {value_of(program, step.node, state) == Prime(0), count};
     }

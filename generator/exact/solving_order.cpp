@@ -80,7 +80,8 @@ struct Coupled {
     SolvingStep step;
 };
 
-std::optional<Coupled> coupled(const std::vector<Occurrences>& held, const TakenVariables& taken) {
+std::optional<Coupled> coupled(const std::vector<int>& conditions, const std::vector<Occurrences>& held,
+                               const TakenVariables& taken, const OwnSlopes* slopes) {
     const auto usable = [&](const auto& variable, std::size_t a, std::size_t b) {
         if (taken.contains(variable) || !held[b].contains(variable)) return false;
         for (std::size_t c = 0; c < held.size(); ++c) {
@@ -98,7 +99,13 @@ std::optional<Coupled> coupled(const std::vector<Occurrences>& held, const Taken
                 if (usable(variable, a, b)) found.push_back({0, {variable.first, variable.second}, how.turned});
             // The variables that were declared last are taken, because driving coordinates are usually declared
             // first.
-            if (found.size() >= 2) return Coupled{a, b, {{found[found.size() - 2]}, found.back()}};
+            for (std::size_t later = found.size(); later-- > 1;)
+                for (std::size_t earlier = later; earlier-- > 0;) {
+                    SolvedUnknown one = found[earlier], other = found[later];
+                    one.node = conditions[a];
+                    other.node = conditions[b];
+                    if (slopes == nullptr || slopes->determine(one, other)) return Coupled{a, b, {{one}, other}};
+                }
         }
     return std::nullopt;
 }
@@ -110,7 +117,7 @@ using ChosenStep = std::pair<std::size_t, SolvingStep>;
 /// of the others is preferred; a variable under a root is the last choice.
 std::optional<ChosenStep> with_own_variable(const Program& program, const std::vector<int>& conditions,
                                             const std::vector<Occurrences>& held, const TakenVariables& taken,
-                                            const std::set<int>& irreducible) {
+                                            const std::set<int>& irreducible, const OwnSlopes* slopes) {
     constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
     constexpr std::array<std::pair<int, bool>, 4> orders{{{0, false}, {1, false}, {1, true}, {2, true}}};
     for (std::size_t choice = 0; choice < 2 * orders.size(); ++choice) {
@@ -134,7 +141,9 @@ std::optional<ChosenStep> with_own_variable(const Program& program, const std::v
                 if (!any_multiple && is_sum_of_variables(program, conditions[c]) &&
                     !angle_sum(program, conditions[c], unknown))
                     continue;
-                return ChosenStep{c, {{conditions[c], unknown, how.turned}, std::nullopt}};
+                const SolvedUnknown chosen{conditions[c], unknown, how.turned};
+                if (slopes != nullptr && !slopes->determine(chosen)) continue;
+                return ChosenStep{c, {chosen, std::nullopt}};
             }
     }
     return std::nullopt;
@@ -149,7 +158,8 @@ bool holds_parameters_alone(const Program& program, int condition) {
     });
 }
 
-SolvingOrder solving_order(const Program& program, std::vector<int> conditions, const std::set<int>& irreducible) {
+SolvingOrder solving_order(const Program& program, std::vector<int> conditions, const std::set<int>& irreducible,
+                           const OwnSlopes* slopes) {
     std::sort(conditions.begin(), conditions.end());
     conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
     std::vector<Occurrences> held;
@@ -160,14 +170,12 @@ SolvingOrder solving_order(const Program& program, std::vector<int> conditions, 
     TakenVariables taken;
     SolvingOrder result;
     while (!conditions.empty()) {
-        std::optional<ChosenStep> chosen = with_own_variable(program, conditions, held, taken, irreducible);
+        std::optional<ChosenStep> chosen = with_own_variable(program, conditions, held, taken, irreducible, slopes);
         std::optional<std::size_t> partner;
         if (!chosen)
-            if (auto pair = coupled(held, taken)) {
+            if (auto pair = coupled(conditions, held, taken, slopes)) {
                 partner = pair->second;
                 chosen = {pair->first, pair->step};
-                chosen->second.node = conditions[pair->first];
-                chosen->second.second->node = conditions[pair->second];
             }
         if (!chosen) break;
         const SolvingStep& step = chosen->second;

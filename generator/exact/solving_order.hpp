@@ -11,25 +11,13 @@
 /// everything else is known. Multipliers are preferred, then coordinates, then parameters. If no condition has
 /// such a variable, two conditions that are the only ones with two certain variables are solved together.
 
-#include <optional>
 #include <set>
 #include <vector>
 
-#include "program/program.hpp"
+#include "exact/own_branch.hpp"
+#include "exact/solving_step.hpp"
 
 namespace alembert {
-
-/// A condition and the variable for which it is solved.
-struct SolvedUnknown {
-    int node = 0;  ///< the condition
-    Variable variable{};
-    bool turned = false;  ///< whether the variable is an angle in sines and cosines
-};
-
-/// One such pair, or two pairs that are solved together.
-struct SolvingStep : SolvedUnknown {
-    std::optional<SolvedUnknown> second = {};
-};
 
 struct SolvingOrder {
     std::vector<SolvingStep> steps;  ///< in the order of solving
@@ -37,9 +25,10 @@ struct SolvingOrder {
 };
 
 /// `conditions`: nodes of the program that are to be zero. Those that hold parameters alone are left, as a
-/// parameter is not chosen to be zero, but for `irreducible` ones: these have no parameter as a factor.
+/// parameter is not chosen to be zero, but for `irreducible` ones: these have no parameter as a factor. A condition is
+/// solved only for a variable that it determines on the scene's own branch, if the `slopes` there are given.
 SolvingOrder solving_order(const Program& program, std::vector<int> conditions,
-                           const std::set<int>& irreducible = {});
+                           const std::set<int>& irreducible = {}, const OwnSlopes* slopes = nullptr);
 
 /// Does the condition hold parameters and nothing else?
 bool holds_parameters_alone(const Program& program, int condition);

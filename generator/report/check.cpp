@@ -55,6 +55,10 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     }
     if (!checked.reason.empty()) json["reason"] = checked.reason;
     if (!checked.where.empty()) json["where"] = checked.where;
+    if (checked.other_branch) {
+        json["other_branch"] = {{"holds", checked.other_branch->holds}, {"place", Json::object()}};
+        for (const auto& [name, value] : checked.other_branch->place) json["other_branch"]["place"][name] = value;
+    }
     return json;
 }
 
@@ -70,6 +74,13 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     if (!claim.source.empty()) line("", claim.source);
     if (!c.where.empty()) line(say("where "), fmt::format("{}", fmt::join(c.where, ", ")));
     if (!c.reason.empty()) line("", c.reason);
+    if (c.other_branch) {
+        std::string place;
+        for (const auto& [name, value] : c.other_branch->place) place += (place.empty() ? "" : ", ") + name + " = " + value;
+        line("", c.other_branch->holds ? say("on another branch of the constraints it holds")
+                                       : say("on another branch of the constraints it fails"));
+        if (!place.empty()) line("", say("(that branch goes through {})", place));
+    }
     if (c.verdict != Verdict::refuted) return page;
     if (!c.nearest.empty()) line(say("nearest right equation: "), c.nearest);
     if (!c.difference.empty()) line(say("the claim has beyond that: "), c.difference);

@@ -4,6 +4,7 @@
 #include "state/branch.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -21,6 +22,23 @@ constexpr int steps = 3, most_halvings = 8;
 constexpr double step_length = 0.1;  // of 1 + |q|
 constexpr double most_corrected = 0.2;
 constexpr double search_reach = 0.3;  // of 1 + |q|
+
+/// The rows of the holonomic constraints.
+Eigen::MatrixXd rows_of_positions(const Mechanism& m, const Program& p, const Start& here) {
+    const std::vector<double> value = interpret(p, here.state());
+    const std::vector<int> rows = p.nodes_of(Group::row);
+    const auto n = static_cast<Eigen::Index>(m.q.size());
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(m.constraints.size()), n);
+    Eigen::Index count = 0;
+    for (std::size_t k = 0; k < m.constraints.size(); ++k) {
+        if (!m.constraints[k].position) continue;
+        for (Eigen::Index i = 0; i < n; ++i)
+            A(count, i) =
+                value[static_cast<std::size_t>(rows[k * m.q.size() + static_cast<std::size_t>(i)])];
+        ++count;
+    }
+    return A.topRows(count);
+}
 
 class Walk {
 public:
@@ -80,7 +98,7 @@ private:
     }
 
     std::optional<Start> step(const Start& here, Eigen::VectorXd change) const {
-        const Eigen::MatrixXd A = rows_of_positions(here);
+        const Eigen::MatrixXd A = rows_of_positions(m_, p_, here);
         if (A.rows() > 0) change -= least_norm(A, A * change).x;
         if (!change.allFinite()) return {};
         const Eigen::Map<const Eigen::VectorXd> q(here.q.data(), n_);
@@ -95,20 +113,6 @@ private:
             if ((reached - q - change).lpNorm<Eigen::Infinity>() <= most_corrected * length) return there;
         }
         return {};
-    }
-
-    Eigen::MatrixXd rows_of_positions(const Start& here) const {
-        const std::vector<double> value = interpret(p_, here.state());
-        const std::vector<int> rows = p_.nodes_of(Group::row);
-        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(m_.constraints.size()), n_);
-        Eigen::Index count = 0;
-        for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
-            if (!m_.constraints[k].position) continue;
-            for (Eigen::Index i = 0; i < n_; ++i)
-                A(count, i) = value[static_cast<std::size_t>(rows[k * m_.q.size() + static_cast<std::size_t>(i)])];
-            ++count;
-        }
-        return A.topRows(count);
     }
 
     Mechanism m_;
@@ -132,6 +136,29 @@ std::vector<Start> places_on_branch(const Mechanism& mechanism, const Program& p
     for (int k = 0; k < wanted; ++k)
         if (Start place = walk.beside(start); walk.assembles(place)) result.push_back(std::move(place));
     return result;
+}
+
+std::optional<OwnBranch> own_branch(const Mechanism& mechanism) try {
+    constexpr int wanted = 4;
+    const auto positions = std::count_if(mechanism.constraints.begin(), mechanism.constraints.end(),
+                                         [](const Mechanism::Constraint& c) { return c.position.has_value(); });
+    if (positions == 0) return std::nullopt;
+    const Program program = lower_constraints(mechanism);
+    Start start = start_of(mechanism);
+    assemble(start, mechanism, program, {});
+    const bool rests = std::all_of(start.qdot.begin(), start.qdot.end(), [](double rate) { return rate == 0; });
+    const auto rank = [&](const Start& at) {
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(rows_of_positions(mechanism, program, at));
+        factors.setThreshold(1e-7);
+        return factors.rank();
+    };
+    if (rests && rank(start) < positions) return std::nullopt;
+    OwnBranch branch;
+    for (const Start& place : places_on_branch(mechanism, program, start, wanted, 1))
+        if (rank(place) == positions) branch.places.push_back(place.state());
+    return branch.places.empty() ? std::nullopt : std::optional(std::move(branch));
+} catch (const std::runtime_error&) {
+    return std::nullopt;
 }
 
 }  // namespace alembert

@@ -10,8 +10,10 @@
 /// so on another. A search from a place chosen at random ends on any of them, while a walk of short steps along
 /// the positions stays on its branch.
 
+#include <optional>
 #include <vector>
 
+#include "exact/own_branch.hpp"
 #include "lower/start.hpp"
 #include "program/program.hpp"
 
@@ -25,5 +27,9 @@ namespace alembert {
 /// The program is lower_constraints(mechanism).
 std::vector<Start> places_on_branch(const Mechanism& mechanism, const Program& program, const Start& start,
                                     int wanted, unsigned seed, bool rates_must_obey = true);
+
+/// The branch on which the scene starts, by some places on it. Nothing without holonomic constraints, if no initial
+/// state obeys the constraints, or if branches meet at it and it is at rest, so that it is on several of them.
+std::optional<OwnBranch> own_branch(const Mechanism& mechanism);
 
 }  // namespace alembert

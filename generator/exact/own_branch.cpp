@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "exact/own_branch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/angle_variables.hpp"
+#include "exact/solve_together.hpp"
+
+namespace alembert {
+
+using GiNaC::numeric;
+
+namespace {
+
+using Key = RealState::Key;
+
+double* place_of(State<double>& state, const Key& key) {
+    const auto i = static_cast<std::size_t>(key.second);
+    switch (key.first) {
+        case Variable::Kind::time:
+            return &state.t;
+        case Variable::Kind::coordinate:
+            return i < state.q.size() ? &state.q[i] : nullptr;
+        case Variable::Kind::parameter:
+            return i < state.parameters.size() ? &state.parameters[i] : nullptr;
+        default:
+            return nullptr;
+    }
+}
+
+}  // namespace
+
+double value_at(const State<double>& place, const Key& key) {
+    State<double> copy = place;
+    const double* const value = place_of(copy, key);
+    return value != nullptr ? *value : 0;
+}
+
+namespace {
+
+/// Zeros for the variables that positions do not depend on.
+void fill(State<double>& state, const Program& program) {
+    for (int id = 0; id < program.size(); ++id) {
+        if (program[id].op != Op::variable) continue;
+        const Variable& variable = program[id].variable;
+        auto* const list = variable.kind == Variable::Kind::rate           ? &state.qdot
+                           : variable.kind == Variable::Kind::acceleration ? &state.qddot
+                           : variable.kind == Variable::Kind::unknown      ? &state.unknown
+                                                                           : nullptr;
+        const auto size = static_cast<std::size_t>(variable.index) + 1;
+        if (list != nullptr && list->size() < size) list->resize(size);
+    }
+}
+
+/// The slopes of the nodes in one variable, by differences that are right to some 1e-10; nothing if it has no value.
+std::optional<std::vector<double>> slopes_in(const Program& program, State<double> state, const Key& key,
+                                             const std::vector<int>& nodes) {
+    double* const x = place_of(state, key);
+    if (x == nullptr) return std::nullopt;
+    fill(state, program);
+    const double step = 1e-5 * (1 + std::abs(*x));
+    *x += step;
+    const std::vector<double> above = interpret(program, state);
+    *x -= 2 * step;
+    const std::vector<double> below = interpret(program, state);
+    std::vector<double> result;
+    for (const int id : nodes) {
+        const auto node = static_cast<std::size_t>(id);
+        result.push_back((above[node] - below[node]) / (2 * step));
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<Key> OwnSlopes::determined(const std::vector<int>& conditions, const State<double>& place) const {
+    constexpr double least = 1e-6;
+    std::vector<std::vector<double>> columns;
+    for (std::size_t i = 0; i < place.q.size(); ++i)
+        columns.push_back(*slopes_in(program_, place, {Variable::Kind::coordinate, static_cast<int>(i)}, conditions));
+    std::vector<Key> result;
+    std::vector<bool> used(conditions.size(), false);
+    for (std::size_t k = 0; k < conditions.size(); ++k) {
+        std::size_t row = 0, column = 0;
+        double largest = least;
+        for (std::size_t i = 0; i < columns.size(); ++i)
+            for (std::size_t r = 0; r < conditions.size(); ++r)
+                if (!used[r] && std::abs(columns[i][r]) > largest) largest = std::abs(columns[i][r]), row = r, column = i;
+        if (largest == least) break;
+        used[row] = true;
+        result.emplace_back(Variable::Kind::coordinate, static_cast<int>(column));
+        // Columns take the place of columns minus multiples of this one, which then is zero in the row.
+        const std::vector<double> pivot = columns[column];
+        for (std::vector<double>& other : columns) {
+            const double factor = other[row] / pivot[row];
+            for (std::size_t r = 0; r < conditions.size(); ++r) other[r] -= factor * pivot[r];
+        }
+    }
+    return result;
+}
+
+bool OwnSlopes::determine(const SolvedUnknown& one) const {
+    constexpr double least = 1e-7;  // differences are right to some 1e-10
+    return std::any_of(branch_.places.begin(), branch_.places.end(), [&](const State<double>& place) {
+        const auto slope = slopes_in(program_, place, key_of(one), {one.node});
+        return !slope || std::abs((*slope)[0]) > least;
+    });
+}
+
+bool OwnSlopes::determine(const SolvedUnknown& one, const SolvedUnknown& other) const {
+    constexpr double least = 1e-6;
+    return std::any_of(branch_.places.begin(), branch_.places.end(), [&](const State<double>& place) {
+        const auto a = slopes_in(program_, place, key_of(one), {one.node, other.node});
+        const auto b = slopes_in(program_, place, key_of(other), {one.node, other.node});
+        if (!a || !b) return true;
+        const double size = (std::abs((*a)[0]) + std::abs((*b)[0])) * (std::abs((*a)[1]) + std::abs((*b)[1]));
+        return std::abs((*a)[0] * (*b)[1] - (*b)[0] * (*a)[1]) > least * size;
+    });
+}
+
+std::optional<RealState> state_beside(const Program& program, const std::vector<int>& conditions,
+                                      const State<double>& place, const std::vector<Key>& solved, double reach,
+                                      const PutFree& put) {
+    constexpr double most_leverage = 30;  // how much more the solved variables may change than the others
+    const FiftyDigits digits;
+    std::set<Key> angles, plain;
+    find_variables(program, conditions, angles, plain);
+    angles.merge(plain);
+    RealState state;
+    for (const Key& key : angles)
+        if (std::find(solved.begin(), solved.end(), key) == solved.end()) put(state, key, value_at(place, key));
+    std::vector<numeric> x;
+    for (const Key& key : solved) x.emplace_back(value_at(place, key));
+    const std::vector<numeric> before = x;
+    const auto at = [&](const std::vector<numeric>& values) {
+        for (std::size_t i = 0; i < solved.size(); ++i) state.value[solved[i]] = values[i];
+        return evaluate(program, state, conditions);
+    };
+    const auto found = solve_together(at, std::move(x), most_leverage * reach * static_cast<double>(1 + before.size()));
+    if (!found) return std::nullopt;
+    for (std::size_t i = 0; i < solved.size(); ++i) {
+        const double was = before[i].to_double();
+        if (std::abs((*found)[i].to_double() - was) > most_leverage * reach * (1 + std::abs(was))) return std::nullopt;
+        state.value[solved[i]] = (*found)[i];
+    }
+    state.exact = false;
+    return state;
+}
+
+}  // namespace alembert
