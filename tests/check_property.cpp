@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "branch_scenes.hpp"
 #include "check/check.hpp"
 #include "formalism/routh.hpp"
 #include "oracle.hpp"
@@ -32,8 +33,8 @@ struct Counts {
 
 class Trial {
 public:
-    Trial(const std::string& file, unsigned seed)
-        : scene_(read_scene(file)),
+    Trial(Scene scene, unsigned seed)
+        : scene_(std::move(scene)),
           m_(prepared(scene_).mechanism),
           e_(routh(m_)),
           oracle_(scene_, m_, e_, seed),
@@ -126,7 +127,7 @@ TEST_CASE(
             continue;
         const Mechanism m = prepared(read_scene(file)).mechanism;
         if (!m.unilateral.empty()) continue;  // the oracle does not support contacts
-        Trial trial(file, seed);
+        Trial trial(read_scene(file), seed);
         if (!trial.readable()) continue;
         trial.right(count);
         trial.wrong(count);
@@ -139,6 +140,26 @@ TEST_CASE(
                 "s\n",
                 file.substr(file.rfind('/') + 1), c.proved, c.refuted, c.undecided, c.false_proofs,
                 c.false_refutations, c.seconds);
+    }
+}
+
+TEST_CASE("check: random claims on the scene's own branch are judged right where the constraints have others") {
+    const char* const wanted = std::getenv("ALEMBERT_CLAIMS");
+    const int count = wanted != nullptr ? std::atoi(wanted) : 3;
+    constexpr unsigned seed = 1799;
+    for (const BranchScene& scene : branch_scenes()) {
+        CAPTURE(scene.text);
+        CAPTURE(seed);
+        Trial trial(scene.scene(), seed);
+        trial.right(count);
+        trial.wrong(count);
+        const Counts c = trial.judged();
+        CHECK(100 * c.undecided <= 2 * count);
+        if (wanted != nullptr)
+            fmt::print(
+                "{:<24} proved {:4}  refuted {:4}  undecided {:3}  false proofs {}  false refutations {}  {:.3f} "
+                "s\n",
+                scene.name, c.proved, c.refuted, c.undecided, c.false_proofs, c.false_refutations, c.seconds);
     }
 }
 

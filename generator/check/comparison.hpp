@@ -37,7 +37,7 @@ struct Comparison {
     /// Exact states on the scene's own branch of the constraints, if there are several branches: claims are judged
     /// there.
     ExactStates* on_own_branch = nullptr;
-    std::set<std::size_t> wrong = {};         ///< the wrong ones of claims that share open names
+    std::set<std::size_t> wrong = {};  ///< the wrong ones of claims that share open names
 };
 
 Told told(Comparison& now);

@@ -128,8 +128,9 @@ public:
     }
 
     std::optional<RealState> operator()(unsigned seed) const {
-        std::optional<RealState> state = on_own_branch_ ? real_state_on_own_branch(motions_, program_, needed_, seed)
-                                                        : real_state(motions_, program_, needed_, seed);
+        std::optional<RealState> state = on_own_branch_
+                                             ? real_state_on_own_branch(motions_, program_, needed_, seed)
+                                             : real_state(motions_, program_, needed_, seed);
         if (!state || positive_.empty()) return state;
         const auto value = evaluate(program_, *state, positive_);
         const bool is_on_sheet =
@@ -166,22 +167,23 @@ std::optional<int> sign_on_own_branch(const Told& told, const Motions& motions, 
     return found >= enough ? sign : std::nullopt;
 }
 
-std::vector<std::pair<std::string, std::string>> place_where(const Told& told, const Motions& motions,
-                                                             const Program& p, int root, bool is_zero) {
+std::optional<FoundState> state_where(const Told& told, const Motions& motions, const Program& p, int root,
+                                      bool is_zero) {
     constexpr unsigned tries = 40;
     Told anywhere = told;
     anywhere.on_own_branch = false;
     const StatesOnSheet states(anywhere, motions, p, {root});
-    std::vector<std::pair<std::string, std::string>> place;
     for (unsigned seed = first_float_seed; seed < first_float_seed + tries; ++seed) {
         const auto state = states(seed);
         const auto value = state ? evaluate(p, *state, {root}) : std::nullopt;
         if (!value || is_small((*value)[0]) != is_zero) continue;
+        FoundState result{.where = {}, .values = described(told, *state, (*value)[0]).values};
         for (int i = 0; i < told.mechanism.size(); ++i)
-            place.emplace_back(told.mechanism.q[i].get_name(), text_of(*state, {Variable::Kind::coordinate, i}));
-        break;
+            result.where += (i == 0 ? "" : ", ") + told.mechanism.q[i].get_name() + " = " +
+                            text_of(*state, {Variable::Kind::coordinate, i});
+        return result;
     }
-    return place;
+    return std::nullopt;
 }
 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& p,

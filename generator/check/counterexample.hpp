@@ -63,13 +63,17 @@ std::vector<bool> hold_in_numbers(const Told& told, const Motions& motions, cons
 enum class InNumbers { holds, fails, unknown };
 InNumbers in_numbers(const Told& told, const Motions& motions, const Program& program, int root);
 
-/// The sign of the node at several states of the scene's own branch; nothing if it is not the same at all of them, or
-/// if the motions do not know that branch.
+/// The sign of the node at several states of the scene's own branch; nothing if it is not the same at all of them,
+/// or if the motions do not know that branch.
 std::optional<int> sign_on_own_branch(const Told& told, const Motions& motions, const Program& program, int root);
 
-/// The coordinates of a state, on any branch of the constraints, at which the node is zero, or is not zero. Empty if
-/// none of the first states is of that kind.
-std::vector<std::pair<std::string, std::string>> place_where(const Told& told, const Motions& motions,
-                                                             const Program& program, int root, bool is_zero);
+/// The first state, on any branch of the constraints, at which the node is zero, or is not zero; `where` are its
+/// coordinates. Nothing if none of the first states is of that kind.
+struct FoundState {
+    std::string where;
+    std::vector<std::pair<std::string, std::string>> values;
+};
+std::optional<FoundState> state_where(const Told& told, const Motions& motions, const Program& program, int root,
+                                      bool is_zero);
 
 }  // namespace alembert

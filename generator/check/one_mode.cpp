@@ -166,7 +166,8 @@ private:
         const std::optional<OwnBranch> own = branch();
         std::optional<ExactStates> states, on_own_branch;
         for (const int halves : {0, 1, 2}) {
-            states.emplace(mechanism, now_.law, at, halves, halvings_in(now_, here), Motions::Positions::solved, 0, own);
+            states.emplace(mechanism, now_.law, at, halves, halvings_in(now_, here), Motions::Positions::solved, 0,
+                           own);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
             bool all = true;

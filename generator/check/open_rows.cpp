@@ -120,6 +120,15 @@ std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const
     std::set<std::size_t> found;
     for (const std::size_t a : group)
         if (consistent(rest({a}))) found.insert(a);
+    if (found.size() > 1) {  // a claim that holds by itself is not to blame for what others say of its names
+        std::set<std::size_t> others = found;
+        std::erase_if(others, [&](std::size_t a) {
+            std::set<std::size_t> without(group.begin(), group.end());
+            without.erase(a);
+            return consistent(rest(without)) && !pins(rows, at, without, a);
+        });
+        if (!others.empty()) found = std::move(others);
+    }
     if (!found.empty()) return found;
     for (std::size_t i = 0; i < group.size(); ++i)
         for (std::size_t j = i + 1; j < group.size(); ++j)

@@ -41,7 +41,15 @@ std::optional<RootForm> root_form(const ex& residual, const Mechanism& m) {
     ex A = 0, B = 0;
     for (int k = 0; k <= in_S.degree(S); ++k) (k % 2 == 0 ? A : B) += in_S.coeff(S, k) * pow(s, k / 2);
     if (A.is_zero() || B.is_zero()) return std::nullopt;
-    return RootForm{.norm = m.z->name(A * A - B * B * s), .root = (-A / B).expand(), .square = s};
+    return RootForm{.norm = m.z->name(A * A - B * B * s), .root = (-A / B).expand()};
+}
+
+std::vector<ex> squares_in(const ex& residual, const Mechanism& m) {
+    if (m.z->tree_size(residual) > largest_claim) return {};
+    GiNaC::exset roots, squares;
+    find_roots(m.z->expand(residual), roots);
+    for (const ex& root : roots) squares.insert(root.op(0));
+    return {squares.begin(), squares.end()};
 }
 
 std::optional<ex> root_of_positions(const ex& s, const Mechanism& m) {

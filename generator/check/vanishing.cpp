@@ -37,6 +37,37 @@ std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root,
     }
 }
 
+std::optional<bool> vanishes_with_some_signs(ExactStates& states, const Program& p, int root, double& failure) {
+    constexpr std::size_t most_roots = 4;
+    const std::array<int, 1> roots{root};
+    failure = 0;
+    double missed = 0;
+    for (std::size_t s = 0; s < most_states && states.get(s) != nullptr; ++s) {
+        const ExactState& state = *states.get(s);
+        const auto plain = evaluate_mod(p, state.point, roots);
+        if (!plain) continue;
+        const std::vector<Prime> rooted = plain->rooted;
+        if (rooted.empty() || rooted.size() > most_roots) return std::nullopt;
+        const unsigned choices = 1U << rooted.size();
+        bool is_zero = false;
+        for (unsigned choice = 0; choice < choices && !is_zero; ++choice) {
+            ModularPoint point = state.point;
+            for (std::size_t r = 0; r < rooted.size(); ++r)
+                if (((choice >> r) & 1U) != 0) point.negative_roots.push_back(rooted[r]);
+            const auto at = evaluate_mod(p, point, roots);
+            is_zero = at && at->value[root].is_zero();
+        }
+        if (!is_zero) return false;
+        const double degree = choices * std::max(1.0, plain->degree[root]) * std::max(1.0, state.degree);
+        const double chance = std::log2(degree) + plain->conditions + state.conditions - state.field;
+        if (chance > -1) return std::nullopt;
+        failure += chance;
+        missed += chance_of_another_branch(state);
+        if (failure <= wanted_failure && missed <= wanted_failure) return true;
+    }
+    return std::nullopt;
+}
+
 bool vanishes_at_two(ExactStates& states, const Program& p, int root) {
     std::size_t wanted = states.motions.where() == Motions::At::rest ? 8 : 2;
     for (std::size_t s = 0, usable = 0; usable < wanted; ++s) {

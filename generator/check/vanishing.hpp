@@ -26,6 +26,11 @@ constexpr std::size_t most_states = 1200;  ///< after this many states the quest
 /// probability of an error.
 std::optional<bool> vanishes_at(ExactStates& states, const Program& program, int root, double& failure);
 
+/// Is the node zero at all states for some choice of the signs of the square roots in it, of which there are at
+/// most four? Nothing if that cannot be decided, or if there is no root.
+std::optional<bool> vanishes_with_some_signs(ExactStates& states, const Program& program, int root,
+                                             double& failure);
+
 /// The same question at two states only, or at eight if the constraints have branches or the states are states of
 /// rest. This is enough to find a correction, but not to prove it.
 bool vanishes_at_two(ExactStates& states, const Program& program, int root);

@@ -14,10 +14,11 @@ namespace alembert {
 
 enum class Verdict { proved, refuted, undecided, vacuous };
 
-/// Another branch of the constraints on which the claim is otherwise: a place on it.
+/// Another branch of the constraints, on which the claim is otherwise.
 struct OtherBranch {
-    bool holds = false;                                          ///< whether the claim holds there
-    std::vector<std::pair<std::string, std::string>> place{};  ///< coordinates; empty if none was found in numbers
+    Verdict verdict = Verdict::undecided;  ///< proved or refuted
+    std::string where{};  ///< a place on it, "a = 0.3, b = -0.6"; empty if none was found in numbers
+    std::vector<std::pair<std::string, std::string>> counterexample{};  ///< a state there, if the claim is refuted
 };
 
 struct CheckedClaim {

@@ -15,11 +15,12 @@ namespace alembert {
 namespace {
 
 struct CheckOptions : SceneOptions {
-    std::string claims;  ///< a file; if empty, the claims of the scene
+    std::string claims;     ///< a file; if empty, the claims of the scene
+    bool complete = false;  ///< whether the right claims must determine the motion
 };
 
-int exit_code(const Checked& checked) {
-    bool open = false;
+int exit_code(const Checked& checked, bool must_be_complete) {
+    bool open = must_be_complete && !checked.complete;
     for (const CheckedClaim& c : checked.claims) {
         if (c.verdict == Verdict::refuted) return 1;
         open = open || c.verdict == Verdict::undecided || c.verdict == Verdict::vacuous;
@@ -36,7 +37,7 @@ int run(const CheckOptions& options) {
         show(as_json(checked));
     else
         show_formulas(as_text(checked, ink_for(STDOUT_FILENO)));
-    return exit_code(checked.checked);
+    return exit_code(checked.checked, options.complete);
 }
 
 }  // namespace
@@ -51,6 +52,9 @@ void add_check(CLI::App& app, Chosen& chosen) {
                                              "claims", options.claims,
                                              say("a file, one equation a line; default: the scene's [[claim]]s"))
                                          .type_name(values::claims);
+                                     verb.add_flag("--complete", options.complete,
+                                                   say("the exit code is 2 also if the claims that hold do not "
+                                                       "determine the motion"));
                                      add_by_option(verb, options.by);
                                  });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Angles v as x = tan((v − v0)/2^(halves + 1)), with a v0 of no particular value, so that x is finite also where v is
-/// half a turn.
+/// Angles v as x = tan((v − v0)/2^(halves + 1)), with a v0 of no particular value, so that x is finite also where
+/// v is half a turn.
 
 #include "exact/real_values.hpp"
 #include "program/turn.hpp"
@@ -20,10 +20,13 @@ inline PrimeTurn turn_at(Prime x) {
 
 inline RealState::Angle angle_at(const GiNaC::numeric& x, int halves) {
     const GiNaC::numeric from(above, below);
-    if (halves == 0 && x * from == 1) return {.tangent = 0, .half_turn = true};
-    GiNaC::numeric tangent = (x + from) / (1 - x * from);
-    for (; halves > 0; --halves) tangent = 2 * tangent / (1 - tangent * tangent);
-    return {tangent};
+    bool is_half_turn = x * from == 1;
+    GiNaC::numeric tangent = is_half_turn ? GiNaC::numeric(0) : (x + from) / (1 - x * from);
+    for (; halves > 0; --halves) {
+        is_half_turn = tangent * tangent == 1;
+        tangent = is_half_turn ? GiNaC::numeric(0) : 2 * tangent / (1 - tangent * tangent);
+    }
+    return {.tangent = tangent, .half_turn = is_half_turn};
 }
 
 /// x from v, in the digits that are in force.

@@ -17,8 +17,8 @@ struct ExactState {
         {};                 ///< the same state with other multipliers of the same forces, if there are any
     double conditions = 0;  ///< how often the probability of an error is doubled (ModularValues)
     std::map<std::pair<Variable::Kind, int>, Prime> roots = {};  ///< of the conditions, as they were found
-    double field = 61;      ///< log₂ of the number of values from which the variables are drawn
-    bool exact = true;      ///< false if a function occurred whose identities are unknown
+    double field = 61;  ///< log₂ of the number of values from which the variables are drawn
+    bool exact = true;  ///< false if a function occurred whose identities are unknown
 };
 
 }  // namespace alembert

@@ -14,7 +14,8 @@ public:
         : motions(m, e, at, halves, halvings, positions, std::move(own)), turned_(turned) {}
 
     const ExactState* get(std::size_t k) {
-        while (made_.size() <= k && unusable_ < (is_on_own_branch_ ? most_failures : most_unusable) && motions.obstacle().empty()) {
+        while (made_.size() <= k && unusable_ < (is_on_own_branch_ ? most_failures : most_unusable) &&
+               motions.obstacle().empty()) {
             if (auto state = is_on_own_branch_ ? motions.on_own_branch(++seed_) : motions.at(++seed_, {}, turned_))
                 made_.push_back(std::move(*state));
             else

@@ -35,8 +35,8 @@
 /// irreducible, and a statement that holds at a random one of its roots also holds at the other.
 ///
 /// With the scene's own branch given, `on_own_branch` draws states on that branch alone (exact/own_point.hpp), and
-/// conditions are solved for variables that they determine there: a branch on which an angle is π whatever the others
-/// are is lost where the condition is solved for one of these.
+/// conditions are solved for variables that they determine there: a branch on which an angle is π whatever the
+/// others are is lost where the condition is solved for one of these.
 ///
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
 /// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met. An

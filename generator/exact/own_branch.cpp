@@ -53,7 +53,8 @@ void fill(State<double>& state, const Program& program) {
     }
 }
 
-/// The slopes of the nodes in one variable, by differences that are right to some 1e-10; nothing if it has no value.
+/// The slopes of the nodes in one variable, by differences that are right to some 1e-10; nothing if it has no
+/// value.
 std::optional<std::vector<double>> slopes_in(const Program& program, State<double> state, const Key& key,
                                              const std::vector<int>& nodes) {
     double* const x = place_of(state, key);
@@ -78,7 +79,8 @@ std::vector<Key> OwnSlopes::determined(const std::vector<int>& conditions, const
     constexpr double least = 1e-6;
     std::vector<std::vector<double>> columns;
     for (std::size_t i = 0; i < place.q.size(); ++i)
-        columns.push_back(*slopes_in(program_, place, {Variable::Kind::coordinate, static_cast<int>(i)}, conditions));
+        columns.push_back(
+            *slopes_in(program_, place, {Variable::Kind::coordinate, static_cast<int>(i)}, conditions));
     std::vector<Key> result;
     std::vector<bool> used(conditions.size(), false);
     for (std::size_t k = 0; k < conditions.size(); ++k) {
@@ -86,7 +88,8 @@ std::vector<Key> OwnSlopes::determined(const std::vector<int>& conditions, const
         double largest = least;
         for (std::size_t i = 0; i < columns.size(); ++i)
             for (std::size_t r = 0; r < conditions.size(); ++r)
-                if (!used[r] && std::abs(columns[i][r]) > largest) largest = std::abs(columns[i][r]), row = r, column = i;
+                if (!used[r] && std::abs(columns[i][r]) > largest)
+                    largest = std::abs(columns[i][r]), row = r, column = i;
         if (largest == least) break;
         used[row] = true;
         result.emplace_back(Variable::Kind::coordinate, static_cast<int>(column));
@@ -137,11 +140,13 @@ std::optional<RealState> state_beside(const Program& program, const std::vector<
         for (std::size_t i = 0; i < solved.size(); ++i) state.value[solved[i]] = values[i];
         return evaluate(program, state, conditions);
     };
-    const auto found = solve_together(at, std::move(x), most_leverage * reach * static_cast<double>(1 + before.size()));
+    const auto found =
+        solve_together(at, std::move(x), most_leverage * reach * static_cast<double>(1 + before.size()));
     if (!found) return std::nullopt;
     for (std::size_t i = 0; i < solved.size(); ++i) {
         const double was = before[i].to_double();
-        if (std::abs((*found)[i].to_double() - was) > most_leverage * reach * (1 + std::abs(was))) return std::nullopt;
+        if (std::abs((*found)[i].to_double() - was) > most_leverage * reach * (1 + std::abs(was)))
+            return std::nullopt;
         state.value[solved[i]] = (*found)[i];
     }
     state.exact = false;

@@ -6,8 +6,8 @@
 ///     const OwnSlopes slopes(program, branch);
 ///     slopes.determine({condition, angle});     // does this condition determine the angle there?
 ///
-/// Constraints may hold on several branches: x² = l² at x = l and at x = −l, sin a + sin(a + b) = 0 at b = π and at
-/// b = −2a, a parallelogram as such and crossed.
+/// Constraints may hold on several branches: x² = l² at x = l and at x = −l, sin a + sin(a + b) = 0 at b = π and
+/// at b = −2a, a parallelogram as such and crossed.
 
 #include <functional>
 #include <optional>
@@ -35,8 +35,8 @@ public:
     /// The same for two conditions and two variables.
     bool determine(const SolvedUnknown& one, const SolvedUnknown& other) const;
 
-    /// Coordinates that the conditions determine together at a place; fewer than conditions where these have no full
-    /// rank there.
+    /// Coordinates that the conditions determine together at a place; fewer than conditions where these have no
+    /// full rank there.
     std::vector<RealState::Key> determined(const std::vector<int>& conditions, const State<double>& place) const;
 
 private:
@@ -52,9 +52,9 @@ inline RealState::Key key_of(const SolvedUnknown& unknown) {
 double value_at(const State<double>& place, const RealState::Key& key);
 
 /// The variables of the conditions, with the numbers of fifty digits that they have at a state beside a place.
-/// `solved` get the values with which the conditions hold, on the same branch; `put` gives all others their values,
-/// at most `reach` (times 1 + |x|) away from those at the place. Nothing if the conditions do not determine the solved
-/// ones, or these change by much more than the others.
+/// `solved` get the values with which the conditions hold, on the same branch; `put` gives all others their
+/// values, at most `reach` (times 1 + |x|) away from those at the place. Nothing if the conditions do not
+/// determine the solved ones, or these change by much more than the others.
 using PutFree = std::function<void(RealState& state, const RealState::Key& key, double value_at_place)>;
 std::optional<RealState> state_beside(const Program& program, const std::vector<int>& conditions,
                                       const State<double>& place, const std::vector<RealState::Key>& solved,

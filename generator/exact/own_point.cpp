@@ -151,12 +151,17 @@ private:
     }
 
     /// The factor of the polynomial in T, from which the irrational roots are eliminated, that vanishes at θ.
-    std::optional<ex> eliminated(ex f, const symbol& T, const std::vector<std::pair<SolvedUnknown, numeric>>& theta) {
+    std::optional<ex> eliminated(ex f, const symbol& T,
+                                 const std::vector<std::pair<SolvedUnknown, numeric>>& theta) {
         for (const Irrational& root : irrational_) {
             f = f.expand();
             if (!f.has(root.symbol)) continue;
             if (f.degree(T) * root.minimal.degree(root.symbol) > most_degree) return std::nullopt;
-            f = GiNaC::resultant(root.minimal, f, root.symbol);
+            const bool is_last =
+                std::none_of(irrational_.begin(), irrational_.end(),
+                             [&](const Irrational& other) { return &other != &root && f.has(other.symbol); });
+            f = is_last ? alembert::eliminated(root.minimal, f, root.symbol, T)
+                        : GiNaC::resultant(root.minimal, f, root.symbol);
         }
         return own_factor(f.expand(), T, theta_of(theta));
     }
@@ -174,9 +179,11 @@ private:
         }
         const auto pair_of = [&](const ex& x, const ex& y, const symbol& out, const symbol& by,
                                  const std::vector<std::pair<SolvedUnknown, numeric>>& of) -> std::optional<ex> {
-            const ex a = f->subs(GiNaC::lst{X == x, Y == y}).expand(), b = g->subs(GiNaC::lst{X == x, Y == y}).expand();
+            const ex a = f->subs(GiNaC::lst{X == x, Y == y}).expand(),
+                     b = g->subs(GiNaC::lst{X == x, Y == y}).expand();
             if (!a.has(by) || !b.has(by)) return std::nullopt;
-            return eliminated(GiNaC::resultant(a, b, by), out, of);
+            return eliminated(
+                irrational_.empty() ? alembert::eliminated(a, b, by, out) : GiNaC::resultant(a, b, by), out, of);
         };
         const auto factor = pair_of(other, Y, T, Y, theta);
         if (!factor) return std::nullopt;
@@ -209,9 +216,9 @@ private:
     const RealState& own_;
     int halves_;
     std::mt19937_64& random_;
-    RealState state_;                       ///< fractions only
-    std::vector<Irrational> irrational_;    ///< the roots found so far that are no fractions
-    std::vector<SolvedUnknown> derived_;    ///< those that follow from them
+    RealState state_;                     ///< fractions only
+    std::vector<Irrational> irrational_;  ///< the roots found so far that are no fractions
+    std::vector<SolvedUnknown> derived_;  ///< those that follow from them
 };
 
 }  // namespace
@@ -236,10 +243,11 @@ std::optional<OwnPoint> OwnPoints::at(std::uint64_t seed) const {
         // one of 2³⁰ fractions within the reach, with the denominator 2⁴⁰
         const double away = std::ldexp(static_cast<double>(random() >> 34), -30) * 2 - 1;
         const double fine = std::ldexp(value + reach * (1 + std::abs(value)) * away, 40);
-        return numeric(cln::cl_N(cln::rational(cln::cl_DF(std::round(fine))))) / GiNaC::pow(numeric(2), numeric(40));
+        return numeric(cln::cl_N(cln::rational(cln::cl_DF(std::round(fine))))) /
+               GiNaC::pow(numeric(2), numeric(40));
     };
-    const auto state = state_beside(
-        program_, conditions, place, keys, reach, [&](RealState& to, const Key& key, double value) {
+    const auto state =
+        state_beside(program_, conditions, place, keys, reach, [&](RealState& to, const Key& key, double value) {
             const bool is_angle = angles.contains(key) && !plain.contains(key);
             const numeric x = beside(is_angle ? counted_angle::of(value, halves_).to_double() : value);
             if (is_angle)

@@ -11,10 +11,10 @@
 /// method gives the roots of the own branch with fifty digits. The polynomial of a condition then has rational
 /// coefficients and is factored over the rational numbers. That factor which vanishes at the root found is the
 /// minimal polynomial of the own root, and its roots modulo the prime are those of the own branch (and of its
-/// conjugates, for which every equation with rational coefficients holds as well; Hilbert's irreducibility theorem:
-/// at random fractions a branch splits no further). Where roots before are irrational, the polynomial is that of a
-/// random combination θ of all roots, a primitive element of their field, from which they are eliminated by
-/// resultants (Trager, Algebraic factoring and rational function integration, SYMSAC 1976).
+/// conjugates, for which every equation with rational coefficients holds as well; Hilbert's irreducibility
+/// theorem: at random fractions a branch splits no further). Where roots before are irrational, the polynomial is
+/// that of a random combination θ of all roots, a primitive element of their field, from which they are eliminated
+/// by resultants (Trager, Algebraic factoring and rational function integration, SYMSAC 1976).
 
 #include <cstdint>
 #include <map>
@@ -26,8 +26,8 @@
 
 namespace alembert {
 
-/// What is known of the own root of a step: `factor` vanishes at θ = Σ weight · x, with x as in exact/counted_angle.hpp for angles.
-/// It is empty if the condition has no other root.
+/// What is known of the own root of a step: `factor` vanishes at θ = Σ weight · x, with x as in
+/// exact/counted_angle.hpp for angles. It is empty if the condition has no other root.
 struct OwnRoot {
     PrimePolynomial factor{};
     std::vector<std::pair<SolvedUnknown, Prime>> theta{};
@@ -36,7 +36,7 @@ struct OwnRoot {
 struct OwnPoint {
     std::map<RealState::Key, Prime> values;  ///< of variables that are not solved for
     std::map<RealState::Key, Prime> angles;  ///< likewise, as x of exact/counted_angle.hpp
-    std::vector<OwnRoot> roots;                ///< for each step
+    std::vector<OwnRoot> roots;              ///< for each step
 };
 
 class OwnPoints {

@@ -16,7 +16,8 @@ using Values = std::function<std::optional<numeric>(const std::vector<numeric>&)
 /// Newton's divided differences, with expressions as values.
 ex interpolated(const std::vector<numeric>& x, std::vector<ex> y, const symbol& X) {
     for (std::size_t order = 1; order < x.size(); ++order)
-        for (std::size_t k = x.size() - 1; k >= order; --k) y[k] = ((y[k] - y[k - 1]) / (x[k] - x[k - order])).expand();
+        for (std::size_t k = x.size() - 1; k >= order; --k)
+            y[k] = ((y[k] - y[k - 1]) / (x[k] - x[k - order])).expand();
     ex result = 0;
     for (std::size_t k = x.size(); k-- > 0;) result = (result * (X - x[k]) + y[k]).expand();
     return result;
@@ -51,6 +52,56 @@ std::optional<ex> through(const Values& value, const std::vector<PolynomialVaria
     return std::nullopt;
 }
 
+/// Of a polynomial in two variables: for each power of the one, the coefficients of the powers of the other.
+using Coefficients = std::vector<std::vector<numeric>>;
+
+Coefficients coefficients_of(const ex& f, const symbol& by, const symbol& in) {
+    Coefficients result;
+    for (int i = 0; i <= f.degree(by); ++i) {
+        const ex c = f.coeff(by, i).expand();
+        result.emplace_back();
+        for (int j = 0; j <= c.degree(in); ++j) result.back().push_back(GiNaC::ex_to<numeric>(c.coeff(in, j)));
+    }
+    return result;
+}
+
+std::size_t degree_in(const Coefficients& f) {
+    std::size_t degree = 0;
+    for (const std::vector<numeric>& c : f) degree = std::max(degree, c.size() - 1);
+    return degree;
+}
+
+std::vector<numeric> at(const Coefficients& f, const numeric& x) {
+    std::vector<numeric> result;
+    for (const std::vector<numeric>& c : f) {
+        numeric value = 0;
+        for (std::size_t k = c.size(); k-- > 0;) value = value * x + c[k];
+        result.push_back(value);
+    }
+    return result;
+}
+
+/// Of two polynomials in one variable, as that modulo a prime (program/prime_polynomial.hpp).
+numeric resultant_of(std::vector<numeric> f, std::vector<numeric> g) {
+    numeric result = 1;
+    while (true) {
+        if (g.empty()) return 0;
+        if (g.size() == 1) return result * GiNaC::pow(g[0], numeric(static_cast<long>(f.size()) - 1));
+        std::vector<numeric> rest = f;
+        while (rest.size() >= g.size()) {
+            const numeric factor = rest.back() / g.back();
+            const std::size_t shift = rest.size() - g.size();
+            for (std::size_t k = 0; k < g.size(); ++k) rest[shift + k] -= factor * g[k];
+            while (!rest.empty() && rest.back().is_zero()) rest.pop_back();
+        }
+        if (rest.empty()) return 0;
+        if ((f.size() - 1) % 2 == 1 && (g.size() - 1) % 2 == 1) result = -result;
+        result *= GiNaC::pow(g.back(), numeric(static_cast<long>(f.size() - rest.size())));
+        f = std::move(g);
+        g = std::move(rest);
+    }
+}
+
 /// Divides by 1 + x² as often as possible: by its powers may have been multiplied too often.
 ex without_circle(ex f, const symbol& x) {
     for (ex q; f.has(x) && GiNaC::divide(f, 1 + x * x, q);) f = q;
@@ -68,9 +119,26 @@ std::optional<ex> polynomial_through(const Values& value, const std::vector<Poly
     return f;
 }
 
+ex eliminated(const ex& f, const ex& g, const symbol& by, const symbol& in) {
+    const Coefficients a = coefficients_of(f, by, in), b = coefficients_of(g, by, in);
+    const std::size_t degree = degree_in(a) * (b.size() - 1) + degree_in(b) * (a.size() - 1);
+    std::vector<numeric> points;
+    std::vector<ex> values;
+    for (int k = 0; points.size() <= degree; ++k) {
+        const numeric x = k % 2 == 0 ? k / 2 : -(k + 1) / 2;
+        const std::vector<numeric> at_a = at(a, x), at_b = at(b, x);
+        if (at_a.back().is_zero() || at_b.back().is_zero())
+            continue;  // the resultant is one of lower degrees there
+        points.push_back(x);
+        values.emplace_back(resultant_of(at_a, at_b));
+    }
+    return interpolated(points, std::move(values), in);
+}
+
 std::optional<ex> own_factor(const ex& f, const symbol& x, const numeric& root) {
     if (!f.has(x)) return std::nullopt;
-    const numeric nothing = GiNaC::pow(numeric(10), numeric(-30)), something = GiNaC::pow(numeric(10), numeric(-18));
+    const numeric nothing = GiNaC::pow(numeric(10), numeric(-30)),
+                  something = GiNaC::pow(numeric(10), numeric(-18));
     const ex factored = GiNaC::factor(f);
     std::vector<ex> factors;
     const auto take = [&](const ex& part) {
@@ -83,11 +151,12 @@ std::optional<ex> own_factor(const ex& f, const symbol& x, const numeric& root) 
         take(factored);
     std::optional<ex> own;
     for (const ex& factor : factors) {
-        numeric value = 0, size = 0, power = 1;
-        for (int k = 0; k <= factor.degree(x); ++k, power *= root) {
-            const numeric term = GiNaC::ex_to<numeric>(factor.coeff(x, k)) * power;
-            value += term;
-            size += GiNaC::abs(term);
+        const numeric least = GiNaC::abs(root) > 1 ? GiNaC::abs(root) : numeric(1);  // the root itself may be zero
+        numeric value = 0, size = 0;
+        for (int k = 0; k <= factor.degree(x); ++k) {
+            const numeric c = GiNaC::ex_to<numeric>(factor.coeff(x, k));
+            value += c * GiNaC::pow(root, numeric(k));
+            size += GiNaC::abs(c) * GiNaC::pow(least, numeric(k));
         }
         const numeric relative = GiNaC::abs(value) / size;
         if (relative < nothing && own) return std::nullopt;

@@ -294,7 +294,8 @@ struct AllVariables {
     AllVariables(const Motions& motions, const Program& claims, const std::vector<int>& roots) {
         const Motions::System& s = motions.entries();
         std::vector<int> entries = s.M;
-        for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma, &s.redundant, &motions.loose(), &motions.implied()})
+        for (const auto* part :
+             {&s.f, &s.A, &s.drift, &s.gamma, &s.redundant, &motions.loose(), &motions.implied()})
             entries.insert(entries.end(), part->begin(), part->end());
         for (const SolvingStep& step : motions.steps()) entries.push_back(step.node);
         find_variables(motions.program(), entries, angles, plain);
@@ -367,7 +368,8 @@ std::optional<RealState> real_state_on_own_branch(const Motions& motions, const 
     if (solved.size() < conditions.size()) return std::nullopt;
     const auto put = [&](RealState& to, const Key& key, double value) {
         const bool stays = seed == 0 && key.first != Variable::Kind::coordinate;
-        to.value[key] = stays ? decimal(value, 12) : decimal(value + reach * numbers.share() * (value == 0 ? 1 : std::abs(value)), 3);
+        to.value[key] = stays ? decimal(value, 12)
+                              : decimal(value + reach * numbers.share() * (value == 0 ? 1 : std::abs(value)), 3);
     };
     auto state = state_beside(motions.program(), conditions, place, solved, reach, put);
     if (!state) return std::nullopt;

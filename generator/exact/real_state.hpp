@@ -23,8 +23,8 @@ inline constexpr unsigned first_float_seed = 400;
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
                                     unsigned seed);
 
-/// The same on the scene's own branch, for motions that know it: near a place of it, and at seed 0 with the scene's
-/// parameters. Positions that follow from others are floats.
+/// The same on the scene's own branch, for motions that know it: near a place of it, and at seed 0 with the
+/// scene's parameters. Positions that follow from others are floats.
 std::optional<RealState> real_state_on_own_branch(const Motions& motions, const Program& claims,
                                                   const std::vector<int>& roots, unsigned seed);
 

@@ -37,6 +37,7 @@ public:
             theta += weights_.at({unknown.variable.kind, unknown.variable.index}) * x;
         return value_at(own_->factor, theta).is_zero();
     }
+
 private:
     const OwnRoot* own_;
     std::map<std::pair<Variable::Kind, int>, Prime> weights_;
@@ -118,8 +119,7 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
         put(root);
         state.roots[key] = root;
         if (!step.turned)
-            if (const auto sum = angle_sum(program, step.node, step.variable))
-                set_angle(state.point, *sum, root);
+            if (const auto sum = angle_sum(program, step.node, step.variable)) set_angle(state.point, *sum, root);
         state.degree *= static_cast<double>(f.size() - 1);
         return {value_of(program, step.node, state) == Prime(0), count};
     }

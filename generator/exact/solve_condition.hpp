@@ -16,8 +16,8 @@ struct Solved {
 };
 
 /// Sets the variable in `state` to a root, which the state's seed draws if there are several. There is no solution
-/// if the polynomial in the variable has no root modulo the prime, or if a condition cannot be evaluated. `own`: only
-/// roots on the scene's own branch are taken.
+/// if the polynomial in the variable has no root modulo the prime, or if a condition cannot be evaluated. `own`:
+/// only roots on the scene's own branch are taken.
 Solved solve_condition(const Program& program, const SolvingStep& step, ExactState& state,
                        const OwnRoot* own = nullptr);
 

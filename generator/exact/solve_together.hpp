@@ -14,11 +14,12 @@
 namespace alembert {
 
 /// The values that are to vanish; nothing where one of them has no value.
-using NumericConditions = std::function<std::optional<std::vector<GiNaC::numeric>>(const std::vector<GiNaC::numeric>&)>;
+using NumericConditions =
+    std::function<std::optional<std::vector<GiNaC::numeric>>(const std::vector<GiNaC::numeric>&)>;
 
 /// A solution near `x`, right to some forty digits; nothing if the steps do not become small. Derivatives are
-/// differences over 10⁻²⁵. If there are more unknowns than conditions, each step has the least length; `reach` is the
-/// largest allowed length of a step (sum of the absolute values).
+/// differences over 10⁻²⁵. If there are more unknowns than conditions, each step has the least length; `reach` is
+/// the largest allowed length of a step (sum of the absolute values).
 std::optional<std::vector<GiNaC::numeric>> solve_together(const NumericConditions& conditions,
                                                           std::vector<GiNaC::numeric> x, double reach = 1000);
 

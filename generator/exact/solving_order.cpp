@@ -170,7 +170,8 @@ SolvingOrder solving_order(const Program& program, std::vector<int> conditions, 
     TakenVariables taken;
     SolvingOrder result;
     while (!conditions.empty()) {
-        std::optional<ChosenStep> chosen = with_own_variable(program, conditions, held, taken, irreducible, slopes);
+        std::optional<ChosenStep> chosen =
+            with_own_variable(program, conditions, held, taken, irreducible, slopes);
         std::optional<std::size_t> partner;
         if (!chosen)
             if (auto pair = coupled(conditions, held, taken, slopes)) {

@@ -25,8 +25,9 @@ struct SolvingOrder {
 };
 
 /// `conditions`: nodes of the program that are to be zero. Those that hold parameters alone are left, as a
-/// parameter is not chosen to be zero, but for `irreducible` ones: these have no parameter as a factor. A condition is
-/// solved only for a variable that it determines on the scene's own branch, if the `slopes` there are given.
+/// parameter is not chosen to be zero, but for `irreducible` ones: these have no parameter as a factor. A
+/// condition is solved only for a variable that it determines on the scene's own branch, if the `slopes` there are
+/// given.
 SolvingOrder solving_order(const Program& program, std::vector<int> conditions,
                            const std::set<int>& irreducible = {}, const OwnSlopes* slopes = nullptr);
 

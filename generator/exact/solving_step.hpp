@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A condition and the variable for which it is solved, or two conditions that are solved together for two variables.
+/// A condition and the variable for which it is solved, or two conditions that are solved together for two
+/// variables.
 
 #include <optional>
 

@@ -184,7 +184,12 @@ private:
         if (!a.is_square()) return std::nullopt;
         result_.conditions += 1;
         result_.exact = result_.exact && a.is_plain();
-        return outer ? *outer * a.root() : a.root();
+        const bool is_negative = std::find(point_.negative_roots.begin(), point_.negative_roots.end(), a) !=
+                                 point_.negative_roots.end();
+        if (std::find(result_.rooted.begin(), result_.rooted.end(), a) == result_.rooted.end())
+            result_.rooted.push_back(a);
+        const Prime root = is_negative ? -a.root() : a.root();
+        return outer ? *outer * root : root;
     }
 
     /// The positive number by whose division the coefficients of a sum become whole without a common factor.

@@ -20,7 +20,7 @@
 ///    Multiples of π/2ᵏ have their exact values. `given_angles` sets the point of an x, identified by its value.
 ///  - √a is the root that is a square itself, |a| is a or −a, whichever is a square, sign a is Legendre's symbol:
 ///    this keeps √(ab) = √a √b and √(a²) = |a|. If a is no square, the point is unusable. Of a and −a in `turned`
-///    the other one counts as positive.
+///    the other one counts as positive; of a number in `negative_roots` the other root is taken.
 ///  - exp(Σ c·x) is a product of powers in the same way; sinh, cosh and tanh follow from it. min and max of a pair
 ///    are the one and the other of the pair. A function of [functions] and each of its derivatives are independent
 ///    random functions of the arguments' values, as they may be any. All other functions are random functions too.
@@ -45,10 +45,11 @@ struct ModularPoint {
     std::map<std::pair<Variable::Kind, int>, Prime> given{};  ///< instead of random values
     std::map<Prime, PrimeTurn> given_angles{};  ///< monomial's value → the turn by 1/2^halves of it
     std::vector<Prime>
-        turned{};    ///< whose signs, and those of their negatives, are opposite to Legendre's symbols
-    int halves = 2;  ///< turns are stored for x/2^halves; sin(x/4) needs 2
-    int finer = 0;   ///< turns that are not given are stored for x/2^(halves + finer); see halvings() of
-                     ///< exact/square_points.hpp
+        turned{};  ///< whose signs, and those of their negatives, are opposite to Legendre's symbols
+    std::vector<Prime> negative_roots{};  ///< numbers whose square root is the other one of the two
+    int halves = 2;                       ///< turns are stored for x/2^halves; sin(x/4) needs 2
+    int finer = 0;  ///< turns that are not given are stored for x/2^(halves + finer); see halvings() of
+                    ///< exact/square_points.hpp
 
     /// A uniform random number, the same for the same arguments.
     Prime random(std::uint64_t what, std::uint64_t key, std::uint64_t key2 = 0) const {
@@ -88,7 +89,8 @@ struct ModularValues {
                                  ///< the random values
     /// How many values had to be squares for this point; each doubles the probability of an error.
     double conditions = 0;
-    bool exact = true;  ///< false if a function occurred whose identities the evaluation does not obey
+    std::vector<Prime> rooted{};  ///< the numbers of which square roots were taken, each once
+    bool exact = true;            ///< false if a function occurred whose identities the evaluation does not obey
 };
 
 /// The values that `roots` need. Nothing if the point is unusable: a denominator is zero, an argument of a root is

@@ -56,8 +56,12 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     if (!checked.reason.empty()) json["reason"] = checked.reason;
     if (!checked.where.empty()) json["where"] = checked.where;
     if (checked.other_branch) {
-        json["other_branch"] = {{"holds", checked.other_branch->holds}, {"place", Json::object()}};
-        for (const auto& [name, value] : checked.other_branch->place) json["other_branch"]["place"][name] = value;
+        const OtherBranch& other = *checked.other_branch;
+        Json state = Json::object();
+        for (const auto& [name, value] : other.counterexample) state[name] = value;
+        json["other_branches"] = {{{"where", other.where.empty() ? Json(nullptr) : Json(other.where)},
+                                   {"verdict", name_of(other.verdict)},
+                                   {"counterexample", state}}};
     }
     return json;
 }
@@ -75,11 +79,14 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     if (!c.where.empty()) line(say("where "), fmt::format("{}", fmt::join(c.where, ", ")));
     if (!c.reason.empty()) line("", c.reason);
     if (c.other_branch) {
-        std::string place;
-        for (const auto& [name, value] : c.other_branch->place) place += (place.empty() ? "" : ", ") + name + " = " + value;
-        line("", c.other_branch->holds ? say("on another branch of the constraints it holds")
-                                       : say("on another branch of the constraints it fails"));
-        if (!place.empty()) line("", say("(that branch goes through {})", place));
+        const bool holds = c.other_branch->verdict == Verdict::proved;
+        const std::string& where = c.other_branch->where;
+        if (where.empty())
+            line("", holds ? say("on another branch of the constraints it holds")
+                           : say("on another branch of the constraints it fails"));
+        else
+            line("", holds ? say("on another branch of the constraints, as at {}, it holds", where)
+                           : say("on another branch of the constraints, as at {}, it fails", where));
     }
     if (c.verdict != Verdict::refuted) return page;
     if (!c.nearest.empty()) line(say("nearest right equation: "), c.nearest);

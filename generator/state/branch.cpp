@@ -33,8 +33,7 @@ Eigen::MatrixXd rows_of_positions(const Mechanism& m, const Program& p, const St
     for (std::size_t k = 0; k < m.constraints.size(); ++k) {
         if (!m.constraints[k].position) continue;
         for (Eigen::Index i = 0; i < n; ++i)
-            A(count, i) =
-                value[static_cast<std::size_t>(rows[k * m.q.size() + static_cast<std::size_t>(i)])];
+            A(count, i) = value[static_cast<std::size_t>(rows[k * m.q.size() + static_cast<std::size_t>(i)])];
         ++count;
     }
     return A.topRows(count);

@@ -28,8 +28,9 @@ namespace alembert {
 std::vector<Start> places_on_branch(const Mechanism& mechanism, const Program& program, const Start& start,
                                     int wanted, unsigned seed, bool rates_must_obey = true);
 
-/// The branch on which the scene starts, by some places on it. Nothing without holonomic constraints, if no initial
-/// state obeys the constraints, or if branches meet at it and it is at rest, so that it is on several of them.
+/// The branch on which the scene starts, by some places on it. Nothing without holonomic constraints, if no
+/// initial state obeys the constraints, or if branches meet at it and it is at rest, so that it is on several of
+/// them.
 std::optional<OwnBranch> own_branch(const Mechanism& mechanism);
 
 }  // namespace alembert

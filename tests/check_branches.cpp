@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// A claim is judged on the branch of the constraints on which the scene starts, and another branch that decides
+// otherwise is told.
+#include <doctest/doctest.h>
+
+#include "branch_scenes.hpp"
+#include "checked.hpp"
+
+namespace check_branches {
+
+using namespace alembert;
+using namespace alembert::test;
+
+namespace {
+
+enum class Elsewhere { same, holds, fails };
+
+struct Expected {
+    std::string claim;
+    Verdict verdict;
+    Elsewhere elsewhere = Elsewhere::same;
+};
+
+void check_expected(const BranchScene& scene, const std::vector<Expected>& expected) {
+    const Checked result = checked(scene.scene());
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(scene.name);
+        CAPTURE(expected[k].claim);
+        const CheckedClaim& claim = result.claims[k];
+        INFO(claim.reason);
+        CHECK(claim.verdict == expected[k].verdict);
+        const Elsewhere elsewhere = !claim.other_branch                              ? Elsewhere::same
+                                    : claim.other_branch->verdict == Verdict::proved ? Elsewhere::holds
+                                                                                     : Elsewhere::fails;
+        CHECK(elsewhere == expected[k].elsewhere);
+        CHECK((claim.verdict == Verdict::refuted) == !claim.counterexample.empty());
+    }
+}
+
+std::vector<std::string> texts(const std::vector<Expected>& expected) {
+    std::vector<std::string> result;
+    for (const Expected& e : expected) result.push_back(e.claim);
+    return result;
+}
+
+constexpr Verdict proved = Verdict::proved, refuted = Verdict::refuted;
+
+}  // namespace
+
+TEST_CASE("check: a branch on which an angle is pi, whatever the others are, is not lost") {
+    const std::vector<Expected> at_pi{{"b' = 0", proved, Elsewhere::fails},
+                                      {"b' = -2*a'", refuted, Elsewhere::holds},
+                                      {"b'*(b' + 2*a') = 0", proved},
+                                      {"sin(a)^2*a'' + sin(a)*cos(a)*a'^2 = 0", proved, Elsewhere::fails},
+                                      {"(sin(a)^2 + 4)*a'' + sin(a)*cos(a)*a'^2 = 0", refuted, Elsewhere::holds},
+                                      {"a' = 0", refuted}};
+    check_expected(straight_angle("pi", texts(at_pi)), at_pi);
+    const std::vector<Expected> turned{{"b' = 0", refuted},
+                                       {"b' = -2*a'", proved},
+                                       {"b = -2*a", proved},
+                                       {"(sin(a)^2 + 4)*a'' + sin(a)*cos(a)*a'^2 = 0", proved},
+                                       {"sin(a)^2*a'' + sin(a)*cos(a)*a'^2 = 0", refuted}};
+    check_expected(straight_angle("-0.6", texts(turned)), turned);
+}
+
+TEST_CASE("check: a parallelogram and its crossed twin each decide on their own branch") {
+    const std::vector<Expected> parallel{{"q1 = q2", proved, Elsewhere::fails},
+                                         {"q3' = 0", proved, Elsewhere::fails},
+                                         {"sin(q1) = sin(q2)", proved, Elsewhere::fails},
+                                         {"L*cos(q1)*q1' - b*sin(q3)*q3' - L*cos(q2)*q2' = 0", proved},
+                                         {"q1' + q2' = 0", refuted}};
+    check_expected(parallelogram("0.3", "0", texts(parallel)), parallel);
+    const std::vector<Expected> crossed{{"q3' = 0", refuted, Elsewhere::holds},
+                                        {"q1' = q2'", refuted, Elsewhere::holds},
+                                        {"L*cos(q1)*q1' - b*sin(q3)*q3' - L*cos(q2)*q2' = 0", proved},
+                                        {"sin(q3)*(1 - cos(q3)) = 0", refuted, Elsewhere::holds}};
+    check_expected(parallelogram("-2.1776", "1.2643", texts(crossed)), crossed);
+}
+
+TEST_CASE("check: branches that differ by the signs of roots are told apart, rational or not") {
+    const std::vector<Expected> right{
+        {"x = l", proved, Elsewhere::fails}, {"x = -l", refuted, Elsewhere::holds}, {"x^2 = l^2", proved}};
+    check_expected(walls("2", texts(right)), right);
+    const std::vector<Expected> left{
+        {"x = l", refuted, Elsewhere::holds}, {"x = -l", proved, Elsewhere::fails}, {"x' = 0", proved}};
+    check_expected(walls("-2", texts(left)), left);
+    const std::vector<Expected> together{
+        {"x = z", proved, Elsewhere::fails}, {"x = -z", refuted, Elsewhere::holds}, {"x^2 = z^2", proved}};
+    check_expected(two_legs("1.4", texts(together)), together);
+    const std::vector<Expected> apart{{"x'' = z''", refuted, Elsewhere::holds},
+                                      {"x'' = -z''", proved, Elsewhere::fails}};
+    check_expected(two_legs("-1.4", texts(apart)), apart);
+}
+
+TEST_CASE("check: a folded slider-crank of joints stands still, and the same one unfolded moves") {
+    const std::vector<Expected> folded{{"x = 0", proved, Elsewhere::fails},
+                                       {"psi' = 0", proved, Elsewhere::fails},
+                                       {"psi' = -2*phi'", refuted, Elsewhere::holds}};
+    check_expected(folded_slider_crank(true, texts(folded)), folded);
+    const std::vector<Expected> open{{"x = 2*r*cos(phi)", proved, Elsewhere::fails},
+                                     {"psi' = -2*phi'", proved, Elsewhere::fails},
+                                     {"x = 0", refuted, Elsewhere::holds}};
+    check_expected(folded_slider_crank(false, texts(open)), open);
+}
+
+// x − r cos θ = ±√(l² − r² sin² θ), and the same sign in the velocity, also where the scene starts at rest.
+TEST_CASE("check: a root in a velocity has the sign of the scene's branch, at rest too") {
+    const std::string root = "sqrt(l^2 - r^2*sin(theta)^2)", x = "x = r*cos(theta) ",
+                      v = "x' = -r*sin(theta)*theta' ", slope = "r^2*sin(theta)*cos(theta)*theta'/" + root;
+    for (const bool above : {true, false}) {
+        const Checked result = checked(
+            with_root(above ? "3.9" : "-2", {x + "+" + root, x + "-" + root, v + "-" + slope, v + "+" + slope})
+                .scene());
+        CAPTURE(above);
+        for (std::size_t k = 0; k < 4; ++k) {
+            CAPTURE(k);
+            CHECK(result.claims[k].verdict == ((k % 2 == 0) == above ? proved : refuted));
+            if (result.claims[k].verdict == proved)
+                CHECK(result.claims[k].where ==
+                      std::vector<std::string>{above ? "x - r*cos(theta) > 0" : "r*cos(theta) - x > 0"});
+        }
+    }
+}
+
+TEST_CASE("check: a reaction in terms of a constant of the motion is proved, and a wrong multiple of it refuted") {
+    const Scene scene = parse_scene(R"(gravity = [0, "-g"]
+[parameters]
+m = 1
+l = 1
+g = 9.81
+[coordinates]
+x = { initial = "l", rate = 0 }
+y = { initial = 0, rate_guess = 0 }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+[[constraint]]
+name = "rod"
+holonomic = "x^2 + y^2 = l^2"
+)",
+                                    "tension.toml");
+    const std::string energy = "constants E\nm*(x'^2+y'^2)/2 + m*g*y = E\n";
+    check_verdicts(checked(with_claims(scene, energy + "2*l^2*lambda_rod = 3*m*g*y - 2*E", "claims.txt")),
+                   {proved, proved});
+    check_verdicts(checked(with_claims(scene, energy + "2*l^2*lambda_rod = 2*m*g*y - 2*E", "claims.txt")),
+                   {proved, refuted});
+}
+
+TEST_CASE("check: an identity is vacuous unless it holds something that the scene defines") {
+    const Checked result = checked("double_pendulum", R"(
+0 = 0
+sin(theta1)^2 + cos(theta1)^2 = 1
+m1*theta1'' - theta1''*m1 = 0
+F' = 3/2*cos(3*t)
+dot(vel(M1), vel(M1)) = l1^2*theta1'^2
+)");
+    check_verdicts(result, {Verdict::vacuous, Verdict::vacuous, Verdict::vacuous, proved, proved});
+}
+
+}  // namespace check_branches
