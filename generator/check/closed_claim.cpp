@@ -135,8 +135,9 @@ bool holds_somewhere(ExactStates& states, const Program& p, int root) {
     return false;
 }
 
-/// Is the node zero whatever values the variables have?
+/// Is the node zero whatever values the variables have? What holds because a parameter is positive is no identity.
 bool is_identity(const Program& p, int root) {
+    if (depends_on_sides(p, {root})) return false;
     constexpr std::uint64_t points = 3;
     for (std::uint64_t seed = 1; seed <= points; ++seed) {
         const auto at = evaluate_mod(p, {.seed = seed}, std::array{root});
@@ -213,7 +214,8 @@ void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
     CheckedClaim& c = now.verdicts[k];
     Program p;
     const int root = now.claims.lower(p, {now.forms[k].residual})[0];
-    const bool is_of_scene = now.at == Claim::At::impact || speaks_of_scene(now.scene.claims[k], now.m);
+    const bool is_of_scene =
+        now.at == Claim::At::impact || now.forms[k].third || speaks_of_scene(now.scene.claims[k], now.m);
     if (p.is_zero(root) || (!is_of_scene && is_identity(p, root))) {
         c.verdict = is_of_scene ? Verdict::proved : Verdict::vacuous;
         c.normal_form = true;

@@ -155,32 +155,38 @@ private:
         return now_.at == Claim::At::motion ? own_branch(now_.m) : std::nullopt;
     }
 
+    /// Whether each of the claims has a value at one of the first states.
+    bool can_be_evaluated(const std::vector<std::size_t>& claims, ExactStates& states) const {
+        constexpr std::size_t tries = 24;
+        return std::all_of(claims.begin(), claims.end(), [&](std::size_t k) {
+            Program p;
+            const std::vector<int> root = claims_.lower(p, {now_.forms[k].residual});
+            for (std::size_t s = 0; s < tries && states.get(s) != nullptr; ++s)
+                if (evaluate_mod(p, states.get(s)->point, root)) return true;
+            return false;
+        });
+    }
+
     void settle(const std::vector<std::size_t>& asked, Motions::At at) {
         const bool is_bound = std::any_of(now_.m.constraints.begin(), now_.m.constraints.end(),
                                           [](const Mechanism::Constraint& c) { return c.position.has_value(); });
         const bool may_combine = at == Motions::At::rest || (now_.at == Claim::At::motion && is_bound);
         const std::vector<std::size_t> here = may_combine ? without_combinations(now_, asked, at) : asked;
         if (here.empty()) return;
-        // Angles in halves only where they occur: every halving doubles the degrees.
         const Mechanism mechanism = now_.at == Claim::At::impact ? struck() : now_.m;
         const std::optional<OwnBranch> own = branch();
         std::optional<ExactStates> states, on_own_branch;
-        for (const int halves : {0, 1, 2}) {
-            states.emplace(mechanism, now_.law, at, halves, halvings_in(now_, here), Motions::Positions::solved, 0,
-                           own);
-            const ExactState* const state = states->get(0);
-            if (state == nullptr) continue;
-            bool all = true;
-            for (const std::size_t k : here) {
-                Program p;
-                const std::vector<int> root = claims_.lower(p, {now_.forms[k].residual});
-                bool usable = false;
-                for (std::size_t s = 0; s < 24 && !usable && states->get(s) != nullptr; ++s)
-                    usable = evaluate_mod(p, states->get(s)->point, root).has_value();
-                all = all && usable;
+        // Angles in halves only where they occur: every halving doubles the degrees.
+        const int halvings = halvings_in(now_, here);
+        const auto make = [&](std::optional<ExactStates>& made, bool stays) {
+            for (const int halves : {0, 1, 2}) {
+                made.emplace(mechanism, now_.law, at, halves, halvings, Motions::Positions::solved, 0, own);
+                if (stays) made->stay_on_own_branch();
+                const bool helps_no_more = stays && halves >= std::max(halvings, states->motions.halves());
+                if (helps_no_more || (made->get(0) != nullptr && can_be_evaluated(here, *made))) break;
             }
-            if (all) break;
-        }
+        };
+        make(states, false);
         if (states->get(0) == nullptr) {
             for (const std::size_t k : here) {
                 CheckedClaim& c = now_.verdicts[k];
@@ -193,9 +199,7 @@ private:
         }
         now_.on_own_branch = nullptr;
         if (own && (states->motions.has_branches() || !states->motions.loose().empty())) {
-            on_own_branch.emplace(mechanism, now_.law, at, states->motions.halves(), halvings_in(now_, here),
-                                  Motions::Positions::solved, 0, own);
-            on_own_branch->stay_on_own_branch();
+            make(on_own_branch, true);
             now_.on_own_branch = &*on_own_branch;
         }
         std::vector<std::size_t> open;

@@ -14,6 +14,7 @@ public:
         : motions(m, e, at, halves, halvings, positions, std::move(own)), turned_(turned) {}
 
     const ExactState* get(std::size_t k) {
+        if (is_on_own_branch_ && k >= most_on_own_branch) return nullptr;  // each of them takes long
         while (made_.size() <= k && unusable_ < (is_on_own_branch_ ? most_failures : most_unusable) &&
                motions.obstacle().empty()) {
             if (auto state = is_on_own_branch_ ? motions.on_own_branch(++seed_) : motions.at(++seed_, {}, turned_))
@@ -36,6 +37,7 @@ public:
 
 private:
     static constexpr int most_unusable = 4000, most_failures = 60;
+    static constexpr std::size_t most_on_own_branch = 64;
     std::vector<ExactState> made_;
     std::uint64_t seed_ = 0;
     unsigned turned_;  ///< as in Motions::at
