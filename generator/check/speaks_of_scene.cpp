@@ -21,6 +21,24 @@ std::set<std::string> names_of_variables(const Mechanism& m) {
     return result;
 }
 
+bool holds_parameter(const Tree& tree, const Mechanism& m) {
+    const auto is_it = [&](const Mechanism::Parameter& parameter) {
+        return parameter.symbol.get_name() == tree.text;
+    };
+    return (tree.kind == Tree::Kind::name && std::any_of(m.parameters.begin(), m.parameters.end(), is_it)) ||
+           std::any_of(tree.args.begin(), tree.args.end(),
+                       [&](const TreePtr& arg) { return holds_parameter(*arg, m); });
+}
+
+/// |r x| = r |x| says that the scene's r is positive.
+bool asks_sign_of_parameter(const Tree& tree, const Mechanism& m) {
+    const bool asks = tree.kind == Tree::Kind::call &&
+                      (tree.text == "abs" || tree.text == "sign" || tree.text == "sqrt" || tree.text == "norm");
+    return (asks && holds_parameter(tree, m)) ||
+           std::any_of(tree.args.begin(), tree.args.end(),
+                       [&](const TreePtr& arg) { return asks_sign_of_parameter(*arg, m); });
+}
+
 bool holds_other(const Tree& tree, const std::set<std::string>& variables) {
     if (tree.kind == Tree::Kind::name && !variables.contains(tree.text)) return true;
     if (tree.kind == Tree::Kind::call) {
@@ -35,7 +53,10 @@ bool holds_other(const Tree& tree, const std::set<std::string>& variables) {
 
 bool speaks_of_scene(const Claim& claim, const Mechanism& mechanism) {
     const std::set<std::string> variables = names_of_variables(mechanism);
-    return holds_other(*claim.equation.lhs.tree, variables) || holds_other(*claim.equation.rhs.tree, variables);
+    const auto speaks = [&](const Expression& side) {
+        return holds_other(*side.tree, variables) || asks_sign_of_parameter(*side.tree, mechanism);
+    };
+    return speaks(claim.equation.lhs) || speaks(claim.equation.rhs);
 }
 
 }  // namespace alembert
