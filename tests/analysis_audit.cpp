@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <random>
 #include <set>
 
 #include "audit/audit.hpp"
@@ -176,8 +177,8 @@ TEST_CASE("integrability: it is decided at states that obey the holonomic constr
 TEST_CASE("integrability: if the loop has no exact point, its \"no\" is confirmed numerically") {
     const std::vector<std::string> q{"al = 0.5", "be = { guess = 0.3, rate_guess = 0 }",
                                      "ga = { guess = 0.7, rate_guess = 0 }", "x", "y"};
-    const std::string loop_x = "cos(al) + 2*cos(be) - 1.5*cos(ga) - 1.7",
-                      loop_y = "sin(al) + 2*sin(be) - 1.5*sin(ga)";
+    const std::string loop_x = "al*cos(al) + 2*be*cos(be) - 1.5*ga*cos(ga) - 1.7",
+                      loop_y = "al*sin(al) + 2*be*sin(be) - 1.5*ga*sin(ga)";
     const Audit no = audit_of(with(q, {loop_x, loop_y, "x' - y*al'"}));
     CHECK(no.constraints[2].integrable == false);
     CHECK(!no.exact_rank);
@@ -267,7 +268,8 @@ TEST_CASE("variety: its points obey the constraints exactly, with parameters and
         CHECK(at->value[f[1]].is_zero());
         CHECK(!at->value[f[2]].is_zero());
     }
-    CHECK(!look(with({"a", "b", "c"}, {"cos(a) + 2*cos(b) - 3*cos(c) - 1", "sin(a) + 2*sin(b) - 3*sin(c)"})));
+    CHECK(look(with({"a", "b", "c"}, {"cos(a) + 2*cos(b) - 3*cos(c) - 1", "sin(a) + 2*sin(b) - 3*sin(c)"})));
+    CHECK(!look(with({"a", "b"}, {"a*cos(a) + b*cos(b) - 1"})));
 }
 
 TEST_CASE(
@@ -293,6 +295,40 @@ TEST_CASE(
     const Audit audit = audit_of(with(q, {"z' + x*y'", "x^2 + y^2 - 1", "x' - y'", "2*x*x' + 2*y*y' + x' - y'"}));
     REQUIRE(!audit.constraints[3].notes.empty());
     CHECK(audit.constraints[3].notes[0] == "follows from 'c1' and 'c2'; the equations of motion leave it out");
+}
+
+// The rank is known by construction: a factor that depends on parameters alone, and is not zero, changes no row.
+TEST_CASE("audit: a factor of parameters that a constraint's terms share does not make it hold everywhere") {
+    const std::vector<std::string> factors{"k",   "k*r", "k^2",     "(k + r)",  "(1 + k^2)",
+                                           "2*k", "k/r", "sqrt(k)", "(k^3 - r)"};
+    const std::vector<std::vector<std::string>> loops{
+        {"sin(a) + sin(b)"},
+        {"sin(a) + sin(b)", "cos(a) + cos(b) - x"},
+        {"r*cos(a) + r*cos(b) - x", "r*sin(a) + r*sin(b)"},
+        {"a^2 - b^2 + x - 0.3"},
+        {"a*b - x - 0.09 + 0.3", "sin(a - b)"},
+        {"a' - r*x'"},
+        {"a + b", "b' - r*x'"},
+    };
+    std::mt19937 random(4);
+    for (const std::vector<std::string>& loop : loops)
+        for (int trial = 0; trial < 6; ++trial) {
+            std::vector<std::string> constraints;
+            for (const std::string& f : loop)
+                constraints.push_back(fmt::format("{}*({})", factors[random() % factors.size()], f));
+            const std::size_t independent = constraints.size();
+            if (trial % 2 == 0)
+                constraints.push_back(
+                    fmt::format("{}*({})", factors[random() % factors.size()], loop[random() % loop.size()]));
+            CAPTURE(constraints.back());
+            CAPTURE(constraints.front());
+            const Audit audit = audit_of(
+                with({"a = 0.3", "b = { guess = -0.3 }", "x = { guess = 0.3 }"}, constraints, "r = 0.3\nk = 1.5"));
+            CHECK(audit.problem.empty());
+            CHECK(audit.exact_rank);
+            CHECK(audit.rank == static_cast<int>(independent));
+            CHECK(audit.degrees_of_freedom == 3 - static_cast<int>(independent));
+        }
 }
 
 TEST_CASE("audit: constraints that contradict each other are named, and no others") {

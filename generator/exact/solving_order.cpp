@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "exact/angle_sum.hpp"
+#include "program/prime_polynomial.hpp"
 
 namespace alembert {
 
@@ -72,6 +73,34 @@ void leave_out_cancelling(Occurrences& held, const Program& p, int condition) {
     std::erase_if(held, [&](const auto& entry) {
         return entry.first.first == Variable::Kind::coordinate && cancels(entry.first);
     });
+}
+
+/// Whether the condition, as a polynomial in the parameter, has a root that is the same for other values of the
+/// coordinates.
+bool has_common_root(const Program& p, const SolvedUnknown& unknown) {
+    if (unknown.turned) return true;
+    const std::pair key{unknown.variable.kind, unknown.variable.index};
+    const auto polynomial = [&](std::uint64_t seed) -> std::optional<PrimePolynomial> {
+        ModularPoint point{.seed = 1};
+        for (const int id : p.needed(std::vector<int>{unknown.node}))
+            if (const Node& node = p[id];
+                node.op == Op::variable && node.variable.kind != Variable::Kind::parameter)
+                point.given[{node.variable.kind, node.variable.index}] =
+                    point.random(951 + seed, static_cast<std::uint64_t>(id));
+        constexpr std::size_t highest = 8;
+        std::vector<Prime> x, y;
+        for (std::size_t k = 0; k < highest + 3; ++k) {
+            x.push_back(point.random(960, k));
+            point.given[key] = x.back();
+            const auto at = evaluate_mod(p, point, std::array{unknown.node});
+            if (!at) return std::nullopt;
+            y.push_back(at->value[unknown.node]);
+        }
+        PrimePolynomial f = interpolate(x, y);
+        return f.size() <= highest + 1 ? std::optional(std::move(f)) : std::nullopt;
+    };
+    const auto here = polynomial(1), there = polynomial(2);
+    return here && there && prime_polynomial::divisor(*here, *there).size() > 1;
 }
 
 /// Two conditions, each with two variables that no other condition contains.
@@ -142,6 +171,9 @@ std::optional<ChosenStep> with_own_variable(const Program& program, const std::v
                     !angle_sum(program, conditions[c], unknown))
                     continue;
                 const SolvedUnknown chosen{conditions[c], unknown, how.turned};
+                if (kind == Variable::Kind::parameter && !irreducible.contains(conditions[c]) &&
+                    has_common_root(program, chosen))
+                    continue;
                 if (slopes != nullptr && !slopes->determine(chosen)) continue;
                 return ChosenStep{c, {chosen, std::nullopt}};
             }
@@ -159,7 +191,7 @@ bool holds_parameters_alone(const Program& program, int condition) {
 }
 
 SolvingOrder solving_order(const Program& program, std::vector<int> conditions, const std::set<int>& irreducible,
-                           const OwnSlopes* slopes) {
+                           const OwnSlopes* slopes, const std::set<std::pair<Variable::Kind, int>>& fixed) {
     std::sort(conditions.begin(), conditions.end());
     conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
     std::vector<Occurrences> held;
@@ -167,7 +199,7 @@ SolvingOrder solving_order(const Program& program, std::vector<int> conditions, 
         held.push_back(occurrences(program, node));
         leave_out_cancelling(held.back(), program, node);
     }
-    TakenVariables taken;
+    TakenVariables taken = fixed;
     SolvingOrder result;
     while (!conditions.empty()) {
         std::optional<ChosenStep> chosen =

@@ -29,7 +29,8 @@ struct SolvingOrder {
 /// condition is solved only for a variable that it determines on the scene's own branch, if the `slopes` there are
 /// given.
 SolvingOrder solving_order(const Program& program, std::vector<int> conditions,
-                           const std::set<int>& irreducible = {}, const OwnSlopes* slopes = nullptr);
+                           const std::set<int>& irreducible = {}, const OwnSlopes* slopes = nullptr,
+                           const std::set<std::pair<Variable::Kind, int>>& fixed = {});
 
 /// Does the condition hold parameters and nothing else?
 bool holds_parameters_alone(const Program& program, int condition);

@@ -6,16 +6,13 @@
 ///     const Variety variety = variety_points(program, positions, others, 3);
 ///     variety.on_variety && evaluate_mod(program, variety.points[0], positions)->value[positions[0]].is_zero()
 ///
-/// Every f is solved for a different unknown, in which it is at most quadratic: a coordinate outside angles, a
-/// parameter or t; a coordinate inside angles that is a sum of whole multiples of others (gears); or the turn of a
-/// coordinate inside angles, by the tangent of the half angle. Unknowns are assigned one after the other: an
-/// unknown that occurs in only one of the remaining constraints is assigned to that constraint. So the loop
-///     a cos α + b cos β − c cos γ − d = 0,    a sin α + b sin β − c sin γ = 0
-/// is solved for d by the first equation and, before that, for a by the second. Points with solved parameters are
-/// generic points of {(q, t, parameters): f = 0}: a statement that holds there holds for almost all parameters. If
-/// the variety has several sheets, such as x·y = 0, the points are on the sheet that the solution happens to find.
-/// If some f has no such unknown (both sums above with numbers in place of a … d), the points are random ones
-/// outside the variety, and `on_variety` is false.
+/// Each f is solved for an unknown that it determines when those before it are known, or two together for two
+/// unknowns (exact/solving_order.hpp): coordinates, or a parameter. Points with solved parameters are generic
+/// points of
+/// {(q, t, parameters): f = 0}: a statement that holds there holds for almost all parameters. No parameter is
+/// solved for that would have to take a value of its own, as L = 0 in L sin a + L sin b = 0. If the variety has
+/// several sheets, such as x·y = 0, each point is on one of them. If the equations have no such order, the points
+/// are random ones outside the variety, and `on_variety` is false.
 
 #include <vector>
 
