@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "audit/integral.hpp"
+#include "formalism/routh.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
@@ -19,6 +20,7 @@
 #include "state/assemble.hpp"
 #include "state/branch.hpp"
 #include "state/contradiction.hpp"
+#include "state/force_balance.hpp"
 #include "state/redundancy.hpp"
 #include "symbolic/fourier.hpp"
 
@@ -417,6 +419,11 @@ Audited audit(Scene scene) {
                 say("{0}: its rows and multipliers are along the axes of {1}, where none is lost at a regular "
                     "pose; along N they depend on each other with factors that change with the pose",
                     rolling.name, rolling.axes));
+    constexpr int most_coordinates = 40;
+    if (result.mechanism.size() <= most_coordinates)
+        if (const auto found = warnings_of_unresisted(result.scene, result.mechanism, routh(result.mechanism));
+            !found.empty())
+            result.warn(describe(result.scene, found));
     return result;
 }
 

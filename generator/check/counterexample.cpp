@@ -105,7 +105,7 @@ Counterexample described(const Told& told, const RealState& state, const numeric
     for (int i = 0; i < m.size(); ++i) add(m.q[i].get_name() + "''", {Kind::acceleration, i});
     const auto& lambda = told.equations.lambda;
     for (std::size_t k = 0; k < lambda.size(); ++k)
-        add(lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});
+        if (!m.constraints[k].balance) add(lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});
     for (const std::size_t k : told.spoken)
         add(m.undetermined()[k]->multiplier.get_name(), {Kind::unknown, static_cast<int>(lambda.size() + k)});
     for (const int o : open) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/kinematic.hpp"
 
+#include <algorithm>
+
 #include "check/any_motion.hpp"
 #include "check/vanishing.hpp"
 #include "language/say.hpp"
@@ -32,7 +34,9 @@ void tell_kinematics(Comparison& now) {
             !now.m.z->depends(now.forms[k].residual, multipliers))
             here.push_back(k);
     }
-    if (here.empty()) return;
+    const bool is_bound_by_forces = std::any_of(now.m.constraints.begin(), now.m.constraints.end(),
+                                                [](const Mechanism::Constraint& c) { return c.balance; });
+    if (here.empty() || is_bound_by_forces) return;
     const Equations any = any_motion(now.e, now.m);
     for (const int halves : {0, 1, 2}) {
         ExactStates states(now.m, any, Motions::At::motion, halves, halvings_in(now, here));

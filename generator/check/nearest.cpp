@@ -50,7 +50,8 @@ std::vector<std::optional<Fourier>> rows_of(const Mechanism& m, const Equations&
     for (int i = 0; i < e.size(); ++i) {
         GiNaC::exvector terms{-e.forcing(i)};
         for (int j = 0; j < e.size(); ++j) terms.push_back(e.M(i, j) * e.udot[j]);
-        for (std::size_t k = 0; k < e.A.size(); ++k) terms.push_back(-e.A[k][i] * e.lambda[k]);
+        for (std::size_t k = 0; k < e.A.size(); ++k)
+            if (!m.constraints[k].balance) terms.push_back(-e.A[k][i] * e.lambda[k]);
         rows.push_back(normal(GiNaC::add(std::move(terms)), m));
     }
     for (std::size_t k = 0; k < e.A.size(); ++k) {

@@ -19,6 +19,7 @@
 #include "formalism/routh.hpp"
 #include "language/say.hpp"
 #include "state/branch.hpp"
+#include "state/force_balance.hpp"
 
 namespace alembert {
 
@@ -258,8 +259,9 @@ std::vector<std::size_t> claims_at_rest(const Scene& scene, bool at_rest) {
 
 }  // namespace
 
-Checked check_of_one_mode(const Scene& scene, const Mechanism& mechanism,
-                          const std::shared_ptr<RootSheets>& sheets, const std::string& by) {
+Checked check_of_one_mode(const Scene& scene, const Mechanism& given, const std::shared_ptr<RootSheets>& sheets,
+                          const std::string& by) {
+    const Mechanism mechanism = with_force_balances(given, routh);
     const Equations equations = routh(mechanism);
     const Mechanism m = in_terms_of(equations, mechanism);
     const std::vector<std::size_t> resting = claims_at_rest(scene, true), others = claims_at_rest(scene, false);

@@ -17,6 +17,7 @@
 #include "model/sample_functions.hpp"
 #include "state/assemble.hpp"
 #include "state/diagnose.hpp"
+#include "state/force_balance.hpp"
 #include "state/gimbal.hpp"
 #include "state/redundancy.hpp"
 #include "state/speeds.hpp"
@@ -126,6 +127,9 @@ Derived derived(Scene scene, const DeriveOptions& options) {
             "warning: the rates that remain when the nonholonomic constraints are solved do not determine the "
             "others at every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, "
             "[speeds]\n"));
+    if (options.use == Use::shown)
+        if (const auto found = warnings_of_unresisted(d.scene, d.mechanism, d.equations); !found.empty())
+            d.warn(describe(d.scene, found));
     d.seconds = process_seconds() - start;
     return d;
 }

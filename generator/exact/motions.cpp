@@ -145,6 +145,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     }
     usable_.emplace(std::vector{SquarePoints::Part{&program_, all}}, solved);
     find_branches();
+    find_open_unknowns();
     if (own_ && !steps_.empty() && loose_.empty() && at_ == At::motion)
         own_points_.emplace(program_, steps_, *own_, halves_);
 }
@@ -212,6 +213,51 @@ void Motions::find_branches() {
     }
     for (std::size_t k = 0; k < steps_.size(); ++k)
         has_branches_ = has_branches_ || (!irreducible_[k] && highest[k] > 1);
+}
+
+std::vector<std::vector<Prime>> Motions::matrix_of_system(const ModularValues& at) const {
+    const auto n = static_cast<std::size_t>(n_), m = static_cast<std::size_t>(m_);
+    std::vector<std::vector<Prime>> rows(n + m, std::vector<Prime>(n + m + 1));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) rows[i][j] = at.value[system_.M[i * n + j]];
+        for (std::size_t k = 0; k < m; ++k) {
+            rows[n + k][i] = at.value[system_.A[k * n + i]];
+            rows[i][n + k] = -rows[n + k][i];
+        }
+    }
+    return rows;
+}
+
+void Motions::find_open_unknowns() {
+    if (at_ != At::motion || !rubbed_.empty() || !obstacle_.empty()) return;
+    const auto size = static_cast<std::size_t>(n_ + m_);
+    std::vector<int> wanted = system_.M;
+    wanted.insert(wanted.end(), system_.A.begin(), system_.A.end());
+    constexpr std::uint64_t tries = 40, other_seeds = 2000000;
+    constexpr int enough = 2;
+    std::vector<bool> is_open(size, true);
+    int found = 0;
+    for (std::uint64_t seed = 1; seed < tries && found < enough; ++seed) {
+        ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_, .finer = finer_}};
+        auto point = usable_->at(std::move(state.point));
+        if (!point) continue;
+        state.point = *std::move(point);
+        const bool solves = std::all_of(steps_.begin(), steps_.end(), [&](const SolvingStep& step) {
+            return solve_condition(program_, step, state).found;
+        });
+        const auto at = solves ? evaluate_mod(program_, state.point, wanted) : std::nullopt;
+        if (!at) continue;
+        ++found;
+        std::vector<std::vector<Prime>> rows = matrix_of_system(*at);
+        if (reduce_rows(rows, size) == n_ + m_) return;
+        for (const std::vector<Prime>& row : rows)
+            if (const auto pivot = std::find_if(row.begin(), row.end(), [](Prime x) { return !x.is_zero(); });
+                pivot != row.end())
+                is_open[static_cast<std::size_t>(pivot - row.begin())] = false;
+    }
+    if (found < enough) return;
+    for (std::size_t k = 0; k < size; ++k)
+        if (is_open[k]) open_unknowns_.push_back(k);
 }
 
 std::optional<ExactState> Motions::at(std::uint64_t seed,
@@ -339,18 +385,11 @@ bool Motions::accelerate(ExactState& state, unsigned turned) const {
     if (!at) return false;
     state.conditions = std::max(state.conditions, at->conditions);
     state.exact = state.exact && at->exact;
-    std::vector<std::vector<Prime>> rows(n + m, std::vector<Prime>(n + m + 1));
+    std::vector<std::vector<Prime>> rows = matrix_of_system(*at);
     double entry = 0, right = 0;
+    for (const auto* part : {&system_.M, &system_.A})
+        for (const int node : *part) entry = std::max(entry, at->degree[node]);
     for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) {
-            rows[i][j] = at->value[system_.M[i * n + j]];
-            entry = std::max(entry, at->degree[system_.M[i * n + j]]);
-        }
-        for (std::size_t k = 0; k < m; ++k) {
-            rows[n + k][i] = at->value[system_.A[k * n + i]];
-            rows[i][n + k] = -rows[n + k][i];
-            entry = std::max(entry, at->degree[system_.A[k * n + i]]);
-        }
         rows[i][n + m] = at->value[system_.f[i]];
         right = std::max(right, at->degree[system_.f[i]]);
     }
@@ -382,7 +421,14 @@ bool Motions::accelerate(ExactState& state, unsigned turned) const {
                 entry_of_lambda =
                     is_negative(r) ? entry_of_lambda + friction[r][i] : entry_of_lambda - friction[r][i];
             }
+        for (const std::size_t k : open_unknowns_) {
+            system.emplace_back(n + m + 1);
+            system.back()[k] = 1;
+            system.back()[n + m] = state.point.random(902, k);
+        }
         if (reduce_rows(system, n + m) < static_cast<int>(n + m)) return false;
+        for (std::size_t r = n + m; r < system.size(); ++r)
+            if (!system[r][n + m].is_zero()) return false;
         const auto has_sign = [&](std::size_t r) {
             const Prime lambda = system[n + static_cast<std::size_t>(rubbed_[r])][n + m];
             const bool is_positive = lambda.is_square() != (((turned >> r) & 1U) != 0);

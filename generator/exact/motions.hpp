@@ -34,6 +34,9 @@
 /// branch is reached with at least 1/d of the seeds. If a quadratic equation has no root for some seed, it is
 /// irreducible, and a statement that holds at a random one of its roots also holds at the other.
 ///
+/// Unknowns that the equations leave open at every state, such as the acceleration of a spin without a moment of
+/// inertia, are random (`open_unknowns`): what holds for all their values follows from the equations.
+///
 /// With the scene's own branch given, `on_own_branch` draws states on that branch alone (exact/own_point.hpp), and
 /// conditions are solved for variables that they determine there: a branch on which an angle is π whatever the
 /// others are is lost where the condition is solved for one of these.
@@ -107,6 +110,8 @@ public:
     /// The rows on which friction acts, in ascending order: `f` contains the absolute values of their multipliers,
     /// linearly, and no other multiplier of the equations.
     const std::vector<int>& rubbed() const { return rubbed_; }
+    /// The columns of the system of accelerations and multipliers that the equations leave open at every state.
+    const std::vector<std::size_t>& open_unknowns() const { return open_unknowns_; }
     /// The index of the `unknown` that is the multiplier of row k; the kept rows come first, then the redundant
     /// ones.
     int multiplier(int k) const { return k < m_ ? k : k + gaps_; }
@@ -117,6 +122,9 @@ private:
     void order_rest(const std::vector<int>& positions, const std::vector<GiNaC::ex>& balance, const Mechanism& m,
                     const std::vector<std::pair<GiNaC::symbol, int>>& given);
     void find_branches();
+    void find_open_unknowns();
+    /// M, −Aᵀ and A at values of entries(), with a last column of zeros.
+    std::vector<std::vector<Prime>> matrix_of_system(const ModularValues& at) const;
     std::optional<ExactState> solved(ExactState state, const OwnPoint* own, unsigned turned) const;
     bool move(ExactState& state, unsigned turned) const;
     bool accelerate(ExactState& state, unsigned turned) const;
@@ -127,6 +135,7 @@ private:
     std::vector<SolvingStep> steps_;
     std::vector<int> loose_, implied_, rubbed_;
     std::vector<bool> irreducible_;  ///< for each step
+    std::vector<std::size_t> open_unknowns_;
     bool has_branches_ = false;
     std::optional<OwnBranch> own_;
     std::optional<OwnPoints> own_points_;  ///< refers to program_, steps_ and own_

@@ -206,6 +206,11 @@ bool solve_accelerations(const Motions& motions, RealState& state, Numbers& numb
         for (std::size_t r = 0; r < rubbed.size(); ++r)
             for (std::size_t i = 0; i < n; ++i)
                 system[i][n + static_cast<std::size_t>(rubbed[r])] -= sign(r) * friction[r][i];
+        for (const std::size_t k : motions.open_unknowns()) {
+            system.emplace_back(n + m + 1);
+            system.back()[k] = 1;
+            system.back()[n + m] = numbers.any();
+        }
         const auto solution = solve_rows(std::move(system), n + m);
         if (!solution) return false;
         bool fits = true;

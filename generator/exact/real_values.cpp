@@ -225,6 +225,8 @@ std::optional<std::vector<numeric>> solve_rows(std::vector<std::vector<numeric>>
             for (std::size_t k = c; k <= columns; ++k) rows[r][k] -= factor * rows[c][k];
         }
     }
+    for (std::size_t r = columns; r < rows.size(); ++r)
+        if (!is_almost_zero(rows[r][columns])) return std::nullopt;
     std::vector<numeric> result;
     for (std::size_t c = 0; c < columns; ++c) result.push_back(rows[c][columns] / rows[c][c]);
     return result;

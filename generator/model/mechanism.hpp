@@ -148,6 +148,9 @@ struct Mechanism {
         /// The constraints of the scene in which the square of this one stands, for people; empty for those that
         /// the scene gives (state/touching.hpp).
         std::string squared_in = {};
+        /// Whether this says that forces are in balance along a rate that no inertia resists
+        /// (state/force_balance.hpp): the multiplier is zero on every motion.
+        bool balance = false;
         bool norm = false;  ///< whether this is e·e = 1 of a quaternion: there is no inertia along its row
     };
 
