@@ -243,4 +243,33 @@ a*Omega^2 = g*tan(theta)
     }
 }
 
+// The equations of rest cannot be solved one after the other: k q1 stands beside sin q1. The states shown obey
+// them all, written here by hand.
+TEST_CASE("check: what is wrong about states of rest that only numbers give is refuted by one of them") {
+    const std::vector<std::string> right{"2*k*q1 - k*q2 = 3*m*g*l*sin(q1)", "k*(2*q2 - q1 - q3) = 2*m*g*l*sin(q2)",
+                                         "k*(q3 - q2) = m*g*l*sin(q3)"},
+        wrong{"2*k*q1 + k*q2 = 3*m*g*l*sin(q1)", "k*(2*q2 - q1 - q3) = m*g*l*sin(q2)",
+              "3*k*(q3 - q2) = 2*m*g*l*sin(q3)", "q1 = q2", "k*q3 = m*g*l*sin(q3) + k*q1"};
+    std::string claims = "rest\n";
+    for (const auto* list : {&right, &wrong})
+        for (const std::string& claim : *list) claims += claim + "\n";
+    const Scene scene = read_scene(test::source_path("scenes/stability/standing_triple_pendulum.toml"));
+    const Checked result = checked(with_claims(scene, claims, "claims.txt"));
+    for (std::size_t k = 0; k < right.size(); ++k) CHECK(result.claims[k].verdict == Verdict::proved);
+    for (std::size_t k = right.size(); k < result.claims.size(); ++k) {
+        CAPTURE(k);
+        REQUIRE(result.claims[k].verdict == Verdict::refuted);
+        std::map<std::string, double> at;
+        for (const auto& [name, value] : result.claims[k].counterexample) {
+            const std::size_t bar = value.find('/');
+            at[name] = std::stod(value) / (bar == std::string::npos ? 1 : std::stod(value.substr(bar + 1)));
+        }
+        const double weight = at["m"] * at["g"] * at["l"], spring = at["k"];
+        CHECK(std::abs(spring * (2 * at["q1"] - at["q2"]) - 3 * weight * std::sin(at["q1"])) < 1e-9 * weight);
+        CHECK(std::abs(spring * (2 * at["q2"] - at["q1"] - at["q3"]) - 2 * weight * std::sin(at["q2"])) <
+              1e-9 * weight);
+        CHECK(std::abs(spring * (at["q3"] - at["q2"]) - weight * std::sin(at["q3"])) < 1e-9 * weight);
+    }
+}
+
 }  // namespace check_rest

@@ -191,6 +191,7 @@ private:
         if (states->get(0) == nullptr) {
             for (const std::size_t k : here) {
                 CheckedClaim& c = now_.verdicts[k];
+                if (at == Motions::At::rest && fails_in_numbers(k, states->motions)) continue;
                 c.reason = !states->motions.obstacle().empty() ? states->motions.obstacle()
                            : at == Motions::At::rest
                                ? say("no state was found in which the equations allow rest")
@@ -218,6 +219,16 @@ private:
                     say("the constraints cannot be solved one after the other, and it leaves names open");
         settle_open_claims(now_, open, *states);
         now_.on_own_branch = nullptr;
+    }
+
+    /// Refutes a claim about rest by a state in numbers, where there are no exact states.
+    bool fails_in_numbers(std::size_t k, const Motions& motions) {
+        if (!now_.forms[k].open.empty()) return false;
+        Program p;
+        const int root = claims_.lower(p, {now_.forms[k].residual})[0];
+        const auto shown = counterexample(told(now_), motions, p, root);
+        if (shown) refute(now_.verdicts[k], *shown);
+        return shown.has_value();
     }
 
     void settle_alone(std::size_t k, ExactStates& states) try {

@@ -187,7 +187,8 @@ void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex
         if (is_simple(other) || (other.left.empty() && !found.left.empty())) found = std::move(other);
     }
     steps_ = std::move(found.steps);
-    if (!found.left.empty()) obstacle_ = say("the equations of rest cannot be solved one after the other");
+    loose_ = std::move(found.left);
+    if (!loose_.empty()) obstacle_ = say("the equations of rest cannot be solved one after the other");
 }
 
 void Motions::find_branches() {

@@ -17,8 +17,8 @@
 /// does not divide by something that vanishes with f also holds on f = 0. With Positions::free no condition is
 /// solved, and all are loose: a combination of the equations of motion and the differentiated constraints holds
 /// there too, and no root has to exist. If equations of rest cannot be solved in such an order, there are no
-/// states, and `obstacle` says so. Rates obey A q' + b = 0, accelerations and multipliers M q'' − Aᵀλ = f, A q'' =
-/// γ: linear systems.
+/// states, and `obstacle` says so; states in numbers obey them all the same. Rates obey A q' + b = 0,
+/// accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
 /// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(): For a gap, in equations that
 /// contain it, the multiplier is random; for a redundant constraint it is its share of least norm in the forces

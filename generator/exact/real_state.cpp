@@ -128,7 +128,7 @@ bool solve_two(const Motions& motions, RealState& state, const SolvingStep& step
         {numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)});
 }
 
-/// Solves all loose conditions together for all coordinates in them.
+/// Solves all loose conditions together for all coordinates in them, and at rest for all multipliers.
 bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
     std::set<Key> angles, plain;
     find_variables(motions.program(), motions.loose(), angles, plain);
@@ -136,7 +136,8 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
     std::vector<Key> keys;
     std::vector<numeric> x;
     for (const Key& key : angles) {
-        if (key.first != Variable::Kind::coordinate) continue;
+        const bool is_force = motions.where() == Motions::At::rest && key.first == Variable::Kind::unknown;
+        if (key.first != Variable::Kind::coordinate && !is_force) continue;
         x.emplace_back(static_cast<int>((seed * 7 + keys.size() * 5) % 23) - 11, 9);
         keys.push_back(key);
     }
@@ -332,7 +333,7 @@ std::optional<RealState> moving(const Motions& motions, RealState state, Numbers
 
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
                                     unsigned seed) {
-    if (!motions.obstacle().empty()) return std::nullopt;
+    if (!motions.obstacle().empty() && motions.loose().empty()) return std::nullopt;
     const FiftyDigits digits;
     Numbers numbers(seed);
     const bool floats = seed >= first_float_seed;
