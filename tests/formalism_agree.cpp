@@ -3,6 +3,12 @@
 // and exactly modulo a prime. A formalism with one wrong entry is refuted.
 #include <doctest/doctest.h>
 
+#include <cln/integer_io.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+
 #include "agree/agree.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/kane.hpp"
@@ -177,6 +183,57 @@ TEST_CASE("agree: scenes with a root for each pair of bodies, or with decimals i
 }
 
 // With M⁻¹, H of sixteen rods would have such a high degree that sampling could not be bounded.
+// The squares of such components add up to a number with large prime factors, whose root the rotation contains.
+TEST_CASE("agree: axes given as decimals, and decimals in angles, are proved and wrong entries refuted") {
+    std::mt19937 random(11);
+    const auto decimal = [&](int digits) {
+        const long size = std::lround(std::pow(10.0, digits));
+        return fmt::format(
+            "{}", static_cast<double>(1 + static_cast<long>(random() % size)) / static_cast<double>(size));
+    };
+    for (int k = 0; k < 8; ++k) {
+        const int digits = 2 + 2 * k;
+        const std::string axis = fmt::format("[{}, {}, {}]", decimal(digits), decimal(digits), decimal(digits)),
+                          turn = decimal(digits), tilt = decimal(digits);
+        CAPTURE(axis);
+        CAPTURE(tilt);
+        const std::string text = fmt::format(R"toml(
+gravity = [0, 0, -9.81]
+[[body]]
+name = "B"
+mass = 2
+inertia = [0.1, 0.2, 0.25]
+[[body]]
+name = "C"
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+[[joint]]
+name = "J"
+type = "revolute"
+parent = "N"
+child = "B"
+axis = {}
+parent_rotate = [["x", "{}"]]
+child_point = [0.3, 0.1, 0.2]
+coordinates = {{ a = {{ initial = 0.4 }} }}
+[[joint]]
+name = "K"
+type = "revolute"
+parent = "B"
+child = "C"
+axis = ["sin({})", 0, "cos({})"]
+child_point = [0.1, 0, 0.2]
+coordinates = {{ b = {{ initial = 0.1 }} }}
+)toml",
+                                             axis, turn, tilt, tilt);
+        const Mechanism m = prepared(parse_scene(text, "axes.toml")).mechanism;
+        Derivations all = derive_all(m);
+        CHECK(agree(all.equations, m).verdict == Agreement::Verdict::proved);
+        all.equations[1].own[0] += m.q[0];
+        CHECK(agree(all.equations, m).verdict == Agreement::Verdict::refuted);
+    }
+}
+
 TEST_CASE("agree: all formalisms are proved equal on a chain of sixteen rods, Hamilton's equations too") {
     const Agreed result = agree(read_scene(test::source_path("scenes/benchmark/trees/pend16.toml")), 1e4);
     CHECK(result.agreement.verdict == Agreement::Verdict::proved);
@@ -274,7 +331,16 @@ TEST_CASE("modular: identities of angles, roots and exponentials hold, and false
     const auto of = [&](Op op, const Rational& c, int arg) { return p.call(op, {p.sum(0, {{c, arg}})}); };
     const auto times = [&](int a, int b) { return p.product(1, {{a, 1}, {b, 1}}); };
     const int sum = p.sum(0, {{1, x}, {1, y}});
+    // Roots of numbers with large prime factors, and a constant angle of many decimals.
+    const Rational large = cln::cl_I("10000000017244009"), other = 1000003,
+                   decimals = Rational(31415926) / 99999989;
+    const auto root_of = [&](const Rational& c) { return p.call(Op::sqrt, {p.number(c)}); };
+    const auto turned = [&](Op op, int factor) { return p.call(op, {p.sum(decimals * factor, {{1, x}})}); };
     const std::vector<std::pair<int, int>> equal{
+        {times(root_of(large), root_of(other)), root_of(large * other)},
+        {times(root_of(large), root_of(large)), p.number(large)},
+        {turned(Op::sin, 2), p.sum(0, {{2, times(turned(Op::sin, 1), p.call(Op::cos, {p.number(decimals)}))},
+                                       {-1, of(Op::sin, 1, x)}})},
         {p.call(Op::sin, {sum}), p.sum(0, {{1, times(of(Op::sin, 1, x), of(Op::cos, 1, y))},
                                            {1, times(of(Op::cos, 1, x), of(Op::sin, 1, y))}})},
         {of(Op::sin, 1, x),
@@ -287,6 +353,8 @@ TEST_CASE("modular: identities of angles, roots and exponentials hold, and false
         {p.call(Op::log, {p.call(Op::exp, {sum})}), sum},
     };
     const std::vector<std::pair<int, int>> different{
+        {times(root_of(large), root_of(other)), p.sum(0, {{-1, root_of(large * other)}})},
+        {turned(Op::sin, 1), turned(Op::sin, 2)},
         {p.call(Op::sin, {sum}), p.sum(0, {{1, of(Op::sin, 1, x)}, {1, of(Op::sin, 1, y)}})},
         {p.call(Op::sqrt, {p.product(1, {{x, 2}})}), x},
         {of(Op::sin, 1, x), x},

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "program/modular_angle.hpp"
+
 namespace alembert {
 
 namespace {
@@ -18,11 +20,12 @@ int denominators_power(const Program& program, int id, std::map<int, int>& known
         const cln::cl_I below = cln::denominator(c);
         return static_cast<int>(cln::ord2(below));
     };
+    const auto power_of_number = [&] { return is_long_angle(node.number) ? 0 : power(node.number); };
     int result = 0;
     if (node.op == Op::number) {
-        result = power(node.number);
+        result = power_of_number();
     } else if (node.op == Op::sum) {
-        result = power(node.number);
+        result = power_of_number();
         for (std::size_t k = 0; k < node.args.size(); ++k)
             if (program[node.args[k]].op != Op::pi)
                 result = std::max(result,

@@ -166,12 +166,31 @@ private:
         return fraction_[id] != 0;
     }
 
+    /// Roots of whole numbers that share no factor are independent, so that each may be any root of its number.
+    /// Nothing if it shares a part of its large factors with another one.
+    std::optional<Prime> root_of_number(const Rational& number) {
+        const std::optional<Prime::PartialRoot> found = Prime::partial_root_of(number);
+        if (!found) return std::nullopt;
+        Prime result = found->known;
+        cln::cl_I rest = found->rest, whole;
+        for (const cln::cl_I& other : rooted_rests_) {
+            while (cln::zerop(cln::mod(rest, other))) {
+                rest = cln::exquo(rest, other);
+                result *= Prime::from(other)->any_root();
+            }
+            if (cln::gcd(other, rest) != 1) return std::nullopt;
+        }
+        if (cln::sqrtp(rest, &whole)) return result * *Prime::from(whole);
+        rooted_rests_.push_back(rest);
+        return result * Prime::from(rest)->any_root();
+    }
+
     std::optional<Prime> square_root(int arg) {
         const Node& node = program_[arg];
         if (node.is_number()) {
             if (cln::zerop(node.number)) return Prime(0);
             if (!cln::plusp(node.number)) return std::nullopt;
-            if (const auto root = Prime::root_of(node.number)) return root;
+            if (const auto root = root_of_number(node.number)) return root;
             result_.exact = false;
             return point_.random(static_cast<std::uint64_t>(Op::sqrt), value(arg).bits());
         }
@@ -224,6 +243,12 @@ private:
                 result = result * *part;
                 continue;
             }
+            if (monomial == Prime(1) && is_long_angle(c)) {
+                const std::optional<PrimeTurn> part = turned_by_number(c, degree);
+                if (!part) return std::nullopt;
+                result = result * *part;
+                continue;
+            }
             cln::cl_I numerator = cln::numerator(c), odd = cln::denominator(c);
             const auto [parts, turn] = point_.part(leaf(monomial));
             int halves = parts;
@@ -236,6 +261,19 @@ private:
             result = result * turn.power(*PrimeTurn::exponent(numerator / odd));
         }
         return result;
+    }
+
+    /// A turn that is random for each such number, up to its sign and factors of two: what holds for all angles
+    /// holds for these, though not what only holds because one is a sum of others.
+    std::optional<PrimeTurn> turned_by_number(const Rational& c, double& degree) {
+        Rational base = cln::abs(c);
+        cln::cl_I multiple = cln::minusp(c) ? -1 : 1;
+        const Rational small = Rational(1) / 20;
+        for (; base > small; multiple = 2 * multiple) base = base / 2;
+        const std::optional<Prime> key = Prime::from(base);
+        if (!key) return std::nullopt;
+        degree += 2 * std::abs(cln::double_approx(multiple));
+        return PrimeTurn::rational(point_.random(204, key->bits())).power(*PrimeTurn::exponent(multiple));
     }
 
     /// A multiple of π that is in the group, or else a random turn.
@@ -284,6 +322,7 @@ private:
     const ModularPoint& point_;
     Prime pi_;
     ModularValues result_;
+    std::vector<cln::cl_I> rooted_rests_;  ///< large numbers of which roots were taken
     std::vector<char> fraction_;
     std::map<int, ModularAngle> sums_;
     cln::cl_I known_denominators_ = 1;

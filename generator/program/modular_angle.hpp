@@ -16,6 +16,13 @@ namespace alembert {
 /// A polynomial in values: monomial's value → coefficient. The key 0 stands for π, and 1 for a plain number.
 using ModularAngle = std::map<Prime, Rational>;
 
+/// Whether an angle of so many radians would be a high multiple of a common part with others, so that it counts as
+/// an angle of its own.
+inline bool is_long_angle(const Rational& radians) {
+    constexpr int longest = 1000;
+    return cln::denominator(radians) > longest || cln::abs(cln::numerator(radians)) > longest;
+}
+
 /// A value that is no sum or product, as an angle. One that is 0, as a constraint may hold a coordinate, is no
 /// angle at all: the key 0 is taken.
 ModularAngle angle_of_value(Prime value);

@@ -47,24 +47,16 @@ public:
         if (below.is_zero()) return std::nullopt;
         return residue(cln::numerator(r)) * below.inverse();
     }
-    /// √r of a positive number: the product of the roots of its prime factors, so that √(ab) = √a √b. Nothing if a
-    /// factor is beyond the table of small primes.
-    static std::optional<Prime> root_of(const Rational& r) {
-        constexpr int largest = 1000;
-        const auto below = from(cln::denominator(r));
-        if (!below || below->is_zero()) return std::nullopt;
-        Prime result = below->inverse();
-        cln::cl_I rest = cln::numerator(r) * cln::denominator(r);
-        for (int factor = 2; factor <= largest && rest != 1; ++factor)
-            while (cln::zerop(cln::mod(rest, cln::cl_I(factor)))) {
-                rest = cln::exquo(rest, cln::cl_I(factor));
-                const Prime plain = factor;
-                result *= plain.is_square() ? plain.root() : i() * (-plain).root();
-            }
-        cln::cl_I root;
-        if (!cln::sqrtp(rest, &root)) return std::nullopt;
-        return result * *from(root);
-    }
+    /// √r = known · √rest of a positive number r, where rest is 1 or a whole number, no square, without small
+    /// factors.
+    struct PartialRoot;
+    /// The product of the roots of the small prime factors, so that √(ab) = √a √b. Nothing if the modulus divides
+    /// the denominator.
+    static std::optional<PartialRoot> partial_root_of(const Rational& r);
+    /// √r of a positive number without large prime factors. Nothing for others.
+    static std::optional<Prime> root_of(const Rational& r);
+    /// A root of a plain number in this field, the same for the same number: an i times a root if it is no square.
+    constexpr Prime any_root() const { return is_square() ? root() : i() * (-*this).root(); }
 
     /// The number itself if it is plain, otherwise a hash.
     constexpr std::uint64_t bits() const { return n_ ^ (i_ * 0x9e3779b97f4a7c15ULL); }
@@ -126,5 +118,33 @@ private:
     }
     std::uint64_t n_ = 0, i_ = 0;
 };
+
+struct Prime::PartialRoot {
+    Prime known;
+    cln::cl_I rest;
+};
+
+inline std::optional<Prime::PartialRoot> Prime::partial_root_of(const Rational& r) {
+    constexpr int largest = 1000;
+    const auto below = from(cln::denominator(r));
+    if (!below || below->is_zero()) return std::nullopt;
+    PartialRoot result{below->inverse(), cln::numerator(r) * cln::denominator(r)};
+    for (int factor = 2; factor <= largest && result.rest != 1; ++factor)
+        while (cln::zerop(cln::mod(result.rest, cln::cl_I(factor)))) {
+            result.rest = cln::exquo(result.rest, cln::cl_I(factor));
+            result.known *= Prime(factor).any_root();
+        }
+    cln::cl_I root;
+    if (cln::sqrtp(result.rest, &root)) {
+        result.known *= *from(root);
+        result.rest = 1;
+    }
+    return result;
+}
+
+inline std::optional<Prime> Prime::root_of(const Rational& r) {
+    const std::optional<PartialRoot> found = partial_root_of(r);
+    return found && found->rest == 1 ? std::optional(found->known) : std::nullopt;
+}
 
 }  // namespace alembert
