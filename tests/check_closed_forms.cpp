@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "check/check.hpp"
+#include "checked.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 #include "state/prepared.hpp"
@@ -160,6 +161,70 @@ TEST_CASE("closed forms: a claim that cannot be read is reported with its place"
     CHECK(message("near y = 0\nx'' = 0\n").find("unknown name 'y'; expected a coordinate") != std::string::npos);
     CHECK(message("near m = 0\nx'' = 0\n").find("'near' gives the values of coordinates") != std::string::npos);
     CHECK(message("near x = t\nx'' = 0\n").find("may depend on parameters only") != std::string::npos);
+}
+
+TEST_CASE("check: a motion in closed form need not give the multipliers of constraints") {
+    const auto verdicts = [](const std::string& scene, const std::vector<std::string>& motion) {
+        std::string text = scene;
+        for (const std::string& line : motion)
+            text += "[[claim]]\nat = \"solution\"\nequation = \"" + line + "\"\n";
+        std::vector<Verdict> result;
+        for (const CheckedClaim& claim : test::checked(parse_scene(text, "closed.toml")).claims)
+            result.push_back(claim.verdict);
+        return result;
+    };
+    const std::string point =
+                          "[coordinates]\nx = { guess = 0.5, rate_guess = 0 }\ny = { guess = 0, rate_guess = 1 }\n"
+                          "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", \"y\"]\n[[constraint]]\n",
+                      incline = "gravity = [0, \"-g\"]\n[parameters]\nm = 1\nbe = \"pi/6\"\ng = 9.81\n" + point +
+                                "name = \"incline\"\nholonomic = \"y + x*tan(be)\"\n",
+                      ring = "[parameters]\nm = 1\na = 0.5\nw = 2\n" + point +
+                             "name = \"ring\"\nholonomic = \"x^2 + y^2 - a^2\"\n";
+    using Verdicts = std::vector<Verdict>;
+    constexpr Verdict proved = Verdict::proved, refuted = Verdict::refuted;
+    CHECK(verdicts(incline, {"x = g*sin(be)*cos(be)*t^2/2", "y = -g*sin(be)^2*t^2/2"}) ==
+          Verdicts{proved, proved});
+    CHECK(verdicts(incline, {"x = g*sin(be)*t^2/2", "y = -g*sin(be)*tan(be)*t^2/2"}) ==
+          Verdicts{refuted, refuted});
+    CHECK(verdicts(ring, {"x = a*cos(w*t)", "y = a*sin(w*t)"}) == Verdicts{proved, proved});
+    CHECK(verdicts(ring, {"x = a*cos(w*t^2)", "y = a*sin(w*t^2)"}) == Verdicts{refuted, refuted});
+    CHECK(verdicts(ring, {"x = a*cos(w*t)", "y = a*sin(w*t)", "lambda_ring = -m*w^2/2"}) ==
+          Verdicts{proved, proved, proved});
+    CHECK(verdicts(ring, {"x = a*cos(w*t)", "y = a*sin(w*t)", "lambda_ring = m*w^2/2"})[2] == refuted);
+    CHECK(verdicts(ring, {"x = a*cos(w*t)"})[0] == Verdict::undecided);
+}
+
+// y = f(x) as a constraint: no polynomial in x has its zeros, so that it is solved for y.
+TEST_CASE("check: claims about a bead on a curve of any function are proved or refuted") {
+    const std::vector<std::array<std::string, 3>> curves{
+        {"a*cos(k*x)", "-a*k*sin(k*x)", "-a*sin(k*x)"},
+        {"a*cosh(x/a)", "sinh(x/a)", "cosh(x/a)"},
+        {"a*exp(-k*x)", "-a*k*exp(-k*x)", "a*k*exp(-k*x)"},
+        {"a*log(1 + k*x)", "a*k/(1 + k*x)", "a/(1 + k*x)"},
+        {"a*sin(k*x^2)", "2*a*k*x*cos(k*x^2)", "a*k*cos(k*x^2)"},
+        {"a*tan(k*x)", "a*k/cos(k*x)^2", "a/cos(k*x)^2"},
+        {"a*sin(x)*exp(k*x)", "a*(cos(x) + k*sin(x))*exp(k*x)", "a*cos(x)*exp(k*x)"}};
+    for (const auto& [f, slope, wrong] : curves) {
+        CAPTURE(f);
+        const std::string scene =
+            "gravity = [0, \"-g\"]\n[parameters]\nm = 1\na = 0.2\nk = 2\ng = 9.81\n"
+            "[coordinates]\nx = { initial = 0.3, rate = 0.2 }\n"
+            "y = { guess = 0.1, rate_guess = 0 }\n[[particle]]\nname = \"P\"\nmass = \"m\"\n"
+            "position = [\"x\", \"y\"]\n[[constraint]]\nname = \"wire\"\nholonomic = \"y - " +
+            f + "\"\n";
+        const auto claim = [](const std::string& equation) {
+            return "[[claim]]\nequation = \"" + equation + "\"\n";
+        };
+        const Checked result =
+            test::checked(parse_scene(scene + claim("y' = (" + slope + ")*x'") + claim("y' = (" + wrong + ")*x'") +
+                                          claim("m*x'' + (" + slope + ")*m*(y'' + g) = 0") +
+                                          claim("m*x'' - (" + slope + ")*m*(y'' + g) = 0"),
+                                      "curve.toml"));
+        CHECK(result.claims[0].verdict == Verdict::proved);
+        CHECK(result.claims[1].verdict == Verdict::refuted);
+        CHECK(result.claims[2].verdict == Verdict::proved);
+        CHECK(result.claims[3].verdict == Verdict::refuted);
+    }
 }
 
 }  // namespace check_closed_forms

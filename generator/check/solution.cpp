@@ -2,8 +2,10 @@
 #include "check/solution.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "check/zero.hpp"
 #include "language/say.hpp"
@@ -58,14 +60,20 @@ public:
     /// The value of `row` along the motion that the claims give.
     ex along(const ex& row) const { return in_time(m_.z->expand(row)).subs(at_, GiNaC::subs_options::no_pattern); }
 
-    /// Coordinates and multipliers that remain in `along`: the claims would have to give them as well.
+    /// The multipliers that remain in `along`: no claim gives them.
+    std::vector<GiNaC::symbol> open_multipliers(const ex& along) const {
+        std::vector<GiNaC::symbol> result;
+        for (const GiNaC::symbol& multiplier : e_.lambda)
+            if (along.has(multiplier)) result.push_back(multiplier);
+        return result;
+    }
+
+    /// Coordinates that remain in `along`: the claims would have to give them as well.
     std::vector<std::string> missing(const ex& along) const {
         std::vector<std::string> names;
         for (int i = 0; i < m_.size(); ++i)
             if (along.has(m_.q[i]) || along.has(m_.qdot[i]) || along.has(m_.qddot[i]))
                 names.push_back(m_.q[i].get_name());
-        for (const GiNaC::symbol& multiplier : e_.lambda)
-            if (along.has(multiplier)) names.push_back(multiplier.get_name());
         return names;
     }
 
@@ -105,42 +113,90 @@ private:
     GiNaC::exmap inputs_, at_;
 };
 
+/// An equation into which the motion has been put.
+struct Put {
+    ex left;
+    std::vector<std::string> names;  ///< of the equations from which it comes
+    std::set<std::size_t> spoken;    ///< the claims of whose names they speak
+};
+
+/// Eliminates multipliers that no claim gives: where one equation determines such a multiplier, the others must
+/// hold with it.
+void eliminate_open_multipliers(std::vector<Put>& rows, const Motion& motion) {
+    for (;;) {
+        auto pivot = rows.end();
+        GiNaC::symbol open;
+        ex size;
+        for (auto row = rows.begin(); row != rows.end(); ++row) {
+            if (!motion.missing(row->left).empty()) continue;
+            for (const GiNaC::symbol& multiplier : motion.open_multipliers(row->left)) {
+                const ex slope = row->left.diff(multiplier);
+                const bool is_better = pivot == rows.end() || slope.nops() < size.nops();
+                if (!is_better || zero_test(slope, motion.mechanism()).zero != false) continue;
+                pivot = row;
+                open = multiplier;
+                size = slope;
+            }
+        }
+        if (pivot == rows.end()) return;
+        const Put used = *pivot;
+        rows.erase(pivot);
+        const ex value = open - used.left / size;
+        for (Put& row : rows) {
+            if (!row.left.has(open)) continue;
+            row.left = (row.left.subs(open == value, GiNaC::subs_options::no_pattern) * size).expand();
+            for (const std::string& name : used.names)
+                if (std::find(row.names.begin(), row.names.end(), name) == row.names.end())
+                    row.names.push_back(name);
+            row.spoken.insert(used.spoken.begin(), used.spoken.end());
+        }
+    }
+}
+
 }  // namespace
 
 void check_solution(const Scene& scene, Claims& read, const std::vector<std::size_t>& which,
                     std::vector<CheckedClaim>& claims) {
     const Motion motion(scene, read, which);
-    const std::vector<ex> rows = motion.rows();
     std::vector<std::vector<ZeroTest>> tests(which.size());
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-        std::vector<std::size_t> spoken;
-        for (std::size_t i = 0; i < which.size(); ++i)
-            if (motion.is_readable(rows[r]) &&
-                motion.speaks_of(rows[r], scene.claims[which[i]].equation.lhs.tree->text))
-                spoken.push_back(i);
-        const auto tell = [&](const std::string& reason) {
-            for (const std::size_t i : spoken) {
-                tests[i].push_back({});
-                claims[which[i]].reason = reason;
-            }
-        };
-        if (!motion.is_readable(rows[r])) {
-            for (std::size_t i = 0; i < which.size(); ++i) spoken.push_back(i);
-            tell(say("{} is too long to put a motion into", motion.name_of(r)));
-            continue;
-        }
-        if (spoken.empty()) continue;
-        const ex left = motion.along(rows[r]);
-        if (const auto missing = motion.missing(left); !missing.empty()) {
-            tell(say("{} holds {} too, of which no claim at \"solution\" gives the value", motion.name_of(r),
-                     fmt::join(missing, ", ")));
-            continue;
-        }
-        const ZeroTest test = zero_test(left, motion.mechanism());
+    std::vector<Put> rows;
+    const std::vector<ex> all = motion.rows();
+    const auto tell = [&](const std::set<std::size_t>& spoken, const std::string& reason) {
         for (const std::size_t i : spoken) {
+            tests[i].push_back({});
+            claims[which[i]].reason = reason;
+        }
+    };
+    for (std::size_t r = 0; r < all.size(); ++r) {
+        const bool is_readable = motion.is_readable(all[r]);
+        std::set<std::size_t> spoken;
+        for (std::size_t i = 0; i < which.size(); ++i)
+            if (!is_readable || motion.speaks_of(all[r], scene.claims[which[i]].equation.lhs.tree->text))
+                spoken.insert(i);
+        if (!is_readable)
+            tell(spoken, say("{} is too long to put a motion into", motion.name_of(r)));
+        else
+            rows.push_back({motion.along(all[r]), {motion.name_of(r)}, std::move(spoken)});
+    }
+    eliminate_open_multipliers(rows, motion);
+    for (const Put& row : rows) {
+        if (row.spoken.empty()) continue;
+        std::string name = row.names[0];
+        for (std::size_t k = 1; k < row.names.size(); ++k) name = say("{} and {}", name, row.names[k]);
+        if (const auto missing = motion.missing(row.left); !missing.empty()) {
+            tell(row.spoken, say("{} holds {} too, of which no claim at \"solution\" gives the value", name,
+                                 fmt::join(missing, ", ")));
+            continue;
+        }
+        if (!motion.open_multipliers(row.left).empty()) {
+            tell(row.spoken, say("it could not be decided whether {} gives a multiplier", name));
+            continue;
+        }
+        const ZeroTest test = zero_test(row.left, motion.mechanism());
+        for (const std::size_t i : row.spoken) {
             tests[i].push_back(test);
             if (test.zero == false && claims[which[i]].reason.empty())
-                claims[which[i]].reason = say("put into {}, it leaves what does not vanish", motion.name_of(r));
+                claims[which[i]].reason = say("put into {}, it leaves what does not vanish", name);
         }
     }
     for (std::size_t i = 0; i < which.size(); ++i) {

@@ -23,6 +23,23 @@ struct Occurrence {
 using Occurrences = std::map<std::pair<Variable::Kind, int>, Occurrence>;
 using TakenVariables = std::set<std::pair<Variable::Kind, int>>;
 
+/// Whether no polynomial in a variable in the node's arguments has the zeros of the condition: in exp(x), in a
+/// function of [functions], and in sin(k*x), whose turn is no power of that of x.
+bool hides(const Node& node, bool turned) {
+    switch (node.op) {
+        case Op::sum:
+        case Op::sin:
+        case Op::cos:
+        case Op::tan:
+        case Op::sqrt:
+            return false;
+        case Op::product:
+            return turned && (node.args.size() > 1 || node.is_reciprocal() || node.exponents[0] != 1);
+        default:
+            return true;
+    }
+}
+
 Occurrences occurrences(const Program& p, int root) {
     Occurrences result;
     std::set<std::tuple<int, bool, bool>> seen;
@@ -41,9 +58,8 @@ Occurrences occurrences(const Program& p, int root) {
         const bool under = rooted || node.op == Op::sqrt;
         for (const int arg : node.args) {
             stack.emplace_back(arg, inside, under);
-            // Inside a function of [functions]: outside and inside of sines, so that no condition is solved for
-            // it.
-            if (node.op == Op::unspecified) stack.emplace_back(arg, !inside, under);
+            // Outside and inside of sines, so that no condition is solved for it.
+            if (hides(node, turned)) stack.emplace_back(arg, !inside, under);
         }
     }
     return result;
