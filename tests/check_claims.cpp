@@ -112,11 +112,11 @@ TEST_CASE("check: slips in equations of speeds and in relations of kinematics ar
         REQUIRE(result.claims[0].likely);
         return *result.claims[0].likely;
     };
-    CHECK(slip("heavy_top_quaternion", "A*w1' = 2*m*g*l*(e2*e3 + e0*e1)").term == "-(A - C)*w2*w3");
-    CHECK(slip("free_body_quaternion", "2*e0' = -e1*w1 - e2*w2").term == "w3*e3");
+    CHECK(slip("heavy_top_quaternion", "A*w1' = 2*m*g*l*(e2*e3 + e0*e1)").term == "(A-C)*w2*w3");
+    CHECK(slip("free_body_quaternion", "2*e0' = -e1*w1 - e2*w2").term == "-w3*e3");
     const Slip turned = slip("euler_angles", "dot(ez(N), ey(F)) = -sin(theta)*cos(phi)");
     CHECK(turned.kind == "sign");
-    CHECK(turned.repair == "-dot(ez(N), ey(F)) = -sin(theta)*cos(phi)");
+    CHECK(turned.repair == "dot(ez(N), ey(F)) = sin(theta)*cos(phi)");
     CHECK(slip("universal_joint", "2*dot(alpha(S2), ez(S2)) = theta2''").kind == "factor");
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("check: the slips in claims about rest and about impacts are named too
     CHECK(slip("watt_governor", "rest\n" + condition + "- 2*(m+M)*g) = 0").rfind("factor: ", 0) == 0);
     CHECK(slip("watt_governor", "rest\n" + condition + ") = 0").rfind("missing_term: ", 0) == 0);
     CHECK(slip("watt_governor", "rest\nsin(alpha)*(m*l*Omega^2*sin(alpha) - (m+M)*g) = 0") ==
-          "swapped_trig: sin(alpha)*(m*l*Omega^2*sin(alpha) - (m+M)*g)");
+          "swapped_trig: m*l*Omega^2*sin(alpha)");
     const std::string momentum =
         "m*l^2*(4/3*(theta1'-theta1'(-)) + 1/2*(theta2'-theta2'(-))*cos(theta1-theta2)) = ";
     CHECK(slip("struck_rods", "impact\n" + momentum + "0").rfind("missing_term: ", 0) == 0);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "check/nearest.hpp"
+#include "check/steady_factor.hpp"
 #include "derive/derivation.hpp"
 #include "notation/text.hpp"
 #include "symbolic/fourier.hpp"
@@ -49,6 +50,26 @@ void collect_angles(const Tree& tree, const std::string& text, std::set<std::str
         angles.insert(text.substr(static_cast<std::size_t>(tree.args[0]->offset),
                                   static_cast<std::size_t>(tree.args[0]->length)));
     for (const TreePtr& arg : tree.args) collect_angles(*arg, text, angles);
+}
+
+bool is_steady(const Tree& tree, const Mechanism& m) {
+    if (tree.kind == Tree::Kind::name)
+        return std::any_of(m.parameters.begin(), m.parameters.end(),
+                           [&](const Mechanism::Parameter& p) { return p.symbol.get_name() == tree.text; });
+    return tree.kind != Tree::Kind::derivative &&
+           std::all_of(tree.args.begin(), tree.args.end(), [&](const TreePtr& arg) { return is_steady(*arg, m); });
+}
+
+std::string part_of(const Tree& tree, const std::string& text) {
+    return text.substr(static_cast<std::size_t>(tree.offset), static_cast<std::size_t>(tree.length));
+}
+
+void collect_steady_terms(const Tree& tree, const std::string& text, const Mechanism& m,
+                          std::set<std::string>& terms) {
+    if (tree.kind == Tree::Kind::sum && is_steady(tree, m))
+        for (const TreePtr& term : tree.args)
+            terms.insert(part_of(term->kind == Tree::Kind::negate ? *term->args[0] : *term, text));
+    for (const TreePtr& arg : tree.args) collect_steady_terms(*arg, text, m, terms);
 }
 
 bool differentiates(const Tree& tree) {
@@ -114,14 +135,17 @@ EquationTerms equation_terms(const Mechanism& m, const Equations& e) {
     for (const auto* terms : {&result.of_equations, &result.of_energies})
         for (const std::string& term : *terms) {
             std::vector<Diagnostic> mistakes;
-            if (const Expression known = parse_expression(term, {}, mistakes); known.tree)
+            if (const Expression known = parse_expression(term, {}, mistakes); known.tree) {
                 collect_angles(*known.tree, term, result.angles);
+                collect_steady_terms(*known.tree, term, m, result.steady);
+            }
         }
     return result;
 }
 
 std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& m, const Equations& e,
-                                            const EquationTerms& known) {
+                                            const EquationTerms& known, bool integral) {
+    constexpr std::size_t most_of_integrals = 400;
     std::vector<std::string> terms = products_of_speeds(m), at_rest, in_motion;
     if (!known.is_short) return terms;
     terms.insert(terms.end(), known.of_equations.begin(), known.of_equations.end());
@@ -137,6 +161,11 @@ std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism&
     }
     for (const GiNaC::symbol& q : m.q)
         for (const char* primes : {"", "'"}) at_rest.push_back(q.get_name() + primes);
+    if (integral) {
+        add_products(at_rest, turns, terms);
+        if (terms.size() > most_of_integrals) terms.resize(most_of_integrals);
+        return terms;
+    }
     in_motion = at_rest;
     for (const GiNaC::symbol& q : m.q) in_motion.push_back(q.get_name() + "''");
     for (const GiNaC::symbol& lambda : e.lambda) in_motion.push_back(lambda.get_name());
@@ -156,18 +185,9 @@ std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism&
 std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& m) {
     std::set<std::string> parameters, sums;
     for (const Mechanism::Parameter& p : m.parameters) parameters.insert(p.symbol.get_name());
-    const std::function<bool(const Tree&)> is_steady = [&](const Tree& tree) {
-        if (tree.kind == Tree::Kind::name) return parameters.contains(tree.text);
-        return tree.kind != Tree::Kind::derivative &&
-               std::all_of(tree.args.begin(), tree.args.end(),
-                           [&](const TreePtr& arg) { return is_steady(*arg); });
-    };
     const std::function<void(const Tree&, const std::string&)> collect = [&](const Tree& tree,
                                                                              const std::string& text) {
-        if (tree.kind == Tree::Kind::sum && is_steady(tree))
-            sums.insert("(" +
-                        text.substr(static_cast<std::size_t>(tree.offset), static_cast<std::size_t>(tree.length)) +
-                        ")");
+        if (tree.kind == Tree::Kind::sum && is_steady(tree, m)) sums.insert("(" + part_of(tree, text) + ")");
         for (const TreePtr& arg : tree.args) collect(*arg, text);
     };
     for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs}) collect(*side->tree, side->text);
@@ -183,79 +203,9 @@ std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& m) {
     return result;
 }
 
-namespace {
-
-struct Powers {
-    std::vector<std::pair<std::size_t, int>> of;  ///< the constant value, and its exponent
-    int size() const {
-        int sum = 0;
-        for (const auto& [which, exponent] : of) sum += std::abs(exponent);
-        return sum;
-    }
-};
-
-Prime raised(Prime x, int exponent) {
-    return exponent < 0 ? x.inverse().power(static_cast<std::uint64_t>(-exponent))
-                        : x.power(static_cast<std::uint64_t>(exponent));
-}
-
-/// All products of at most three of `ratios` to small powers; of two with equal values, the simpler one.
-std::map<Prime, Powers> table_of(const std::vector<Prime>& ratios) {
-    constexpr int highest = 2;
-    constexpr std::size_t most_factors = 3, most_entries = 60000;
-    std::map<Prime, Powers> table{{Prime(1), {}}};
-    std::vector<std::pair<Prime, Powers>> last{{Prime(1), {}}};
-    for (std::size_t factors = 0; factors < most_factors; ++factors) {
-        std::vector<std::pair<Prime, Powers>> next;
-        for (const auto& [value, powers] : last)
-            for (std::size_t j = powers.of.empty() ? 0 : powers.of.back().first + 1; j < ratios.size(); ++j)
-                for (int e = -highest; e <= highest && table.size() < most_entries; ++e) {
-                    if (e == 0) continue;
-                    Powers more = powers;
-                    more.of.emplace_back(j, e);
-                    const Prime product = value * raised(ratios[j], e);
-                    table.emplace(product, more);
-                    next.emplace_back(product, more);
-                }
-        last = std::move(next);
-    }
-    return table;
-}
-
-/// As n/d with small n and d.
-std::optional<std::pair<int, int>> small_fraction(Prime x) {
-    constexpr std::uint64_t largest = 240;
-    for (int d = 1; d <= 48; ++d) {
-        const Prime n = x * Prime(d);
-        if (n.bits() <= largest) return std::pair(static_cast<int>(n.bits()), d);
-        if ((-n).bits() <= largest) return std::pair(-static_cast<int>((-n).bits()), d);
-    }
-    return std::nullopt;
-}
-
-std::string ratio_text(const std::pair<int, int>& number, const Powers& powers,
-                       const std::vector<Steady>& steady) {
-    std::string result;
-    const auto multiply = [&](const std::string& by) {
-        result += (result.empty() || result == "-" ? "" : "*") + by;
-    };
-    if (number.first < 0) result = "-";
-    if (std::abs(number.first) != 1) multiply(std::to_string(std::abs(number.first)));
-    for (const auto& [which, exponent] : powers.of)
-        if (exponent > 0) multiply(steady[which].text + (exponent > 1 ? fmt::format("^{}", exponent) : ""));
-    if (result.empty() || result == "-") result += "1";
-    if (number.second != 1) result += fmt::format("/{}", number.second);
-    for (const auto& [which, exponent] : powers.of)
-        if (exponent < 0)
-            result += "/" + steady[which].text + (exponent < -1 ? fmt::format("^{}", -exponent) : "");
-    return result;
-}
-
-}  // namespace
-
 std::vector<Absent> absent_terms(const Program& program, int residual, const std::vector<int>& terms,
                                  const std::vector<Steady>& steady, const std::vector<ModularPoint>& points) {
-    constexpr std::size_t needed = 3;
+    constexpr std::size_t needed = SteadyFactors::states;
     std::vector<int> roots{residual};
     roots.insert(roots.end(), terms.begin(), terms.end());
     for (const Steady& s : steady) roots.push_back(s.node);
@@ -266,33 +216,27 @@ std::vector<Absent> absent_terms(const Program& program, int residual, const std
         if (at.size() == needed) break;
     }
     if (at.size() < needed) return {};
-    std::vector<Prime> ratios;
-    for (const Steady& s : steady) ratios.push_back(at[1].value[s.node] * at[0].value[s.node].inverse());
-    const std::map<Prime, Powers> table = table_of(ratios);
-
+    std::vector<SteadyFactors::Values> values;
+    std::vector<std::string> names;
+    for (const Steady& s : steady) {
+        values.push_back({at[0].value[s.node], at[1].value[s.node], at[2].value[s.node]});
+        names.push_back(s.text);
+    }
+    const SteadyFactors known(std::move(values));
     std::vector<std::pair<int, Absent>> found_terms;
     for (std::size_t k = 0; k < terms.size(); ++k) {
-        std::array<Prime, needed> c;
+        SteadyFactors::Values c;
         bool nonzero = true;
         for (std::size_t s = 0; s < needed; ++s) {
             const Prime t = at[s].value[terms[k]];
             nonzero = nonzero && !t.is_zero();
             c[s] = -at[s].value[residual] * t.inverse();
         }
-        if (!nonzero || c[0].is_zero()) continue;
-        const auto found = table.find(c[1] * c[0].inverse());
-        if (found == table.end()) continue;
-        std::array<Prime, needed> number;
-        for (std::size_t s = 0; s < needed; ++s) {
-            number[s] = c[s];
-            for (const auto& [which, exponent] : found->second.of)
-                number[s] *= raised(at[s].value[steady[which].node], -exponent);
-        }
-        const auto fraction = small_fraction(number[0]);
-        if (!fraction || number[2] != number[0]) continue;
-        const int effort =
-            2 * found->second.size() + (std::abs(fraction->first) != 1 ? 1 : 0) + (fraction->second != 1 ? 1 : 0);
-        found_terms.emplace_back(effort, Absent{k, ratio_text(*fraction, found->second, steady)});
+        if (!nonzero) continue;
+        const std::optional<SteadyFactor> factor = known.of(c);
+        if (!factor) continue;
+        const int effort = 2 * factor->degree() + (std::abs(factor->n) != 1 ? 1 : 0) + (factor->d != 1 ? 1 : 0);
+        found_terms.emplace_back(effort, Absent{k, text_of(*factor, names), effort});
     }
     std::stable_sort(found_terms.begin(), found_terms.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -9,9 +9,8 @@
 ///     // residual + (3/2)·m·terms[7] = 0 on every motion
 ///     absent_term(program, residual, nodes_of_terms, steady, states)
 ///
-/// A term t is missing from r if −r/t is the same number times powers of parameters at all states. The powers are
-/// found from two states: Π ρ_j^e_j = w with ρ_j the ratios of the parameters and w that of −r/t, and are looked
-/// up in a table of all small powers.
+/// A term t is missing from r if −r/t is the same number times powers of parameters at all states
+/// (check/steady_factor.hpp).
 
 #include <optional>
 #include <set>
@@ -28,14 +27,17 @@ struct EquationTerms {
     bool is_short = true;  ///< whether the equations are short enough to be read
     std::vector<std::string> of_equations, of_energies;
     std::set<std::string> angles;  ///< of the sines and cosines in them
+    std::set<std::string> steady;  ///< the terms of sums of parameters in them: "m1", "J/R^2"
 };
 EquationTerms equation_terms(const Mechanism& mechanism, const Equations& equations);
 
 /// Terms that may stand in an equation about this mechanism, as text: those of its equations, constraints,
 /// energies and momenta, and products of two coordinates, rates, accelerations, multipliers or inputs with sines
 /// and cosines. If the claim differentiates, also derivatives of such terms. At most a few thousand.
+/// `integral`: only those that may stand in an integral of the motion.
 std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& mechanism,
-                                            const Equations& equations, const EquationTerms& known);
+                                            const Equations& equations, const EquationTerms& known,
+                                            bool integral = false);
 
 /// Parameters, and the sums of parameters in the claim.
 std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& mechanism);
@@ -43,6 +45,7 @@ std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& mechan
 struct Absent {
     std::size_t term = 0;     ///< the position of the term
     std::string coefficient;  ///< "-2*m/l", "1"
+    int effort = 0;           ///< how much is in it: 0 for ±1
 };
 
 /// A constant value, as a node and as text: parameters and sums of them.

@@ -49,6 +49,8 @@ Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_
         if (sticking.empty()) {
             checked = check_together(part, mechanism, sheets, by);
             result.complete = checked.complete;
+            result.missing = checked.missing;
+            result.freedom = checked.freedom;
         } else {
             for (Claim& claim : part.claims) claim.at = Claim::At::motion;
             const Prepared stuck = prepared(with_sticking(std::move(part), sticking), {}, sheets != nullptr);

@@ -35,6 +35,8 @@ namespace alembert {
 struct Checked {
     std::vector<CheckedClaim> claims;  ///< in the order of Scene::claims
     bool complete = false;  ///< whether the proved claims, with the constraints, determine every acceleration
+    int missing = 0;  ///< how many equations of motion are still missing, of `freedom`; 0 too if that is unknown
+    int freedom = 0;
 };
 
 /// Throws SceneError for a claim that the mechanism cannot read.

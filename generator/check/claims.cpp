@@ -187,6 +187,16 @@ bool Claims::find_open(ClaimForm& form) const {
     return constants;
 }
 
+ex Claims::read_with_constants(const Expression& expression) {
+    const ex value = read(expression);
+    return defined_.empty() ? value : substitute(*m_.z, {value}, defined_)[0];
+}
+
+ex Claims::read_at_impact(const Expression& expression) {
+    const ex value = read(expression);
+    return after_impact() ? at_impact(value) : value;
+}
+
 ClaimForm Claims::read(const Claim& claim) {
     ClaimForm form;
     const ex residual = m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs));

@@ -47,6 +47,10 @@ public:
     GiNaC::ex read(const Expression& expression) {
         return counted_from(m_.z->name(formulas_.value(expression)), m_, driven_);
     }
+    /// The same at the scene's impact, for claims about it.
+    GiNaC::ex read_at_impact(const Expression& expression);
+    /// The same with the values of constants that `define` gave.
+    GiNaC::ex read_with_constants(const Expression& expression);
     /// From now on the rates in mechanism and equations are counted from these (formalism/driven.hpp), and `read`
     /// gives expressions in such rates.
     void count_rates_from(GiNaC::exmap driven) { driven_ = std::move(driven); }

@@ -19,16 +19,6 @@ namespace alembert {
 
 namespace {
 
-/// Whether signs decide: Legendre's symbol takes their place in exact arithmetic, and that of 3 is −1, so that
-/// 3 times something positive counts as negative. A root is the one of two that counts as positive: that of 9
-/// is −3.
-bool depends_on_sides(const Program& p, const std::vector<int>& roots) {
-    const std::vector<int> needed = p.needed(roots);
-    return std::any_of(needed.begin(), needed.end(), [&](int id) {
-        return p[id].op == Op::sign || p[id].op == Op::abs || p[id].op == Op::sqrt;
-    });
-}
-
 /// What numbers say of a claim that vanishes in exact arithmetic, if they are asked: where signs decide in the
 /// claim, or in the equations, with which it can be compared if states are found.
 InNumbers seen_in_numbers(Comparison& now, const Motions& motions, const Program& p, int root) {
@@ -133,17 +123,6 @@ bool holds_somewhere(ExactStates& states, const Program& p, int root) {
             at && at->value[root].is_zero())
             return true;
     return false;
-}
-
-/// Is the node zero whatever values the variables have? What holds because a parameter is positive is no identity.
-bool is_identity(const Program& p, int root) {
-    if (depends_on_sides(p, {root})) return false;
-    constexpr std::uint64_t points = 3;
-    for (std::uint64_t seed = 1; seed <= points; ++seed) {
-        const auto at = evaluate_mod(p, {.seed = seed}, std::array{root});
-        if (!at || !at->value[root].is_zero()) return false;
-    }
-    return true;
 }
 
 /// Whether the claim says that a sum of angles is zero, as q1 = q2 does, and that sum is a number of whole turns

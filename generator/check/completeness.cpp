@@ -8,7 +8,7 @@ namespace alembert {
 
 using GiNaC::ex;
 
-bool fix_accelerations(const Claims& claims, const std::vector<const ClaimForm*>& right) {
+Completeness completeness(const Claims& claims, const std::vector<const ClaimForm*>& right) {
     const Mechanism& m = claims.mechanism();
     const Equations& e = claims.equations();
     std::vector<GiNaC::symbol> unknowns = m.qddot;
@@ -21,11 +21,11 @@ bool fix_accelerations(const Claims& claims, const std::vector<const ClaimForm*>
         const std::vector<ex> slopes = m.z->pull_back({{last, 1}}, unknowns);
         list.insert(list.end(), slopes.begin(), slopes.end());
     }
-    if (right.empty()) return false;
     for (const auto& row : e.A) {
         list.insert(list.end(), row.begin(), row.end());
         list.insert(list.end(), unknowns.size() - row.size(), ex(0));
     }
+    if (list.empty()) return {.missing = m.size(), .freedom = m.size()};
     Program p;
     const std::vector<int> nodes = claims.lower(p, list);
     for (const int halves : {0, 1, 2}) {
@@ -33,17 +33,22 @@ bool fix_accelerations(const Claims& claims, const std::vector<const ClaimForm*>
         for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
             const auto at = evaluate_mod(p, states.get(s)->point, nodes);
             if (!at) continue;
-            std::vector<std::vector<Prime>> all, others;
+            std::vector<std::vector<Prime>> all, others, constraints;
             for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
                 all.emplace_back();
                 for (std::size_t j = 0; j < unknowns.size(); ++j)
                     all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
                 others.emplace_back(all.back().begin() + m.size(), all.back().end());
             }
-            return rank_of(all, unknowns.size()) == m.size() + rank_of(others, unknowns.size() - m.q.size());
+            constraints.assign(all.end() - static_cast<std::ptrdiff_t>(e.A.size()), all.end());
+            const int missing =
+                m.size() + rank_of(others, unknowns.size() - m.q.size()) - rank_of(all, unknowns.size());
+            return {.is_complete = missing == 0 && !right.empty(),
+                    .missing = missing,
+                    .freedom = m.size() - rank_of(constraints, unknowns.size())};
         }
     }
-    return false;
+    return {};
 }
 
 }  // namespace alembert

@@ -7,8 +7,14 @@
 
 namespace alembert {
 
+struct Completeness {
+    bool is_complete = false;
+    int missing = 0;  ///< how many equations of motion are missing; 0 too where no state was found
+    int freedom = 0;  ///< how many are needed beside the constraints
+};
+
 /// Do the forms `right`, together with the constraints, determine every acceleration after the open names of the
 /// claims are eliminated? Ranks at an exact state decide this.
-bool fix_accelerations(const Claims& claims, const std::vector<const ClaimForm*>& right);
+Completeness completeness(const Claims& claims, const std::vector<const ClaimForm*>& right);
 
 }  // namespace alembert

@@ -6,13 +6,17 @@
 #include <algorithm>
 #include <array>
 
+#include "check/claim_arithmetic.hpp"
 #include "check/dimensions.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
+#include "check/speaks_of_scene.hpp"
 #include "check/vanishing.hpp"
 #include "formalism/rest.hpp"
 #include "language/say.hpp"
-#include "scene/functions.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
+#include "symbolic/fourier.hpp"
 
 namespace alembert {
 
@@ -20,16 +24,6 @@ using GiNaC::ex;
 using GiNaC::numeric;
 
 namespace {
-
-bool has_vectors(const Tree& tree) {
-    const Function* const function = tree.kind == Tree::Kind::call ? find_function(tree.text) : nullptr;
-    return (function != nullptr && function->takes == Function::Takes::vectors) ||
-           std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& arg) { return has_vectors(*arg); });
-}
-
-bool has_vectors(const Claim& claim) {
-    return has_vectors(*claim.equation.lhs.tree) || has_vectors(*claim.equation.rhs.tree);
-}
 
 class Diagnostician {
 public:
@@ -43,46 +37,119 @@ public:
 
     Diagnosis diagnosis() {
         Diagnosis result;
+        if (const std::string names = names_of_shared_constants(); !names.empty()) {
+            result.reason =
+                say("it holds by itself, but in another claim {} has another value: what has another "
+                    "value needs another name",
+                    names);
+            return result;
+        }
         if (states_.motions.where() == Motions::At::rest)
             result.reason = name_branch();
         else if (holds_at_scene_values())
             result.reason = say("it holds at the scene's values of the parameters only");
-        if (form_.open.empty() && asked_.in_motion)
-            if (const auto nearest = nearest_equation(form_.residual, m_, asked_.law)) {
-                result.nearest = nearest->equation;
-                result.difference = nearest->difference;
-            }
-        const auto right = [&](const Claim& repaired) {
-            try {
-                return holds_quickly(claims_.read(repaired), asked_.at_impact || has_vectors(repaired));
-            } catch (const SceneMistake&) {
-                return false;
-            } catch (const std::exception&) {  // it divides by zero, for instance
-                return false;
-            }
-        };
-        const auto vanishes = [&](const Expression& value) {
-            Program p;
-            const std::optional<int> root = node_of(p, value);
-            return root && (p.is_zero(*root) || vanishes_at_two(states_, p, *root));
-        };
+        std::optional<ClaimArithmetic> arithmetic = arithmetic_of_claim();
         result.likely = likely_slip(claim_, form_.residual, m_, asked_.law,
-                                    {.is_right = right,
-                                     .vanishes = vanishes,
-                                     .absent = [&](const Claim& claim, std::vector<std::string> terms) {
-                                         return absent(claim, std::move(terms));
-                                     }});
+                                    {.is_right = [this](const Claim& claim) { return is_right(claim); },
+                                     .vanishes = [this](const Expression& value) { return vanishes(value); },
+                                     .terms = [this]() -> const EquationTerms& { return terms(); },
+                                     .absent = [this] { return absent(); },
+                                     .arithmetic = arithmetic ? &*arithmetic : nullptr});
+        if (result.likely)
+            tell_repair(result);
+        else
+            tell_nearest(result);
         if (!result.likely)
             if (const auto term = term_of_wrong_unit(claim_, m_))
-                result.likely = Slip{.kind = "wrong_unit", .term = *term, .repair = {}};
+                result.likely = Slip{.kind = "wrong_unit", .term = *term};
         return result;
     }
 
 private:
+    /// What the claim has beyond the equation into which it was corrected.
+    void tell_repair(Diagnosis& result) {
+        constexpr double largest_tree = 3000;
+        constexpr std::size_t most_terms = 8;
+        result.nearest = result.likely->repair;
+        std::vector<Diagnostic> mistakes;
+        Claim repaired = claim_;
+        repaired.equation = parse_equality(result.likely->repair, {}, mistakes, asked_.at_impact);
+        try {
+            const ex beyond = form_.residual - claims_.read(repaired).residual;
+            if (m_.z->tree_size(beyond) > largest_tree) return;
+            const auto f = fourier(m_.z->expand(beyond), *m_.symbols, most_terms);
+            if (f && f->size() > 0) result.difference = text(readable(*f));
+        } catch (const SceneMistake&) {
+        } catch (const std::runtime_error&) {
+        }
+    }
+
+    void tell_nearest(Diagnosis& result) {
+        if (!form_.open.empty() || !asked_.in_motion) return;
+        if (const auto nearest = nearest_equation(form_.residual, m_, asked_.law)) {
+            result.nearest = nearest->equation;
+            result.difference = nearest->difference;
+        }
+    }
+
+    bool is_right(const Claim& repaired) {
+        try {
+            return holds_quickly(claims_.read(repaired), asked_.at_impact || speaks_of_scene(repaired, m_));
+        } catch (const SceneMistake&) {
+            return false;
+        } catch (const std::exception&) {  // it divides by zero, for instance
+            return false;
+        }
+    }
+
+    bool vanishes(const Expression& value) {
+        Program p;
+        const std::optional<int> root = node_of(p, value);
+        return root && (p.is_zero(*root) || vanishes_at_two(states_, p, *root));
+    }
+
+    const EquationTerms& terms() {
+        if (!asked_.known) asked_.known = equation_terms(m_, asked_.law);
+        return *asked_.known;
+    }
+
+    /// Which time derivative of the claim is free of what it leaves open; nothing if none is.
+    std::optional<int> free_derivative() {
+        if (form_.open.empty()) return 0;
+        for (std::size_t k = 0; k < form_.derivatives.size(); ++k)
+            if (!m_.z->depends(form_.derivatives[k], claims_.open_symbols())) return static_cast<int>(k) + 1;
+        return std::nullopt;
+    }
+
+    /// States with which changed claims are compared, where the claim can be evaluated.
+    std::vector<ModularPoint> points() {
+        const bool many = states_.motions.where() == Motions::At::rest ||
+                          (states_.get(0) != nullptr && states_.get(0)->branches > 1);
+        const std::size_t wanted = many ? 8 : 3;
+        std::vector<ModularPoint> result;
+        Program p;
+        const std::vector<int> root = claims_.lower(p, {form_.residual});
+        for (std::size_t s = 0; s < 40 && result.size() < wanted && states_.get(s) != nullptr; ++s)
+            if (evaluate_mod(p, states_.get(s)->point, root)) result.push_back(states_.get(s)->point);
+        return result;
+    }
+
+    std::optional<ClaimArithmetic> arithmetic_of_claim() {
+        const std::optional<int> derivative = free_derivative();
+        if (form_.third || !derivative) return std::nullopt;
+        std::optional<ClaimArithmetic> result(std::in_place, claims_, claim_, points(), *derivative,
+                                              form_.open.empty());
+        const auto own = result->points() == 0
+                             ? std::nullopt
+                             : result->residual(*claim_.equation.lhs.tree, *claim_.equation.rhs.tree, 0);
+        if (!own) result.reset();
+        return result;
+    }
+
     /// The node of `value`. Returns nothing if the expression cannot be translated or contains open names.
     std::optional<int> node_of(Program& p, const Expression& value) {
         try {
-            const ex e = claims_.read(value);
+            const ex e = asked_.at_impact ? claims_.read_at_impact(value) : claims_.read(value);
             if (m_.z->depends(e, claims_.open_symbols())) return std::nullopt;
             return claims_.lower(p, {e})[0];
         } catch (const std::exception&) {
@@ -92,28 +159,46 @@ private:
         }
     }
 
-    /// Terms that the claim may lack, each with its coefficient.
-    std::vector<std::pair<std::string, std::string>> absent(const Claim& claim, std::vector<std::string> terms) {
-        const ClaimForm form = claims_.read(claim);
-        if (!form.open.empty()) return {};
+    /// The time derivative of the expression, as often as the claim has to be differentiated to be free of what it
+    /// leaves open.
+    std::optional<int> node_of_derivative(Program& p, const Expression& value, int times) {
+        if (times == 0) return node_of(p, value);
+        try {
+            ex e = claims_.read(value);
+            std::vector<GiNaC::symbol> last = m_.qddot;
+            for (const GiNaC::symbol& lambda : claims_.equations().lambda) last.push_back(lambda);
+            for (int k = 0; k < times; ++k) {
+                if (m_.z->depends(e, last)) return std::nullopt;
+                e = m_.time_derivative({e})[0];
+            }
+            return claims_.lower(p, {e})[0];
+        } catch (const std::runtime_error&) {
+            return std::nullopt;
+        } catch (const SceneMistake&) {
+            return std::nullopt;
+        }
+    }
+
+    /// Terms that the claim may lack.
+    std::vector<AbsentTerm> absent() {
+        const std::optional<int> derivative = free_derivative();
+        if (!derivative) return {};
         Program p;
-        const int residual = claims_.lower(p, {form.residual})[0];
+        const ex own =
+            *derivative == 0 ? form_.residual : form_.derivatives[static_cast<std::size_t>(*derivative - 1)];
+        const int residual = claims_.lower(p, {own})[0];
         std::vector<std::string> texts;
         std::vector<int> nodes;
         std::vector<Diagnostic> mistakes;
-        if (terms.empty()) {
-            if (!asked_.known) asked_.known = equation_terms(m_, asked_.law);
-            terms = terms_of_mechanics(claim, m_, asked_.law, *asked_.known);
-        }
-        for (std::string& text : terms) {
+        for (std::string& text : terms_of_mechanics(claim_, m_, asked_.law, terms(), *derivative > 0)) {
             const Expression value = parse_expression(text, {}, mistakes);
-            const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt;
+            const std::optional<int> node = value.tree ? node_of_derivative(p, value, *derivative) : std::nullopt;
             if (!node || p.is_zero(*node)) continue;
             nodes.push_back(*node);
             texts.push_back(std::move(text));
         }
         std::vector<Steady> steady;
-        for (const std::string& text : steady_sums(claim, m_)) {
+        for (const std::string& text : steady_sums(claim_, m_)) {
             const Expression value = parse_expression(text, {}, mistakes);
             if (const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt)
                 steady.push_back({text, *node});
@@ -122,9 +207,15 @@ private:
         const std::size_t most = states_.motions.where() == Motions::At::rest ? states_of_rest : 12;
         for (std::size_t s = 0; s < most && states_.get(s) != nullptr; ++s)
             points.push_back(states_.get(s)->point);
-        std::vector<std::pair<std::string, std::string>> result;
-        for (const Absent& term : absent_terms(p, residual, nodes, steady, points))
-            result.emplace_back(term.coefficient, texts[term.term]);
+        std::vector<AbsentTerm> result;
+        for (const Absent& term : absent_terms(p, residual, nodes, steady, points)) {
+            // In one pose all rates are multiples of the impulses, which are more often forgotten.
+            constexpr int of_rate = 6;
+            const bool has_rate = asked_.at_impact && texts[term.term].find('\'') != std::string::npos;
+            result.push_back({term.coefficient, texts[term.term], term.effort + (has_rate ? of_rate : 0)});
+        }
+        std::stable_sort(result.begin(), result.end(),
+                         [](const AbsentTerm& a, const AbsentTerm& b) { return a.effort < b.effort; });
         return result;
     }
 
@@ -135,15 +226,30 @@ private:
             // is tested with all claims of the group.
             std::vector<ClaimForm> forms = asked_.forms;
             forms[asked_.claim] = form;
+            if (!form.derivatives.empty() &&
+                std::all_of(form.derivatives.begin(), form.derivatives.end(),
+                            [](const ex& derivative) { return derivative.is_zero(); }))
+                return false;  // it says nothing of the motion
             std::vector<std::size_t> group = group_of(asked_.scene, forms, asked_.claim), right = group;
             std::erase_if(
                 right, [&](std::size_t other) { return other != asked_.claim && asked_.wrong.contains(other); });
-            return agrees(forms, right) || (right.size() < group.size() && agrees(forms, group));
+            return agrees(forms, right) || (right.size() < group.size() && agrees(forms, group)) ||
+                   (!form.derivatives.empty() && agrees(forms, {asked_.claim}));
         }
         Program p;
         const int root = claims_.lower(p, {form.residual})[0];
-        if (p.is_zero(root)) return may_be_identity;
+        if (p.is_zero(root) || is_identity(p, root)) return may_be_identity;
         return vanishes_at_two(states_, p, root);
+    }
+
+    /// The constants that the claim leaves open, if it holds by itself.
+    std::string names_of_shared_constants() {
+        std::string names;
+        for (const int open : form_.open) {
+            if (!claims_.open()[static_cast<std::size_t>(open)].constant) return {};
+            names += (names.empty() ? "" : ", ") + claims_.open()[static_cast<std::size_t>(open)].name;
+        }
+        return !names.empty() && agrees(asked_.forms, {asked_.claim}) ? names : std::string();
     }
 
     bool agrees(const std::vector<ClaimForm>& forms, const std::vector<std::size_t>& group) {

@@ -75,8 +75,9 @@ public:
         settle_apart();
         for (CheckedClaim& c : now_.verdicts)
             for (const ex& positive : now_.positive) c.where.insert(c.where.begin(), inequality(positive, now_.m));
-        const bool is_complete = complete();
-        return {.claims = std::move(now_.verdicts), .complete = is_complete};
+        const auto [is_complete, missing, freedom] = of_right_claims();
+        return {
+            .claims = std::move(now_.verdicts), .complete = is_complete, .missing = missing, .freedom = freedom};
     }
 
 private:
@@ -239,7 +240,7 @@ private:
     }
 
     /// Do the claims of the motion that are right fix every acceleration?
-    bool complete() const {
+    Completeness of_right_claims() const {
         std::vector<const ClaimForm*> right;
         for (std::size_t k = 0; k < now_.forms.size(); ++k) {
             const Verdict verdict = now_.verdicts[k].verdict;
@@ -247,7 +248,7 @@ private:
                 (verdict == Verdict::proved || verdict == Verdict::vacuous))
                 right.push_back(&now_.forms[k]);
         }
-        return fix_accelerations(claims_, right);
+        return completeness(claims_, right);
     }
 
     Claims claims_;
@@ -281,7 +282,10 @@ Checked check_of_one_mode(const Scene& scene, const Mechanism& given, const std:
     Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size())};
     const auto take = [&](const std::vector<std::size_t>& which, Checked checked) {
         for (std::size_t i = 0; i < which.size(); ++i) result.claims[which[i]] = std::move(checked.claims[i]);
-        result.complete = result.complete || checked.complete;
+        if (result.complete) return;
+        result.complete = checked.complete;
+        if (result.freedom == 0 || checked.complete)
+            result.missing = checked.missing, result.freedom = checked.freedom;
     };
     const Scene moving = with_some_claims(scene, others), at_rest = with_some_claims(scene, resting);
     if (!others.empty()) take(others, Checker(moving, m, equations, sheets, by).run());

@@ -130,6 +130,13 @@ std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const
         if (!others.empty()) found = std::move(others);
     }
     if (!found.empty()) return found;
+    for (const std::size_t a : group) {
+        std::set<std::size_t> without(group.begin(), group.end());
+        without.erase(a);
+        if (!consistent(rest(without))) found.insert(a);  // it is wrong by itself
+    }
+    if (!found.empty() && consistent(rest(found))) return found;
+    found.clear();
     for (std::size_t i = 0; i < group.size(); ++i)
         for (std::size_t j = i + 1; j < group.size(); ++j)
             if (consistent(rest({group[i], group[j]}))) {

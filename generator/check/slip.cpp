@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/slip.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <set>
 
-#include "check/claim_parts.hpp"
+#include "check/alien_force.hpp"
+#include "check/claim_arithmetic.hpp"
+#include "check/edits.hpp"
 #include "check/nearest.hpp"
+#include "check/needed_factor.hpp"
+#include "check/steady_factor.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 
@@ -17,177 +18,67 @@ using GiNaC::ex;
 
 namespace {
 
+/// Sizes of what follows the changes of a part.
+constexpr int most_own_terms = 3;
+constexpr double of_own_term = 1.72, of_more_terms = 1.3, of_alien_force = 2.95, of_absent_term = 3.05,
+                 of_two_signs = 3.3;
+/// A correction that gives the scene's own equation, energy or momentum term by term counts as smaller by this.
+constexpr double largest_bonus = 0.5, bonus_but_for_a_factor = 0.36;
+
 class Search {
 public:
     Search(const Claim& claim, const ex& residual, const Mechanism& m, const Equations& e, const Judge& judge)
-        : claim_(claim), m_(m), e_(e), judge_(judge), parts_(claim), nearest_(nearest_equation(residual, m, e)) {
-        find_lengths();
-    }
+        : claim_(claim),
+          residual_(residual),
+          m_(m),
+          e_(e),
+          judge_(judge),
+          words_(words_of_scene()),
+          edits_(claim, words_) {}
 
     std::optional<Slip> find() {
-        signs();
-        if (!found_) trigonometry();
-        if (!found_) arguments();
-        // At rest a rate is zero, whatever it multiplies; the rates after an impact have no derivatives.
-        if (!found_ && claim_.at == Claim::At::motion) dots();
-        if (!found_) parameters(true);
-        if (!found_) numbers();
-        if (!found_) parameters(false);
-        if (!found_ && claim_.at == Claim::At::impact) dots();
-        if (!found_) powers();
-        if (!found_) missing_own();
-        if (!found_) wrong_row();
-        if (!found_) extra();
-        if (!found_) missing();
-        if (!found_ && asked_ < most_asked) absent();
-        return found_;
+        std::vector<Edit> parts = edits_.list;
+        if (judge_.arithmetic != nullptr) {
+            const std::vector<Edit> needed = needed_factors(claim_, edits_, words_, m_, *judge_.arithmetic);
+            parts.insert(parts.end(), needed.begin(), needed.end());
+        }
+        add_own_terms(parts);
+        const std::optional<Found> found = smallest(parts);
+        if (found && found->size < of_absent_term) return found->slip;
+        std::vector<Edit> rest;
+        add_absent_terms(rest);
+        add_pairs_of_signs(rest);
+        const std::optional<Found> other = smallest(rest);
+        if (found && (!other || found->size <= other->size)) return found->slip;
+        return other ? std::optional(other->slip) : std::nullopt;
     }
 
 private:
-    using Kind = Tree::Kind;
-
-    // Asking
-
-    /// The claim with these sides, if it is right.
-    std::optional<std::string> ask(const std::string& lhs, const std::string& rhs) {
-        asked_ += lhs.size() + rhs.size();
-        if (asked_ > most_asked) return std::nullopt;
-        std::vector<Diagnostic> mistakes;
-        Claim repaired = claim_;
-        repaired.equation = parse_equality(lhs + " = " + rhs, {}, mistakes, claim_.at == Claim::At::impact);
-        if (!mistakes.empty() || !repaired.equation.lhs || !repaired.equation.rhs || !judge_.is_right(repaired))
-            return std::nullopt;
-        return text_of(repaired.equation);
-    }
-
-    bool try_change(const TextStretch& at, const std::string& by, const std::string& kind,
-                    const std::string& term) {
-        if (found_) return true;
-        std::array<std::string, 2> sides = parts_.sides();
-        sides[at.left ? 0 : 1].replace(static_cast<std::size_t>(at.offset), static_cast<std::size_t>(at.length),
-                                       by);
-        if (const auto right = ask(sides[0], sides[1])) found_ = Slip{kind, term, *right};
-        return found_.has_value();
-    }
-
-    /// The same inside a term. A change that makes the term vanish on every motion is no correction.
-    bool try_change(const ClaimLeaf& leaf, const TextStretch& at, const std::string& by, const std::string& kind) {
-        if (found_ || !try_change(at, by, kind, parts_.trimmed(leaf.whole))) return found_.has_value();
-        std::string term = parts_.slice(leaf.term);
-        term.replace(static_cast<std::size_t>(at.offset - leaf.term.offset), static_cast<std::size_t>(at.length),
-                     by);
-        std::vector<Diagnostic> mistakes;
-        const bool alone =
-            parts_.trimmed({leaf.term.left, 0, static_cast<int>(parts_.side(leaf.term.left).size())}) ==
-            parts_.trimmed(leaf.term);
-        if (const Expression changed =
-                parse_equality(term + " = 0", {}, mistakes, claim_.at == Claim::At::impact).lhs;
-            !alone && changed.tree && judge_.vanishes(changed))
-            found_.reset();
-        return found_.has_value();
-    }
-    bool try_change(const ClaimLeaf& leaf, const std::string& by, const std::string& kind) {
-        return try_change(leaf, leaf.at, by, kind);
-    }
-
-    // The changes
-
-    void signs() {
-        for (const ClaimSummand& s : parts_.summands()) {
-            const std::string kind = s.in_angle ? "wrong_argument" : "sign", term = parts_.trimmed(s.whole);
-            if (s.first && s.negated)
-                try_change({s.at.left, s.at.offset, 1}, "", kind, term);
-            else if (s.first)
-                try_change(s.at, s.compound ? "-(" + parts_.slice(s.at) + ")" : "-" + parts_.slice(s.at), kind,
-                           term);
-            else if (const auto sign = parts_.operator_before(s))
-                try_change(*sign, s.negated ? "+" : "-", kind, term);
-            if (found_) return;
+    /// The slip that the smallest of these changes sets right.
+    struct Found {
+        Slip slip;
+        double size;
+    };
+    std::optional<Found> smallest(std::vector<Edit>& edits) {
+        std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.size < b.size; });
+        std::optional<Found> best;
+        for (const Edit& edit : edits) {
+            if (best && edit.size >= best->size + largest_bonus) break;
+            auto slip = after(edit);
+            if (!slip) continue;
+            const double size = edit.size - bonus(edit);
+            if (!best || size < best->size) best = Found{std::move(*slip), size};
         }
+        return best;
     }
 
-    void trigonometry() {
-        for (const ClaimLeaf& leaf : parts_.leaves()) {
-            if (leaf.tree->kind != Kind::call || (leaf.tree->text != "sin" && leaf.tree->text != "cos")) continue;
-            const std::string other = leaf.tree->text == "sin" ? "cos" : "sin";
-            if (try_change(leaf, {leaf.at.left, leaf.at.offset, 3}, other, "swapped_trig")) return;
-        }
-    }
+    // What may stand in an equation
 
-    void arguments() {
-        std::vector<std::string> candidates;
-        std::set<std::string> known;
-        const auto add = [&](const std::string& text) {
-            if (known.insert(text).second) candidates.push_back(text);
-        };
-        for (const std::string& text : equation_texts()) {
-            std::vector<Diagnostic> mistakes;
-            const Expression e = parse_expression(text, {}, mistakes);
-            if (e.tree) add_arguments(*e.tree, text, add);
-        }
-        for (const ClaimLeaf& leaf : parts_.leaves())
-            if (is_trig(leaf)) add(argument(leaf));
-        for (const ClaimLeaf& leaf : parts_.leaves()) {
-            if (!is_trig(leaf)) continue;
-            for (const std::string& candidate : candidates)
-                if (candidate != argument(leaf) &&
-                    try_change(leaf, leaf.tree->text + "(" + candidate + ")", "wrong_argument"))
-                    return;
-        }
-    }
-
-    static bool is_trig(const ClaimLeaf& leaf) {
-        return leaf.tree->kind == Kind::call &&
-               (leaf.tree->text == "sin" || leaf.tree->text == "cos" || leaf.tree->text == "tan");
-    }
-    std::string argument(const ClaimLeaf& leaf) const {
-        return parts_.trimmed(ClaimParts::stretch(*leaf.tree->args[0], leaf.at.left));
-    }
-
-    template <typename Add>
-    static void add_arguments(const Tree& tree, const std::string& text, const Add& add) {
-        if (tree.kind == Kind::call && (tree.text == "sin" || tree.text == "cos" || tree.text == "tan"))
-            add(text.substr(static_cast<std::size_t>(tree.args[0]->offset),
-                            static_cast<std::size_t>(tree.args[0]->length)));
-        for (const TreePtr& arg : tree.args) add_arguments(*arg, text, add);
-    }
-
-    std::vector<std::string> equation_texts() const {
-        std::vector<std::string> result;
-        for (const auto& row : rows_of(m_, e_))
-            if (row && row->size() > 0) result.push_back(text(readable(*row)));
-        return result;
-    }
-
-    /// A coordinate, or an input: its derivatives occur too.
-    bool has_rate(const std::string& name) const {
-        return std::any_of(m_.q.begin(), m_.q.end(),
-                           [&](const GiNaC::symbol& q) { return q.get_name() == name; }) ||
-               std::any_of(m_.inputs.begin(), m_.inputs.end(),
-                           [&](const Mechanism::Input& input) { return input.derivative[0].get_name() == name; });
-    }
-
-    void dots() {
-        for (const int more : {1, 2, -1, -2})
-            for (const ClaimLeaf& leaf : parts_.leaves()) {
-                if (leaf.tree->kind != Kind::name || !has_rate(leaf.tree->text) || leaf.in_angle) continue;
-                const int primes = leaf.tree->primes + more;
-                if (primes < 0 || primes > 2) continue;
-                if (try_change(leaf, leaf.tree->text + std::string(static_cast<std::size_t>(primes), '\''),
-                               "lost_dot"))
-                    return;
-            }
-        // θ'² written θ'
-        for (const ClaimLeaf& leaf : parts_.leaves())
-            if (leaf.tree->kind == Kind::name && has_rate(leaf.tree->text) && leaf.tree->primes == 1 &&
-                try_change(leaf, "(" + parts_.slice(leaf.at) + ")^2", "lost_dot"))
-                return;
-    }
-
-    void find_lengths() {
+    ClaimWords words_of_scene() const {
+        ClaimWords words;
         for (const Mechanism::Parameter& p : m_.parameters) {
             const std::string name = p.symbol.get_name();
-            parameters_.push_back(name);
+            words.parameters.push_back(name);
             bool is_length = p.unit == "m";
             for (const MassElement& body :
                  m_.masses)  // used if units are not given; an angular rate occurs in positions too
@@ -195,182 +86,231 @@ private:
                     is_length = is_length || (p.unit.empty() && m_.z->depends(x, {p.symbol}));
             const bool without_units = m_.masses.empty() && p.unit.empty();
             if (is_length || (without_units && std::string("lLrRabdhs").find(name[0]) != std::string::npos))
-                lengths_.insert(name);
+                words.lengths.insert(name);
         }
+        for (const GiNaC::symbol& q : m_.q) words.coordinates.push_back(q.get_name());
+        for (const Mechanism::Input& input : m_.inputs) words.inputs.push_back(input.derivative[0].get_name());
+        for (const GiNaC::symbol& lambda : e_.lambda) words.multipliers.push_back(lambda.get_name());
+        const EquationTerms& terms = judge_.terms();
+        std::set<std::string> angles = terms.angles;
+        for (const Expression* side : {&claim_.equation.lhs, &claim_.equation.rhs})
+            add_angles(*side->tree, angles);
+        for (const std::string& angle : angles)
+            if (const TreePtr tree = tree_of(angle)) words.angles.push_back(tree);
+        for (const std::string& term : terms.steady)
+            if (const TreePtr tree = tree_of(term)) words.steady.push_back(tree);
+        return words;
     }
 
-    /// Replaces a parameter by another, adds one or removes one, among the lengths or among the others.
-    void parameters(bool lengths) {
-        const std::string kind = lengths ? "wrong_arm" : "factor";
-        for (const ClaimLeaf& leaf : parts_.leaves()) {
-            if (leaf.tree->kind != Kind::name || lengths_.contains(leaf.tree->text) != lengths) continue;
-            if (std::find(parameters_.begin(), parameters_.end(), leaf.tree->text) == parameters_.end()) continue;
-            for (const std::string& other : parameters_)
-                if (other != leaf.tree->text && lengths_.contains(other) == lengths &&
-                    try_change(leaf, other, kind))
-                    return;
-            const std::optional<TextStretch> removable = parts_.with_its_star(leaf.at);
-            if (removable ? try_change(leaf, *removable, "", kind) : try_change(leaf, "1", kind)) return;
-            for (const char* exponent : {"2", "3", "-1"})
-                if (try_change(leaf, leaf.tree->text + "^" + exponent, kind)) return;
-        }
-        for (const ClaimSummand& s : parts_.summands())
-            for (const std::string& name : parameters_)
-                if (lengths_.contains(name) == lengths)
-                    for (const char* operation : {"*", "/"})
-                        if (try_change(s.at, parts_.scaled(s, operation, name), kind, parts_.trimmed(s.whole)))
-                            return;
+    static void add_angles(const Tree& tree, std::set<std::string>& angles) {
+        if (tree.kind == Tree::Kind::call && (tree.text == "sin" || tree.text == "cos" || tree.text == "tan"))
+            angles.insert(plain_text_of(*tree.args[0]));
+        for (const TreePtr& arg : tree.args) add_angles(*arg, angles);
     }
 
-    void numbers() {
-        for (const char* other : {"1", "2", "3", "4", "1/2", "6", "8", "12"})
-            for (const ClaimLeaf& leaf : parts_.leaves())
-                if (leaf.tree->kind == Kind::number && !leaf.exponent && leaf.tree->text != other &&
-                    try_change(leaf, other, leaf.in_angle ? "wrong_argument" : "factor"))
-                    return;
-        for (const char* factor : {"2", "1/2", "3", "1/3", "4", "1/4", "3/2", "2/3", "4/3", "3/4", "6", "1/6", "5",
-                                   "1/5", "8", "1/8", "12", "1/12"}) {
-            for (const ClaimSummand& s : parts_.summands()) {
-                const bool lone = s.first && s.whole.offset == s.at.offset && s.whole.length == s.at.length &&
-                                  parts_.is_alone_on_its_side(s);
-                if (lone) continue;
-                if (try_change(s.at, parts_.scaled(s, "*", std::string("(") + factor + ")"),
-                               s.in_angle ? "wrong_argument" : "factor", parts_.trimmed(s.whole)))
-                    return;
+    // Asking
+
+    /// The slip that this change sets right.
+    std::optional<Slip> after(const Edit& edit) {
+        if (judge_.arithmetic != nullptr) {
+            if (judge_.arithmetic->effort() > most_effort || !judge_.arithmetic->vanishes(*edit.lhs, *edit.rhs) ||
+                only_vanishes(edit))
+                return std::nullopt;
+        }
+        const std::string lhs = text_of(*edit.lhs, claim_.equation.lhs.text),
+                          rhs = text_of(*edit.rhs, claim_.equation.rhs.text);
+        asked_ += lhs.size() + rhs.size();
+        if (asked_ > most_asked) return std::nullopt;
+        std::vector<Diagnostic> mistakes;
+        Claim repaired = claim_;
+        repaired.equation = parse_equality(lhs + " = " + rhs, {}, mistakes, claim_.at == Claim::At::impact);
+        if (!mistakes.empty() || !repaired.equation.lhs || !repaired.equation.rhs || !judge_.is_right(repaired))
+            return std::nullopt;
+        if (judge_.arithmetic == nullptr && only_vanishes(edit)) return std::nullopt;
+        return Slip{.kind = edit.kind,
+                    .term = edit.term,
+                    .repair = text_of(repaired.equation),
+                    .should_be = edit.should_be,
+                    .written = edit.written,
+                    .meant = edit.meant,
+                    .also = edit.also};
+    }
+
+    /// A change that makes its term vanish on every motion is no correction, unless the term is all that there is.
+    bool only_vanishes(const Edit& edit) {
+        if (!edit.changed || edit.kind == "sign" || edit.kind == "missing_term") return false;
+        const bool alone = std::any_of(edits_.summands.begin(), edits_.summands.end(), [&](const Summand& s) {
+            return s.alone && !s.in_angle && !s.in_derivative &&
+                   text_of(*s.body, s.left ? claim_.equation.lhs.text : claim_.equation.rhs.text) == edit.term;
+        });
+        if (alone) return false;
+        if (judge_.arithmetic != nullptr) {
+            for (std::size_t k = 0; k < judge_.arithmetic->points(); ++k)
+                if (const auto value = judge_.arithmetic->value(*edit.changed, k); value && !value->is_zero())
+                    return false;
+            return true;
+        }
+        std::vector<Diagnostic> mistakes;
+        const Expression changed =
+            parse_equality(plain_text_of(*edit.changed) + " = 0", {}, mistakes, claim_.at == Claim::At::impact)
+                .lhs;
+        return changed.tree && judge_.vanishes(changed);
+    }
+
+    /// How much smaller the change counts because the changed claim's terms are those of the scene's equations,
+    /// energies or momenta, but for their signs, or for one factor of parameters too.
+    double bonus(const Edit& edit) {
+        if (judge_.arithmetic == nullptr || judge_.arithmetic->points() < SteadyFactors::states) return 0;
+        if (!known_) know_terms();
+        std::vector<Values> terms;
+        for (const TreePtr& side : {edit.lhs, edit.rhs})
+            for (const TreePtr& term : side->kind == Tree::Kind::sum ? side->args : std::vector<TreePtr>{side}) {
+                if (is_constant(*term)) continue;
+                auto values = values_of(*term);
+                if (!values) return 0;
+                if (!is_zero(*values)) terms.push_back(std::move(*values));
             }
-        }
-        // For a summand that is alone on its side of the equation.
-        for (const char* factor : {"2", "1/2", "3", "1/3", "4", "1/4"})
-            for (const ClaimSummand& s : parts_.summands())
-                if (try_change(s.at, parts_.scaled(s, "*", std::string("(") + factor + ")"),
-                               s.in_angle ? "wrong_argument" : "factor", parts_.trimmed(s.whole)))
-                    return;
-    }
-
-    void powers() {
-        for (const ClaimLeaf& leaf : parts_.leaves()) {
-            if (leaf.tree->kind != Kind::power || leaf.tree->args[1]->kind != Kind::number) continue;
-            const TextStretch exponent = ClaimParts::stretch(*leaf.tree->args[1], leaf.at.left);
-            const Tree& base = *leaf.tree->args[0];
-            const std::string kind =
-                base.kind == Kind::name && lengths_.contains(base.text) ? "wrong_arm" : "factor";
-            for (const char* other : {"1", "2", "3", "4"})
-                if (try_change(leaf, exponent, other, kind)) return;
-        }
-    }
-
-    // With the nearest right equation
-
-    /// Tries the claim minus `wrong`, as text.
-    bool try_without(const Fourier& wrong, const std::string& kind, const std::string& term) {
-        const std::string addition = text(readable(Rational(-1) * wrong));
-        const std::string lhs =
-            parts_.sides()[0] + (addition.starts_with('-') ? " - " + addition.substr(1) : " + " + addition);
-        if (const auto right = ask(lhs, parts_.sides()[1])) found_ = Slip{kind, term, *right};
-        return found_.has_value();
-    }
-
-    /// Tries a missing term of the nearest equation as a whole.
-    void missing_own() {
-        if (!nearest_) return;
-        const auto rows = rows_of(m_, e_);
-        const auto& row = rows[static_cast<std::size_t>(nearest_->row)];
-        const Fourier term = Rational(-1) * nearest_->wrong;
-        for (const Fourier& part : parts_of(nearest_->scale * *row))
-            if (is_zero(part - term)) try_without(nearest_->wrong, "missing_term", text(readable(term)));
-    }
-
-    /// Tries whether a force of the claim's own row was exchanged with one of another row, or a force was added
-    /// from another row.
-    void wrong_row() {
-        if (!nearest_ || nearest_->row >= e_.size()) return;
-        const auto forces = [&](int i) {
-            std::vector<Fourier> result;
-            GiNaC::exmap still;
-            for (const GiNaC::symbol& rate : m_.qdot) still[rate] = 0;
-            for (const ex& force :
-                 {e_.applied[i], ex(m_.z->expand(e_.own[i]).subs(still, GiNaC::subs_options::no_pattern))})
-                if (m_.z->tree_size(force) < 3000)
-                    if (const auto f = fourier(m_.z->expand(force), *m_.symbols, 2000); f && f->size() > 0) {
-                        result.push_back(*f);
-                        const std::vector<Fourier> parts = parts_of(*f);
-                        if (parts.size() > 1) result.insert(result.end(), parts.begin(), parts.end());
-                    }
-            return result;
+        const auto is_known = [&](const Values& term) { return known_->contains(term); };
+        if (std::all_of(terms.begin(), terms.end(), is_known)) return largest_bonus;
+        const auto fits = [&](const Values& first) {
+            const Values scale = quotient(terms[0], first);
+            return steady_->of({scale[0], scale[1], scale[2]}) &&
+                   std::all_of(terms.begin() + 1, terms.end(),
+                               [&](const Values& term) { return is_known(quotient(term, scale)); });
         };
-        // The difference that remains after the own force has been restored.
-        std::vector<Fourier> left{nearest_->wrong};
-        for (const Fourier& own : forces(nearest_->row)) left.push_back(nearest_->wrong - nearest_->scale * own);
-        for (const Fourier& rest : left)
-            for (int j = 0; j < e_.size(); ++j) {
-                if (j == nearest_->row || rest.size() == 0) continue;
-                for (const Fourier& other : forces(j)) {
-                    const auto ratio = steady_ratio(other.terms()[0], rest.terms()[0]);
-                    if (!ratio || !is_zero(rest - *ratio * other)) continue;
-                    if (try_without(nearest_->wrong, "wrong_row", text(readable(rest)))) return;
+        return std::any_of(known_->begin(), known_->end(), fits) ? bonus_but_for_a_factor : 0;
+    }
+
+    using Values = std::vector<Prime>;
+
+    void know_terms() {
+        std::set<std::string> texts(judge_.terms().of_energies.begin(), judge_.terms().of_energies.end());
+        for (const auto& row : rows_of(m_, e_))
+            if (row)
+                for (const Fourier& part : parts_of(*row)) texts.insert(text(readable(part)));
+        known_.emplace();
+        for (const std::string& term : texts)
+            if (const TreePtr tree = tree_of(term))
+                if (const auto values = values_of(*tree); values && !any_zero(*values)) {
+                    known_->insert(negative(*values));
+                    known_->insert(*values);
                 }
-            }
+        std::vector<SteadyFactors::Values> parameters;
+        for (const std::string& name : words_.parameters)
+            if (const auto values = values_of(*name_tree(name)); values && !any_zero(*values))
+                parameters.push_back({(*values)[0], (*values)[1], (*values)[2]});
+        steady_.emplace(std::move(parameters));
     }
 
-    void extra() {
-        for (const ClaimSummand& s : parts_.summands()) {
-            if (s.in_angle || parts_.is_only_one(s)) continue;
-            TextStretch gone = s.at;
-            if (!s.first && !s.negated) {
-                const auto sign = parts_.operator_before(s);
-                if (!sign) continue;
-                gone = {s.at.left, sign->offset, s.at.offset + s.at.length - sign->offset};
-            }
-            if (try_change(gone, s.first ? "0" : "", "extra_term", parts_.trimmed(s.at))) return;
+    std::optional<Values> values_of(const Tree& tree) {
+        Values values;
+        for (std::size_t k = 0; k < judge_.arithmetic->points(); ++k)
+            if (const auto value = judge_.arithmetic->value(tree, k))
+                values.push_back(*value);
+            else
+                return std::nullopt;
+        return values;
+    }
+    static Values negative(Values values) {
+        for (Prime& value : values) value = -value;
+        return values;
+    }
+    static Values quotient(Values values, const Values& by) {
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] *= by[k].inverse();
+        return values;
+    }
+    static bool is_zero(const Values& values) {
+        return std::all_of(values.begin(), values.end(), [](Prime value) { return value.is_zero(); });
+    }
+    static bool any_zero(const Values& values) {
+        return std::any_of(values.begin(), values.end(), [](Prime value) { return value.is_zero(); });
+    }
+    bool is_constant(const Tree& term) const {
+        return term.kind == Tree::Kind::name &&
+               std::any_of(claim_.constants.begin(), claim_.constants.end(),
+                           [&](const Name& name) { return name.text == term.text; });
+    }
+
+    // Whole terms
+
+    void add_own_terms(std::vector<Edit>& edits) const {
+        if (const auto nearest = nearest_equation(residual_, m_, e_)) {
+            const auto rows = rows_of(m_, e_);
+            const auto& row = rows[static_cast<std::size_t>(nearest->row)];
+            const Fourier missing = Rational(-1) * nearest->wrong;
+            Fourier rest = missing;
+            int terms = 0;
+            for (const Fourier& part : parts_of(nearest->scale * *row))
+                if ((rest - part).size() + part.size() == rest.size()) rest = rest - part, ++terms;
+            if (alembert::is_zero(rest) && terms > 0 && terms <= most_own_terms)
+                if (const TreePtr term = tree_of(text(readable(missing))))
+                    edits.push_back(
+                        edits_.with_term(term, is_accelerated(*term), of_own_term + of_more_terms * (terms - 1)));
+            for (Edit& edit : alien_forces(*nearest, edits_, m_, e_, of_alien_force))
+                edits.push_back(std::move(edit));
         }
     }
 
-    void missing() {
-        if (!nearest_) return;
-        const Fourier term = Rational(-1) * nearest_->wrong;
-        const Phrase shown = readable(term);
-        constexpr std::size_t most_missing = 3;
-        if (shown.kind == Phrase::Kind::sum && shown.args.size() > most_missing) return;
-        try_without(nearest_->wrong, "missing_term", text(shown));
-    }
-
-    void absent() {
+    void add_absent_terms(std::vector<Edit>& edits) {
         constexpr std::size_t most_tried = 12;
-        // If the term is there already with another factor, the factor is wrong.
-        std::vector<std::string> own;
-        for (const ClaimSummand& s : parts_.summands())
-            if (s.whole.offset == s.at.offset && s.whole.left == s.at.left && !s.in_angle)
-                own.push_back(
-                    "(" +
-                    parts_.trimmed(s.negated ? TextStretch{s.at.left, s.at.offset + 1, s.at.length - 1} : s.at) +
-                    ")");
-        for (const bool there : {true, false}) {
-            const auto terms = judge_.absent(claim_, there ? own : std::vector<std::string>());
-            for (std::size_t k = 0; k < std::min(most_tried, terms.size()) && !found_; ++k) {
-                const auto& [by, term] = terms[k];
-                const std::string more = term == "1"  ? by
-                                         : by == "1"  ? term
-                                         : by == "-1" ? "-" + term
-                                                      : by + "*" + term;
-                if (const auto right =
-                        ask(parts_.sides()[0] + (more[0] == '-' ? " - " + more.substr(1) : " + " + more),
-                            parts_.sides()[1]))
-                    found_ = there ? Slip{"factor", term, *right} : Slip{"missing_term", more, *right};
-            }
-        }
+        const std::vector<AbsentTerm> absent = judge_.absent();
+        for (std::size_t k = 0; k < std::min(most_tried, absent.size()); ++k)
+            if (const TreePtr term = tree_of(product_text(absent[k])); term && !is_there(*term))
+                edits.push_back(
+                    edits_.with_term(tidy(term), is_accelerated(*term), of_absent_term + 0.1 * absent[k].effort));
+    }
+
+    static std::string product_text(const AbsentTerm& absent) {
+        if (absent.term == "1") return absent.by;
+        if (absent.by == "1") return absent.term;
+        return absent.by == "-1" ? "-" + absent.term : absent.by + "*" + absent.term;
+    }
+
+    /// With equal factors together.
+    TreePtr tidy(const TreePtr& term) const {
+        if (term->kind == Tree::Kind::sum) return term;
+        return merged(term, [this](const Tree& tree) { return words_.is_steady(tree); });
+    }
+
+    /// Whether it is a number times a term that the claim has.
+    bool is_there(const Tree& term) {
+        if (judge_.arithmetic == nullptr || claim_.at == Claim::At::impact)
+            return false;  // the pose is fixed there
+        const auto values = values_of(term);
+        return values && std::any_of(edits_.summands.begin(), edits_.summands.end(), [&](const Summand& s) {
+                   const auto own = s.in_angle ? std::nullopt : values_of(*s.body);
+                   if (!own || values->empty()) return false;
+                   for (std::size_t k = 1; k < values->size(); ++k)
+                       if ((*own)[k] * (*values)[0] != (*own)[0] * (*values)[k]) return false;
+                   return !(*own)[0].is_zero();
+               });
+    }
+
+    /// Two terms whose signs are both wrong, as those of one potential.
+    void add_pairs_of_signs(std::vector<Edit>& edits) const {
+        constexpr std::size_t most_terms = 12;
+        std::vector<const Summand*> terms;
+        for (const Summand& s : edits_.summands)
+            if (!s.in_angle && !s.in_derivative) terms.push_back(&s);
+        if (terms.size() > most_terms || judge_.arithmetic == nullptr) return;
+        for (std::size_t i = 0; i < terms.size(); ++i)
+            for (std::size_t j = i + 1; j < terms.size(); ++j)
+                if (auto edit = edits_.with_two_signs(*terms[i], *terms[j], of_two_signs))
+                    edits.push_back(std::move(*edit));
     }
 
     const Claim& claim_;
+    const ex& residual_;
     const Mechanism& m_;
     const Equations& e_;
     const Judge& judge_;
-    ClaimParts parts_;
-    std::vector<std::string> parameters_;
-    std::set<std::string> lengths_;
-    std::optional<Nearest> nearest_;
-    std::optional<Slip> found_;
-    static constexpr std::size_t most_asked = 300000;  // in bytes of claims, which takes some tenths of a second
+    ClaimWords words_;
+    Edits edits_;
+    static constexpr std::size_t most_asked = 300000;    // in bytes of claims, which takes some tenths of a second
+    static constexpr std::size_t most_effort = 3000000;  // nodes, likewise
     std::size_t asked_ = 0;
+    std::optional<std::set<Values>> known_;  ///< values of the terms of the scene's equations, with both signs
+    std::optional<SteadyFactors> steady_;    ///< factors of parameters
 };
 
 }  // namespace

@@ -1,44 +1,56 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Finds the probable mistake of a student: the one small change that makes a claim right.
+/// Finds the probable mistake of a student: the smallest change in one place that makes a claim right.
 ///
-///     const Judge judge{.is_right = …, .vanishes = …, .absent = …};
+///     const Judge judge{.is_right = …, .vanishes = …, .terms = …, .absent = …};
 ///     const auto slip = likely_slip(claim, residual, mechanism, equations, judge);
 ///     slip->kind      // "sign"
-///     slip->term      // "-m*g*sin(theta)", as the claim has it
+///     slip->term      // "m*g*sin(theta)", as the claim has it
+///     slip->repair    // "m*l*theta'' + m*g*sin(theta) = 0"
 ///
-/// The following changes are tried in this order: a sign; sine for cosine; another argument; a dot (or a square)
-/// more; another length, or one more or less; a number, another parameter or a power; a term of the nearest
-/// equation that is missing; a force that belongs to another equation; a term too many; any other term that is
-/// missing (check/absent.hpp). The first change after which `is_right` is true is the answer, unless it only makes
-/// its term vanish; `is_right` is called at most a few hundred times.
+/// All changes (check/edits.hpp) are ordered by their size, from a sign to a whole term. The first after which
+/// `is_right` is true is the answer, unless it only makes its term vanish. Where a claim can be evaluated at exact
+/// states, what each term would have to be there is computed too: a number, powers of parameters, a sine that is
+/// missing. `is_right` is then asked about the few changes that make the claim hold at these states.
 
 #include <functional>
 #include <optional>
 
+#include "check/absent.hpp"
 #include "formalism/equations.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {
 
+class ClaimArithmetic;
+
 /// `kind` as in commands.md: sign factor lost_dot missing_term extra_term swapped_trig wrong_argument wrong_arm
 /// wrong_row wrong_unit unknown.
 struct Slip {
     std::string kind = "unknown";
-    std::string term;    ///< as the claim writes it; for a missing term, as it should be
-    std::string repair;  ///< the corrected claim
+    std::string term = {};       ///< as the claim writes it; for a missing term, as it should be
+    std::string repair = {};     ///< the corrected claim
+    std::string should_be = {};  ///< what `term` should be; empty if `kind` says it
+    std::string written = {};    ///< what stands in the term and should not: "sin", "l^2", a factor
+    std::string meant = {};      ///< what should stand there instead, or a factor that is missing
+    std::string also = {};       ///< a second term whose sign is wrong too
+};
+
+/// A term that the claim may lack: the coefficient and the term, to be added on the left, "2*m" and "r'*phi'", and
+/// how much there is in the coefficient.
+struct AbsentTerm {
+    std::string by, term;
+    int effort = 0;
 };
 
 /// The questions that can be asked about modified claims.
 struct Judge {
     std::function<bool(const Claim&)> is_right;
     std::function<bool(const Expression&)> vanishes;  ///< whether it is zero on every motion
-    /// Multiples of `terms`, or of terms that are usual in mechanics if there are none, each of which may be
-    /// missing on the left side of `claim`: "2*m" and "r'*phi'". The simplest first.
-    std::function<std::vector<std::pair<std::string, std::string>>(const Claim& claim,
-                                                                   std::vector<std::string> terms)>
-        absent;
+    std::function<const EquationTerms&()> terms;      ///< what stands in the equations
+    std::function<std::vector<AbsentTerm>()> absent;  ///< the simplest first
+    ClaimArithmetic* arithmetic = nullptr;            ///< of the claim; null if it cannot be evaluated
 };
 
 std::optional<Slip> likely_slip(const Claim& claim, const GiNaC::ex& residual, const Mechanism& mechanism,

@@ -92,4 +92,21 @@ bool depends_on_shares(ExactStates& states, const Program& p, int root) {
     return false;
 }
 
+bool depends_on_sides(const Program& p, const std::vector<int>& roots) {
+    const std::vector<int> needed = p.needed(roots);
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        return p[id].op == Op::sign || p[id].op == Op::abs || p[id].op == Op::sqrt;
+    });
+}
+
+bool is_identity(const Program& p, int root) {
+    if (depends_on_sides(p, {root})) return false;
+    constexpr std::uint64_t points = 3;
+    for (std::uint64_t seed = 1; seed <= points; ++seed) {
+        const auto at = evaluate_mod(p, {.seed = seed}, std::array{root});
+        if (!at || !at->value[root].is_zero()) return false;
+    }
+    return true;
+}
+
 }  // namespace alembert

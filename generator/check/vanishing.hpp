@@ -35,6 +35,14 @@ std::optional<bool> vanishes_with_some_signs(ExactStates& states, const Program&
 /// rest. This is enough to find a correction, but not to prove it.
 bool vanishes_at_two(ExactStates& states, const Program& program, int root);
 
+/// Whether signs decide: Legendre's symbol takes their place in exact arithmetic, and that of 3 is −1, so that
+/// 3 times something positive counts as negative. A root is the one of two that counts as positive: that of 9
+/// is −3.
+bool depends_on_sides(const Program& program, const std::vector<int>& roots);
+
+/// Is the node zero whatever values the variables have? What holds because a parameter is positive is no identity.
+bool is_identity(const Program& program, int root);
+
 /// log₂ of the probability that this state does not lie on a given branch of the constraints.
 double chance_of_another_branch(const ExactState& state);
 

@@ -15,18 +15,17 @@ const char* name_of(Verdict verdict) {
                       to_say("vacuous")}[static_cast<std::size_t>(verdict)];
 }
 
-std::string words_of(const Slip& slip) {
-    if (slip.kind == "sign") return say("a sign: of the term {}", slip.term);
-    if (slip.kind == "factor") return say("a factor: in the term {}", slip.term);
-    if (slip.kind == "lost_dot") return say("a lost dot or square: in the term {}", slip.term);
-    if (slip.kind == "missing_term") return say("a term is missing: {}", slip.term);
-    if (slip.kind == "extra_term") return say("a term too many: {}", slip.term);
-    if (slip.kind == "swapped_trig") return say("sine and cosine exchanged: in the term {}", slip.term);
-    if (slip.kind == "wrong_argument") return say("another angle: in the term {}", slip.term);
-    if (slip.kind == "wrong_arm") return say("another length or arm: in the term {}", slip.term);
-    if (slip.kind == "wrong_row") return say("a force that belongs into another equation: {}", slip.term);
-    if (slip.kind == "wrong_unit") return say("a term of another dimension than the others: {}", slip.term);
-    return say("unknown");
+std::string words_of_completeness(const Checked& checked) {
+    if (checked.complete) return say("With the constraints, the claims that hold determine the motion.");
+    const int missing = checked.missing, all = checked.freedom;
+    if (missing == 0) return say("The claims that hold do not determine the motion.");
+    if (all == 1) return say("The equation of motion is still missing.");
+    return missing == 1 ? say("1 of {} equations of motion is still missing.", all)
+                        : say("{} of {} equations of motion are still missing.", missing, all);
+}
+
+bool is_missing_term(const CheckedClaim& claim) {
+    return claim.likely && claim.likely->kind == "missing_term" && claim.likely->written.empty();
 }
 
 namespace {
@@ -51,7 +50,10 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     if (checked.verdict == Verdict::refuted) {
         const Slip slip = checked.likely.value_or(Slip{});
         json["likely"] = {{"kind", slip.kind}, {"term", slip.term}};
-        if (!slip.repair.empty()) json["likely"]["repair"] = slip.repair;
+        for (const auto& [name, value] :
+             {std::pair("repair", slip.repair), std::pair("should_be", slip.should_be),
+              std::pair("written", slip.written), std::pair("meant", slip.meant), std::pair("also", slip.also)})
+            if (!value.empty()) json["likely"][name] = value;
     }
     if (!checked.reason.empty()) json["reason"] = checked.reason;
     if (!checked.where.empty()) json["where"] = checked.where;
@@ -89,12 +91,9 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
                            : say("on another branch of the constraints, as at {}, it fails", where));
     }
     if (c.verdict != Verdict::refuted) return page;
-    if (!c.nearest.empty()) line(say("nearest right equation: "), c.nearest);
-    if (!c.difference.empty()) line(say("the claim has beyond that: "), c.difference);
-    if (c.likely) {
-        line(say("likely "), words_of(*c.likely));
-        if (!c.likely->repair.empty()) line(say("right is: "), c.likely->repair);
-    }
+    if (!c.difference.empty() && !is_missing_term(c)) line(say("extra in your equation: "), c.difference);
+    if (c.likely) line(say("probable slip: "), words_of(*c.likely));
+    if (!c.nearest.empty()) line(say("correct equation: "), c.nearest);
     if (!c.counterexample.empty()) {
         std::string state;
         for (const auto& [name, value] : c.counterexample)
@@ -113,6 +112,8 @@ Json as_json(const CheckedScene& checked) {
     for (std::size_t k = 0; k < checked.checked.claims.size(); ++k)
         json["claims"].push_back(json_of(checked.scene.claims[k], checked.checked.claims[k]));
     json["complete"] = checked.checked.complete;
+    json["missing_equations"] = checked.checked.missing;
+    json["degrees_of_freedom"] = checked.checked.freedom;
     return json;
 }
 
@@ -120,9 +121,7 @@ std::string as_text(const CheckedScene& checked, const Ink& ink) {
     std::string page;
     for (std::size_t k = 0; k < checked.checked.claims.size(); ++k)
         page += text_of(checked.scene.claims[k], checked.checked.claims[k], ink);
-    return page + (checked.checked.complete
-                       ? say("With the constraints, the claims that hold determine the motion.\n")
-                       : say("The claims that hold do not determine the motion.\n"));
+    return page + words_of_completeness(checked.checked) + "\n";
 }
 
 }  // namespace alembert

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "check/check.hpp"
+#include "check/slip_words.hpp"
 #include "report/ink.hpp"
 #include "report/json.hpp"
 
@@ -10,8 +11,10 @@ namespace alembert {
 Json as_json(const CheckedScene& checked);
 std::string as_text(const CheckedScene& checked, const Ink& ink = {});
 
-/// A mistake in words: "a sign: of the term -m*g".
-std::string words_of(const Slip& slip);
+/// Whether the right claims determine the motion, as a sentence.
+std::string words_of_completeness(const Checked& checked);
+/// Whether the difference from the correct equation is just the term that the slip names.
+bool is_missing_term(const CheckedClaim& claim);
 /// The verdict as a word: "proved" …
 const char* name_of(Verdict verdict);
 

@@ -111,17 +111,11 @@ void add_claim(std::string& body, const Claim& claim, const CheckedClaim& c) {
                           : say("Proved by exact evaluation at random states; the chance of an error is below {}.",
                                 fmt::format("2<sup>{:.0f}</sup>", c.failure)));
     if (c.verdict == Verdict::refuted) {
-        if (c.likely) {
-            put(body, "<p>{}</p>\n", html(say("Likely {}.", words_of(*c.likely))));
-            if (!c.likely->repair.empty())
-                put(body, "<p>{}<code class=\"repair\">{}</code></p>\n", say("Right is: "),
-                    html(c.likely->repair));
-        }
-        if (!c.nearest.empty() && (!c.likely || c.likely->repair.empty()))
-            put(body, "<p>{}<code>{}</code></p>\n", say("Nearest right equation: "), html(c.nearest));
-        if (!c.difference.empty())
-            put(body, "<p>{}<code>{}</code></p>\n", say("The claim has beyond the nearest right equation: "),
-                html(c.difference));
+        if (c.likely) put(body, "<p>{}</p>\n", html(say("Probable slip: {}.", words_of(*c.likely))));
+        if (!c.nearest.empty())
+            put(body, "<p>{}<code class=\"repair\">{}</code></p>\n", say("Correct equation: "), html(c.nearest));
+        if (!c.difference.empty() && !is_missing_term(c))
+            put(body, "<p>{}<code>{}</code></p>\n", say("Extra in your equation: "), html(c.difference));
         if (!c.counterexample.empty()) {
             put(body, "<details><summary>{}</summary><dl class=\"state\">", say("A state at which it fails"));
             for (const auto& [name, value] : c.counterexample)
@@ -146,9 +140,7 @@ void add_claims(PageParts& page, const Overview& all) {
     put(page.body, "<ol class=\"claims\">\n");
     for (std::size_t k = 0; k < checked.claims.size(); ++k)
         add_claim(page.body, all.checked.value->scene.claims[k], checked.claims[k]);
-    put(page.body, "</ol>\n<p>{}</p>\n",
-        checked.complete ? say("With the constraints, the claims that hold determine the motion.")
-                         : say("The claims that hold do not determine the motion."));
+    put(page.body, "</ol>\n<p>{}</p>\n", html(words_of_completeness(checked)));
     page.end();
 }
 
