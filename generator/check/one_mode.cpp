@@ -97,6 +97,9 @@ private:
         if (!mistakes.empty()) fail(now_.scene, mistakes);
         constants_.emplace(now_.scene, claims_, now_.forms);
         if (sheets_) now_.positive = sheets_->positive();
+        if (now_.scene.claims.empty()) return;
+        for (const Inequality& assumed : now_.scene.claims[0].where)  // those of one mode assume the same
+            now_.positive.push_back(claims_.read(assumed.greater) - claims_.read(assumed.less));
     }
 
     /// Whether the claim's own arithmetic fails, so that there is nothing to compare.

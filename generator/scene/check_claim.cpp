@@ -38,6 +38,20 @@ void check_sticking(const Claim& claim, const CheckedParts& of, std::unordered_s
     }
 }
 
+void check_closed(const Claim& claim, const CheckedParts& of) {
+    std::vector<std::string> known;
+    for (const UnilateralRule& contact : of.scene.unilateral) known.push_back(contact.name.text);
+    if (known.empty())
+        complain(of, claim.place,
+                 say("a claim speaks of the motion while contacts are closed, and the scene has no "
+                     "[[unilateral]]"));
+    for (const std::string& name : claim.closed)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            complain(of, claim.place,
+                     say("a claim speaks of the motion while {} is closed, and no contact has this name{}",
+                         in_quotes(name), of.quantities.suggestion(name, known)));
+}
+
 /// The values of coordinates and rates near which it holds.
 void check_near(const Claim& claim, const CheckedParts& of) {
     for (const auto& [name, value] : claim.near) {
@@ -86,13 +100,20 @@ void check_claim(const Claim& claim, const CheckedParts& of) {
             more.insert(name.text);
         }
     if (claim.at == Claim::At::sticking) check_sticking(claim, of, more);
+    if (claim.at == Claim::At::closed) check_closed(claim, of);
     check_near(claim, of);
+    if (!claim.where.empty() && claim.at != Claim::At::motion && claim.at != Claim::At::rest &&
+        claim.at != Claim::At::closed && claim.at != Claim::At::sticking)
+        complain(of, claim.place,
+                 say("a claim with 'where' is about motions or states of rest; leave it out here"));
     if (claim.at == Claim::At::solution && claim.equation.lhs.tree) {
         check_solution_form(claim, of, more);
         return;
     }
+    const bool is_of_motion =
+        claim.at == Claim::At::motion || claim.at == Claim::At::sticking || claim.at == Claim::At::closed;
     const Legal anything{.subject = say("a claim"),
-                         .order = claim.at == Claim::At::motion || claim.at == Claim::At::sticking ? 3 : 2,
+                         .order = is_of_motion ? 3 : 2,
                          .input_order = 2,
                          .time = true,
                          .advice = {},
@@ -101,6 +122,10 @@ void check_claim(const Claim& claim, const CheckedParts& of) {
                          .claim = true};
     of.quantities.check(claim.equation.lhs, anything);
     of.quantities.check(claim.equation.rhs, anything);
+    for (const Inequality& assumed : claim.where) {
+        of.quantities.check(assumed.greater, anything);
+        of.quantities.check(assumed.less, anything);
+    }
 }
 
 }  // namespace alembert

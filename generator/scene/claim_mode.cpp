@@ -16,7 +16,8 @@ constexpr std::array mode_words{std::pair{Claim::At::motion, std::string_view("m
                                 std::pair{Claim::At::impact, std::string_view("impact")},
                                 std::pair{Claim::At::solution, std::string_view("solution")},
                                 std::pair{Claim::At::near, std::string_view("near")},
-                                std::pair{Claim::At::sticking, std::string_view("sticking")}};
+                                std::pair{Claim::At::sticking, std::string_view("sticking")},
+                                std::pair{Claim::At::closed, std::string_view("closed")}};
 
 /// The names after the word; nothing if the text does not begin with the word and a blank, and is not the word.
 std::optional<std::vector<std::string>> names_after(std::string_view word, const std::string& text) {
@@ -35,7 +36,7 @@ bool set_mode(Claim& claim, const std::string& text) {
     for (const auto& [at, word] : mode_words) {
         if (at == Claim::At::near) continue;
         std::vector<std::string> names;
-        if (at == Claim::At::sticking) {
+        if (at == Claim::At::sticking || at == Claim::At::closed) {
             std::optional<std::vector<std::string>> found = names_after(word, text);
             if (!found) continue;
             names = std::move(*found);
@@ -43,7 +44,8 @@ bool set_mode(Claim& claim, const std::string& text) {
             continue;
         }
         claim.at = at;
-        claim.sticking = std::move(names);
+        claim.sticking = claim.closed = {};
+        (at == Claim::At::closed ? claim.closed : claim.sticking) = std::move(names);
         return true;
     }
     return false;
@@ -53,7 +55,8 @@ std::string mode_text(const Claim& claim) {
     std::string text;
     for (const auto& [at, word] : mode_words)
         if (at == claim.at) text = word;
-    for (const std::string& name : claim.sticking) text += ' ' + name;
+    for (const auto* names : {&claim.sticking, &claim.closed})
+        for (const std::string& name : *names) text += ' ' + name;
     return text;
 }
 

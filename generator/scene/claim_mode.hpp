@@ -11,12 +11,12 @@
 
 namespace alembert {
 
-/// Sets `at` and `sticking` from "motion", "rest", "impact", "solution", or "sticking" with the names of frictions
-/// after it, between blanks of any kind. False, with the claim unchanged, for any other text. (A claim near a
-/// state is written with the values of that state.)
+/// Sets `at`, `sticking` and `closed` from "motion", "rest", "impact", "solution", "sticking" with the names of
+/// frictions after it, or "closed" with those of contacts, between blanks of any kind. False, with the claim
+/// unchanged, for any other text. (A claim near a state is written with the values of that state.)
 bool set_mode(Claim& claim, const std::string& text);
 
-/// The text of `at` and `sticking`.
+/// The text of `at`, `sticking` and `closed`.
 std::string mode_text(const Claim& claim);
 
 }  // namespace alembert

@@ -97,13 +97,23 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
                     {source.place(begin), say("'{}' names nothing; expected names after it", first)});
             continue;
         }
+        if (first == "where") {
+            std::vector<Place> places;
+            const std::size_t from = words[0].offset + first.size();
+            for (std::size_t k = from; k <= line.size(); ++k) places.push_back(source.place(begin + k));
+            if (words.size() == 1)
+                common.where.clear();
+            else
+                common.where.push_back(parse_inequality(line.substr(from), places, mistakes));
+            continue;
+        }
         if (!is_equation && set_mode(common, joined(words))) {
             common.near.clear();
             continue;
         }
         if (is_equation && first == "near" && words.size() > 1) {
             common.at = Claim::At::near;
-            common.sticking.clear();
+            common.sticking = common.closed = {};
             common.near = values_after(line, words[1].offset, source, begin, mistakes);
             continue;
         }

@@ -9,6 +9,8 @@
 ///     m*xC'^2 + J*phi'^2 = c
 ///     rest | impact | motion          what the claims that follow speak of
 ///     sticking slope                  of the motion while this friction sticks; without names, all of them
+///     closed wall                     of the motion while this contact is closed; without names, all of them
+///     where lambda_wall > 0           this is assumed; without an inequality, nothing is any more
 
 #include "scene/scene.hpp"
 

@@ -324,6 +324,28 @@ Equality parse_equality(const std::string& text, const std::vector<Place>& place
     return result;
 }
 
+Inequality parse_inequality(const std::string& text, const std::vector<Place>& places,
+                            std::vector<Diagnostic>& diagnostics) {
+    const Expression whole{text, places, nullptr};
+    const std::size_t sign = text.find_first_of("<>");
+    const auto refuse = [&](std::size_t offset, const std::string& message) {
+        diagnostics.push_back({whole.place(static_cast<int>(offset)), message});
+        return Inequality{};
+    };
+    if (sign == std::string::npos || text.find_first_of("<>=", sign + 1) != std::string::npos)
+        return refuse(0, say("an assumption has one sign > or <, as in \"lambda > 0\""));
+    const auto is_blank = [&](std::size_t from, std::size_t to) {
+        return text.substr(from, to - from).find_first_not_of(" \t\r\n") == std::string::npos;
+    };
+    if (is_blank(0, sign)) return refuse(sign, say("nothing stands to the left of {}", text[sign]));
+    if (is_blank(sign + 1, text.size())) return refuse(sign, say("nothing stands to the right of {}", text[sign]));
+    Expression left = slice(text, places, 0, sign), right = slice(text, places, sign + 1, text.size());
+    left.tree = parse(left, false, diagnostics);
+    right.tree = parse(right, false, diagnostics);
+    return text[sign] == '>' ? Inequality{std::move(left), std::move(right)}
+                             : Inequality{std::move(right), std::move(left)};
+}
+
 std::string text_of(const Equality& equation) {
     std::string result;
     for (const char c : equation.lhs.text + " = " + equation.rhs.text) {

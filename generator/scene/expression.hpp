@@ -61,6 +61,14 @@ struct Equality {
     Expression lhs, rhs;
 };
 
+/// An inequality `greater > less`, or `less < greater`.
+struct Inequality {
+    Expression greater, less;
+};
+
+Inequality parse_inequality(const std::string& text, const std::vector<Place>& places,
+                            std::vector<Diagnostic>& diagnostics);
+
 /// The text `lhs = rhs` without superfluous blanks.
 std::string text_of(const Equality& equation);
 

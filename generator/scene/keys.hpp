@@ -76,7 +76,7 @@ inline constexpr TableKeys table_keys[] = {
     {"simulation",
      TableKeys::Shape::one,
      {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "regularize", "period"}},
-    {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at", "near"}},
+    {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at", "near", "where"}},
 };
 
 /// Throws std::logic_error if the list has no such table, which is a mistake in the reader.

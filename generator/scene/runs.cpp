@@ -158,10 +158,12 @@ void read_claim(Table table, Scene& scene) {
         if (!set_mode(claim, at->text))
             table.reading().complain(
                 at->place,
-                say("a claim is held at \"motion\", \"rest\", \"impact\", \"solution\" or \"sticking\", "
-                    "not at {}",
+                say("a claim is held at \"motion\", \"rest\", \"impact\", \"solution\", \"sticking\" or "
+                    "\"closed\", not at {}",
                     in_quotes(at->text)));
     }
+    if (const Entry* const where = table.find("where"))
+        claim.where = read_inequalities(table.reading(), *where->node, table.what("where"));
     if (table.has("near")) {
         claim.near = values_by_name(table, "near", say("values of coordinates and rates: {{ theta = 0 }}"),
                                     say("the value of"));

@@ -262,10 +262,12 @@ struct Claim {
     std::string source;
     std::vector<Name> unknowns, constants;
     /// Of what it speaks: any motion, states of rest, impulses, one motion in closed form, motions near a state,
-    /// or motions while friction sticks.
-    enum class At : unsigned char { motion, rest, impact, solution, near, sticking };
+    /// motions while friction sticks, or motions while contacts are closed.
+    enum class At : unsigned char { motion, rest, impact, solution, near, sticking, closed };
     At at = At::motion;
     std::vector<std::string> sticking = {};  ///< at `sticking`: the frictions that do; all if there are none here
+    std::vector<std::string> closed = {};    ///< at `closed`: the contacts that are; all if there are none here
+    std::vector<Inequality> where = {};      ///< what it assumes besides
     /// Where it holds to first order: coordinates, and rates as "x'", with their values in parameters.
     std::vector<std::pair<Name, Expression>> near = {};
 };

@@ -106,6 +106,25 @@ Equality read_equality(const Reading& reading, const toml::node& node, bool rate
     return parse_equality(literal.text, literal.places, reading.diagnostics, rates_before);
 }
 
+std::vector<Inequality> read_inequalities(const Reading& reading, const toml::node& node,
+                                          const std::string& what) {
+    std::vector<Inequality> result;
+    const auto read = [&](const toml::node& one) {
+        if (!one.is_string()) {
+            reading.complain(place_of(one),
+                             mismatch(what, one, say("an inequality in quotes, or an array of them")));
+            return;
+        }
+        const Literal literal = read_literal(reading, one);
+        result.push_back(parse_inequality(literal.text, literal.places, reading.diagnostics));
+    };
+    if (const toml::array* const array = node.as_array())
+        for (const toml::node& element : *array) read(element);
+    else
+        read(node);
+    return result;
+}
+
 Expression zero(Place place) {
     std::vector<Diagnostic> none;
     return parse_expression("0", {place, place}, none);

@@ -45,6 +45,9 @@ Expression read_expression(const Reading& reading, const toml::node& node, const
 /// Reads an equation, which must be a string.
 Equality read_equality(const Reading& reading, const toml::node& node, bool rates_before);
 
+/// Reads an inequality in quotes, or an array of such.
+std::vector<Inequality> read_inequalities(const Reading& reading, const toml::node& node, const std::string& what);
+
 /// The number 0, for a value that may be missing.
 Expression zero(Place place);
 
