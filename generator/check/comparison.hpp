@@ -28,6 +28,7 @@ struct Comparison {
     std::vector<CheckedClaim> verdicts = {};  ///< likewise
     /// What is positive on the sheet of the scene and its claims, not of repairs that are tried.
     std::vector<GiNaC::ex> positive = {};
+    std::vector<GiNaC::ex> assumed = {};  ///< of these, what the claims assume themselves
 
     // For the claims that are compared now:
     Claim::At at = Claim::At::motion;         ///< motion, rest or impact

@@ -99,7 +99,8 @@ private:
         if (sheets_) now_.positive = sheets_->positive();
         if (now_.scene.claims.empty()) return;
         for (const Inequality& assumed : now_.scene.claims[0].where)  // those of one mode assume the same
-            now_.positive.push_back(claims_.read(assumed.greater) - claims_.read(assumed.less));
+            now_.assumed.push_back(claims_.read(assumed.greater) - claims_.read(assumed.less));
+        now_.positive.insert(now_.positive.end(), now_.assumed.begin(), now_.assumed.end());
     }
 
     /// Whether the claim's own arithmetic fails, so that there is nothing to compare.
@@ -187,6 +188,7 @@ private:
             for (const int halves : {0, 1, 2}) {
                 made.emplace(mechanism, now_.law, at, halves, halvings, Motions::Positions::solved, 0, own);
                 if (stays) made->stay_on_own_branch();
+                if (!now_.assumed.empty()) keep_assumed(*made);
                 const bool helps_no_more = stays && halves >= std::max(halvings, states->motions.halves());
                 if (helps_no_more || (made->get(0) != nullptr && can_be_evaluated(here, *made))) break;
             }
@@ -223,6 +225,20 @@ private:
                     say("the constraints cannot be solved one after the other, and it leaves names open");
         settle_open_claims(now_, open, *states);
         now_.on_own_branch = nullptr;
+    }
+
+    /// What is assumed to be positive is a square in exact arithmetic, whose signs are Legendre's symbols.
+    void keep_assumed(ExactStates& states) const {
+        Program p;
+        const std::vector<int> roots = claims_.lower(p, now_.assumed);
+        states.keep_where(
+            [p = std::move(p), roots](const ModularPoint& point) {
+                const auto at = evaluate_mod(p, point, roots);
+                return at && std::all_of(roots.begin(), roots.end(), [&](int root) {
+                           return !at->value[root].is_zero() && at->value[root].is_square();
+                       });
+            },
+            static_cast<double>(roots.size()));
     }
 
     /// Refutes a claim about rest by a state in numbers, where there are no exact states.
