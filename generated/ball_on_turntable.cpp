@@ -1,11 +1,34 @@
 // Equations of motion of 'ball_on_turntable': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], psi [rad], theta [rad], phi [rad], then wx, wy, wz
-//   par    m [kg], r [m], Omega [rad/s]
-//   cost   28 operations a right-hand side: 7 additions, 16 multiplications, 1 division, 4 functions
+// M(q) u' = f(q, u, t), q' = h(q, u, t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[8]        x [m], y [m], psi [rad], theta [rad], phi [rad], then wx, wy, wz
+//   rate[8]         d state / dt
+//   par[15]         m = 0.4 [kg], r = 0.05 [m], Omega = 3 [rad/s],
+//                   then 12 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[3]: wx, wy, wz
+//   constraints_at  position[2], velocity[2]; rows[16], A row by row
+//   multipliers_at  lambda[2]
+//   cost            28 operations a right-hand side: 7 additions, 16 multiplications, 1 division, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "ball_on_turntable.cpp"
+//
+//   int main() {
+//       const double state[8] = {0.3, -0.1, 0.1, 1.2, 0.4, 1, 4, 0.5};
+//       double par[15], rate[8];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'bead_on_turning_circle': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  theta [rad], then their rates
-//   par    m [kg], R [m], Omega [rad/s]
-//   cost   2 operations a right-hand side: 0 additions, 1 multiplication, 0 divisions, 1 function
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[2]        theta [rad], then their rates
+//   rate[2]         d state / dt
+//   par[9]          m = 0.2 [kg], R = 0.5 [m], Omega = 3 [rad/s],
+//                   then 6 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[1], M row by row; forcing[1], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            2 operations a right-hand side: 0 additions, 1 multiplication, 0 divisions, 1 function
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "bead_on_turning_circle.cpp"
+//
+//   int main() {
+//       const double state[2] = {1, 0};
+//       double par[9], rate[2];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

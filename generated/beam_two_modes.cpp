@@ -1,18 +1,38 @@
 // Equations of motion of 'beam_two_modes': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  q1 [m], q2 [m], then their rates
-//   par    rho [kg/m], L [m], EI [N*m^2], M [kg], P [N]
-//   cost   14 operations a right-hand side: 6 additions, 8 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        q1 [m], q2 [m], then their rates
+//   rate[4]         d state / dt
+//   par[18]         rho = 2 [kg/m], L = 1.5 [m], EI = 30 [N*m^2], M = 0.5 [kg], P = 1 [N],
+//                   then 13 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            14 operations a right-hand side: 6 additions, 8 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "beam_two_modes.cpp"
+//
+//   int main() {
+//       const double state[4] = {0.1, 0, 0, 0};
+//       double par[18], rate[4];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &rho = par[0], &L = par[1], &EI = par[2], &M = par[3];
+    const Real &rho = par[0], &L = par[1], &EI_ = par[2], &M = par[3];
 
     // Constants
     const Real z0 = rho * L;
@@ -20,7 +40,7 @@ void prepare(Real* par) {
     const Real M10 = M + (Real(1) / Real(6)) * z0;
     const Real M11 = M + (Real(1) / Real(7)) * z0;
     const Real z1 = Real(1) / L;
-    const Real z2 = EI * z1 * z1 * z1;
+    const Real z2 = EI_ * z1 * z1 * z1;
     const Real k0 = Real(6) * z2;
     const Real k1 = Real(4) * z2;
     const Real k2 = Real(12) * z2;

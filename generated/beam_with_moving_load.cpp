@@ -1,11 +1,31 @@
 // Equations of motion of 'beam_with_moving_load': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  q [m], then their rates
-//   par    mu [kg/m], L [m], EI [N*m^2], M [kg], v [m/s], g [m/s^2]
-//   cost   19 operations a right-hand side: 4 additions, 12 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[2]        q [m], then their rates
+//   rate[2]         d state / dt
+//   par[15]         mu = 20 [kg/m], L = 10 [m], EI = 100000 [N*m^2], M = 50 [kg], v = 2 [m/s], g = 9.81 [m/s^2],
+//                   then 9 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[1], M row by row; forcing[1], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            19 operations a right-hand side: 4 additions, 12 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "beam_with_moving_load.cpp"
+//
+//   int main() {
+//       const double state[2] = {0, 0};
+//       double par[15], rate[2];
+//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 
@@ -20,7 +40,7 @@ inline double sin(double x), cos(double x);
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &mu = par[0], &L = par[1], &EI = par[2], &M = par[3], &v = par[4], &g = par[5];
+    const Real &mu = par[0], &L = par[1], &EI_ = par[2], &M = par[3], &v = par[4], &g = par[5];
 
     // Constants
     const Real z0 = mu * L;
@@ -28,7 +48,7 @@ void prepare(Real* par) {
     const Real z1 = Real(1) / L;
     const Real k1 = v * z1 * Real(3.14159265358979323846264338327950288L);
     const Real z2 = Real(3.14159265358979323846264338327950288L) * Real(3.14159265358979323846264338327950288L);
-    const Real z3 = EI * z1 * z1 * z1 * z2 * z2;
+    const Real z3 = EI_ * z1 * z1 * z1 * z2 * z2;
     const Real k2 = Real(0.5) * z3;
     const Real k3 = k1 * k1;
     const Real k4 = M * g;

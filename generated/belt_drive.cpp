@@ -1,11 +1,31 @@
 // Equations of motion of 'belt_drive': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  theta1 [rad], theta2 [rad], then their rates
-//   par    J1 [kg*m^2], J2 [kg*m^2], r1 [m], r2 [m], k [N/m], M [N m]
-//   cost   9 operations a right-hand side: 3 additions, 6 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        theta1 [rad], theta2 [rad], then their rates
+//   rate[4]         d state / dt
+//   par[13]         J1 = 0.2 [kg*m^2], J2 = 0.5 [kg*m^2], r1 = 0.1 [m], r2 = 0.25 [m], k = 2000 [N/m],
+//                   M = 1.5 [N m], then 7 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            9 operations a right-hand side: 3 additions, 6 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "belt_drive.cpp"
+//
+//   int main() {
+//       const double state[4] = {0.05, 0, 0, 0};
+//       double par[13], rate[4];
+//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,33 @@
 // Equations of motion of 'cart_pole': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], theta [rad], then their rates
-//   par    M [kg], m [kg], l [m], b [N s/m], F0 [N], w [rad/s], g [m/s^2]
-//   cost   23 operations a right-hand side: 5 additions, 14 multiplications, 1 division, 3 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x [m], theta [rad], then their rates
+//   rate[4]         d state / dt
+//   par[14]         M = 1 [kg], m = 0.3 [kg], l = 0.5 [m], b = 0.2 [N s/m], F0 = 2 [N], w = 4 [rad/s],
+//                   g = 9.81 [m/s^2], then 7 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: height, power
+//   events_at       out[1]: pole_level
+//   cost            23 operations a right-hand side: 5 additions, 14 multiplications, 1 division, 3 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "cart_pole.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0.15, 0, 0};
+//       double par[14], rate[4];
+//       for (int k = 0; k < 7; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,32 @@
 // Equations of motion of 'cart_rod': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], phi [rad], then their rates
-//   par    m1 [kg], m2 [kg], l [m], g [m/s^2]
-//   cost   17 operations a right-hand side: 3 additions, 11 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x [m], phi [rad], then their rates
+//   rate[4]         d state / dt
+//   par[11]         m1 = 2 [kg], m2 = 1.5 [kg], l = 0.6 [m], g = 9.81 [m/s^2],
+//                   then 7 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[3]: tip_x, tip_y, momentum
+//   cost            17 operations a right-hand side: 3 additions, 11 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "cart_rod.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 1.1, 0.3, 0};
+//       double par[11], rate[4];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

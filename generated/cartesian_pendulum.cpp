@@ -1,11 +1,35 @@
 // Equations of motion of 'cartesian_pendulum': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], then their rates
-//   par    m [kg], l [m], g [m/s^2]
-//   cost   18 operations a right-hand side: 4 additions, 13 multiplications, 1 division, 0 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x [m], y [m], then their rates
+//   rate[4]         d state / dt
+//   par[9]          m = 2 [kg], l = 1 [m], g = 9.81 [m/s^2],
+//                   then 6 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[1]: tension
+//   constraints_at  position[1], velocity[1]; rows[2], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[4], position[1], pivots[1]
+//   cost            18 operations a right-hand side: 4 additions, 13 multiplications, 1 division, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "cartesian_pendulum.cpp"
+//
+//   int main() {
+//       const double state[4] = {1, 0, 0, 0};
+//       double par[9], rate[4];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,32 @@
 // Equations of motion of 'central_force': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  r, phi [rad], then their rates
-//   par    m, k
-//   cost   14 operations a right-hand side: 1 addition, 11 multiplications, 2 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        r, phi [rad], then their rates
+//   rate[4]         d state / dt
+//   par[5]          m = 1, k = 1, then 3 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[3]: x, y, areal
+//   events_at       out[1]: apsis
+//   cost            14 operations a right-hand side: 1 addition, 11 multiplications, 2 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "central_force.cpp"
+//
+//   int main() {
+//       const double state[4] = {1, 0.3, 0.1, 1.2};
+//       double par[5], rate[4];
+//       for (int k = 0; k < 2; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

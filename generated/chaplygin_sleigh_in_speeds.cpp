@@ -1,11 +1,34 @@
 // Equations of motion of 'chaplygin_sleigh_in_speeds': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], phi [rad], then v [m/s], w [rad/s]
-//   par    m [kg], J [kg*m^2], a [m]
-//   cost   9 operations a right-hand side: 0 additions, 7 multiplications, 0 divisions, 2 functions
+// M(q) u' = f(q, u, t), q' = h(q, u, t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[5]        x [m], y [m], phi [rad], then v [m/s], w [rad/s]
+//   rate[5]         d state / dt
+//   par[8]          m = 1 [kg], J = 1 [kg*m^2], a = 0.5 [m],
+//                   then 5 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: v, w
+//   constraints_at  position[1], velocity[1]; rows[5], A row by row
+//   multipliers_at  lambda[1]
+//   cost            9 operations a right-hand side: 0 additions, 7 multiplications, 0 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "chaplygin_sleigh_in_speeds.cpp"
+//
+//   int main() {
+//       const double state[5] = {0, 0, 0, 0.5, 2};
+//       double par[8], rate[5];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,35 @@
 // Equations of motion of 'coin': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], theta [rad], phi [rad], then their rates
-//   par    m [kg], r [m], J1 [kg*m^2], J3 [kg*m^2], beta [rad], g [m/s^2]
-//   cost   32 operations a right-hand side: 8 additions, 20 multiplications, 2 divisions, 2 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[8]        x [m], y [m], theta [rad], phi [rad], then their rates
+//   rate[8]         d state / dt
+//   par[14]         m = 0.02 [kg], r = 0.015 [m], J1 = 2.25e-06 [kg*m^2], J3 = 1.125e-06 [kg*m^2],
+//                   beta = 0.1 [rad], g = 9.81 [m/s^2],
+//                   then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[16], M row by row; forcing[4], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[2], velocity[2]; rows[8], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[8], position[2], pivots[2]
+//   cost            32 operations a right-hand side: 8 additions, 20 multiplications, 2 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "coin.cpp"
+//
+//   int main() {
+//       const double state[8] = {0, 0, 0.3, 0, 0.286600946738, 0.0886560619984, 2, 20};
+//       double par[14], rate[8];
+//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,32 @@
 // Equations of motion of 'condenser_microphone': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], q [C], then their rates
-//   par    m [kg], c [N s/m], k [N/m], d [m], a [F m], L [H], R [V/A], E [V]
-//   cost   18 operations a right-hand side: 6 additions, 11 multiplications, 0 divisions, 1 function
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x [m], q [C], then their rates
+//   rate[4]         d state / dt
+//   par[17]         m = 0.001 [kg], c = 0.05 [N s/m], k = 20 [N/m], d = 0.01 [m], a = 0.001 [F m], L = 0.2 [H],
+//                   R = 5 [V/A], E = 0.5 [V],
+//                   then 9 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            18 operations a right-hand side: 6 additions, 11 multiplications, 0 divisions, 1 function
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "condenser_microphone.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0.04, 0, 0};
+//       double par[17], rate[4];
+//       for (int k = 0; k < 8; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,32 @@
 // Equations of motion of 'coupled_oscillators': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x1 [m], x2 [m], then their rates
-//   par    m1 [kg], m2 [kg], k1 [N/m], k2 [N/m], k3 [N/m], c1 [N s/m], c2 [N s/m]
-//   cost   15 operations a right-hand side: 6 additions, 9 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x1 [m], x2 [m], then their rates
+//   rate[4]         d state / dt
+//   par[18]         m1 = 1 [kg], m2 = 0.5 [kg], k1 = 20 [N/m], k2 = 5 [N/m], k3 = 15 [N/m], c1 = 0.05 [N s/m],
+//                   c2 = 0.1 [N s/m], then 11 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[1]: loss
+//   cost            15 operations a right-hand side: 6 additions, 9 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "coupled_oscillators.cpp"
+//
+//   int main() {
+//       const double state[4] = {0.2, -0.1, 0, 0.5};
+//       double par[18], rate[4];
+//       for (int k = 0; k < 7; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,32 @@
 // Equations of motion of 'crane': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], l [m], theta [rad], then their rates
-//   par    M [kg], m [kg], g [m/s^2], F0 [N], S0 [N], w [rad/s]
-//   cost   47 operations a right-hand side: 12 additions, 29 multiplications, 2 divisions, 4 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        x [m], l [m], theta [rad], then their rates
+//   rate[6]         d state / dt
+//   par[12]         M = 50 [kg], m = 20 [kg], g = 9.81 [m/s^2], F0 = 30 [N], S0 = 4 [N], w = 1.5 [rad/s],
+//                   then 6 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: load_x, load_y
+//   cost            47 operations a right-hand side: 12 additions, 29 multiplications, 2 divisions, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "crane.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 5, 0.1, 0, 0, 0};
+//       double par[12], rate[6];
+//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

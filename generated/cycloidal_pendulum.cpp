@@ -1,11 +1,32 @@
 // Equations of motion of 'cycloidal_pendulum': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  phi [rad], then their rates
-//   par    m [kg], a [m], g [m/s^2]
-//   cost   10 operations a right-hand side: 2 additions, 5 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[2]        phi [rad], then their rates
+//   rate[2]         d state / dt
+//   par[6]          m = 1 [kg], a = 0.25 [m], g = 9.81 [m/s^2],
+//                   then 3 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[1], M row by row; forcing[1], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[1]: arc
+//   cost            10 operations a right-hand side: 2 additions, 5 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "cycloidal_pendulum.cpp"
+//
+//   int main() {
+//       const double state[2] = {1.5, 0};
+//       double par[6], rate[2];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,34 @@
 // Equations of motion of 'cylinder_on_wedge': routh, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  X [m], s [m], phi [rad], then their rates
-//   par    M [kg], m [kg], r [m], alpha [rad], g [m/s^2]
-//   cost   0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        X [m], s [m], phi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[22]         M = 3 [kg], m = 1 [kg], r = 0.1 [m], alpha = 0.6 [rad], g = 9.81 [m/s^2],
+//                   then 17 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[1], velocity[1]; rows[3], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[6], position[1], pivots[1]
+//   cost            0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "cylinder_on_wedge.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 0, 0, 0, 0, 0};
+//       double par[22], rate[6];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'double_atwood': lagrange, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], then their rates
-//   par    m1 [kg], m2 [kg], m3 [kg], g [m/s^2]
-//   cost   0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x [m], y [m], then their rates
+//   rate[4]         d state / dt
+//   par[14]         m1 = 2 [kg], m2 = 1.1 [kg], m3 = 0.9 [kg], g = 9.81 [m/s^2],
+//                   then 10 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "double_atwood.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0, 0, 0};
+//       double par[14], rate[4];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

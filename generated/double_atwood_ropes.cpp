@@ -1,11 +1,35 @@
 // Equations of motion of 'double_atwood_ropes': routh, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  y1 [m], z [m], y2 [m], y3 [m], then their rates
-//   par    m1 [kg], m2 [kg], m3 [kg], mp [kg], L1 [m], L2 [m], g [m/s^2]
-//   cost   0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[8]        y1 [m], z [m], y2 [m], y3 [m], then their rates
+//   rate[8]         d state / dt
+//   par[27]         m1 = 2 [kg], m2 = 1.1 [kg], m3 = 0.9 [kg], mp = 0.3 [kg], L1 = 10 [m], L2 = 8 [m],
+//                   g = 9.81 [m/s^2], then 20 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[16], M row by row; forcing[4], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: upper_tension, lower_tension
+//   constraints_at  position[2], velocity[2]; rows[8], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[8], position[2], pivots[2]
+//   cost            0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "double_atwood_ropes.cpp"
+//
+//   int main() {
+//       const double state[8] = {5, 5, 8, 10, 0, 0, 0, 0};
+//       double par[27], rate[8];
+//       for (int k = 0; k < 7; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

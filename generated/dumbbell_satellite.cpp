@@ -1,11 +1,31 @@
 // Equations of motion of 'dumbbell_satellite': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  theta [rad], phi [rad], then their rates
-//   par    I [kg*m^2], n [rad/s]
-//   cost   26 operations a right-hand side: 5 additions, 16 multiplications, 1 division, 4 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        theta [rad], phi [rad], then their rates
+//   rate[4]         d state / dt
+//   par[10]         I = 10 [kg*m^2], n = 0.5 [rad/s],
+//                   then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            26 operations a right-hand side: 5 additions, 16 multiplications, 1 division, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "dumbbell_satellite.cpp"
+//
+//   int main() {
+//       const double state[4] = {0.3, 0.2, 0, 0};
+//       double par[10], rate[4];
+//       for (int k = 0; k < 2; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 
@@ -20,15 +40,15 @@ inline double sin(double x), cos(double x);
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &I = par[0], &n = par[1];
+    const Real &I_ = par[0], &n = par[1];
 
     // Constants
-    const Real k0 = I * n * n;
+    const Real k0 = I_ * n * n;
     const Real k1 = Real(3) * k0;
-    const Real k2 = Real(2) * I * n;
-    const Real k3 = Real(2) * I;
-    const Real k4 = Real(1) / I;
-    const Real k5 = Real(0.5) * I;
+    const Real k2 = Real(2) * I_ * n;
+    const Real k3 = Real(2) * I_;
+    const Real k4 = Real(1) / I_;
+    const Real k5 = Real(0.5) * I_;
     const Real k6 = Real(2) * k0;
     const Real k7 = Real(1.5) * k0;
 
@@ -47,7 +67,7 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &theta = state[0], &phi = state[1], &theta_dot = state[2], &phi_dot = state[3];
-    const Real &I = par[0], &k0 = par[2], &k1 = par[3], &k2 = par[4], &k3 = par[5], &k4 = par[6];
+    const Real &I_ = par[0], &k0 = par[2], &k1 = par[3], &k2 = par[4], &k3 = par[5], &k4 = par[6];
 
     // Trigonometry
     const auto trig0 = sincos(phi, theta);
@@ -55,14 +75,14 @@ void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
         cos_theta = trig0.cosine[1];
 
     // Mass matrix M(q), lower triangle
-    // M10 = 0, M11 = I
-    const Real M00 = I * cos_phi * cos_phi;
+    // M10 = 0, M11 = I_
+    const Real M00 = I_ * cos_phi * cos_phi;
 
     // Forcing f
     const Real z0 = k1 * cos_theta;
     const Real z1 = phi_dot * (k2 + k3 * theta_dot) * sin_phi;
     const Real f0 = -(z0 * sin_theta * cos_phi - z1) * cos_phi;
-    const Real z2 = theta_dot * (k2 + I * theta_dot);
+    const Real z2 = theta_dot * (k2 + I_ * theta_dot);
     const Real f1 = -(z2 + (k0 + z0 * cos_theta)) * sin_phi * cos_phi;
 
     // Solve M q'' = f with M = L D L^T
@@ -80,7 +100,7 @@ void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
 template <typename Real>
 void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
     const Real &theta = state[0], &phi = state[1], &theta_dot = state[2], &phi_dot = state[3];
-    const Real &I = par[0], &k0 = par[2], &k1 = par[3], &k2 = par[4], &k3 = par[5];
+    const Real &I_ = par[0], &k0 = par[2], &k1 = par[3], &k2 = par[4], &k3 = par[5];
 
     // Trigonometry
     const auto trig0 = sincos(phi, theta);
@@ -88,20 +108,20 @@ void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, R
         cos_theta = trig0.cosine[1];
 
     // Mass matrix M(q), lower triangle
-    const Real M00 = I * cos_phi * cos_phi;
+    const Real M00 = I_ * cos_phi * cos_phi;
 
     // Forcing f
     const Real z0 = k1 * cos_theta;
     const Real z1 = phi_dot * (k2 + k3 * theta_dot) * sin_phi;
     const Real f0 = -(z0 * sin_theta * cos_phi - z1) * cos_phi;
-    const Real z2 = theta_dot * (k2 + I * theta_dot);
+    const Real z2 = theta_dot * (k2 + I_ * theta_dot);
     const Real z3 = (z2 + (k0 + z0 * cos_theta)) * sin_phi * cos_phi;
     const Real f1 = -z3;
 
     // Result
     mass[0] = M00;
     mass[1] = mass[2] = Real(0);
-    mass[3] = I;
+    mass[3] = I_;
     forcing[0] = f0;
     forcing[1] = f1;
 }

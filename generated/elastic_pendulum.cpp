@@ -1,11 +1,32 @@
 // Equations of motion of 'elastic_pendulum': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  r [m], theta [rad], then their rates
-//   par    m [kg], k [N/m], l0 [m], g [m/s^2]
-//   cost   19 operations a right-hand side: 4 additions, 12 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        r [m], theta [rad], then their rates
+//   rate[4]         d state / dt
+//   par[9]          m = 1 [kg], k = 40 [N/m], l0 = 0.8 [m], g = 9.81 [m/s^2],
+//                   then 5 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: x, y
+//   cost            19 operations a right-hand side: 4 additions, 12 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "elastic_pendulum.cpp"
+//
+//   int main() {
+//       const double state[4] = {1, 0.7, 0, 0};
+//       double par[9], rate[4];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

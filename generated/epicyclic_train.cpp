@@ -1,11 +1,35 @@
 // Equations of motion of 'epicyclic_train': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  sun [rad], phi [rad], psi [rad], then their rates
-//   par    a [m], b [m], m [kg], Is [kg*m^2], Ip [kg*m^2], Ic [kg*m^2], M [N m], N1 [N m]
-//   cost   0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        sun [rad], phi [rad], psi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[26]         a = 0.2 [m], b = 0.1 [m], m = 0.5 [kg], Is = 0.02 [kg*m^2], Ip = 0.003 [kg*m^2],
+//                   Ic = 0.05 [kg*m^2], M = 1.2 [N m], N1 = 3 [N m],
+//                   then 18 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[2], velocity[2]; rows[6], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[6], position[2], pivots[2]
+//   cost            0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "epicyclic_train.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 0.3, 0, 0, 0, 0};
+//       double par[26], rate[6];
+//       for (int k = 0; k < 8; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 
@@ -156,7 +180,7 @@ void multipliers_at(const Real&, const Real*, const Real* par, Real* lambda) {
 /// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
 void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
-    const Real &sun = state[0], &phi = state[1], &psi = state[2], &sun_dot = state[3], &phi_dot = state[4];
+    const Real &sun_ = state[0], &phi = state[1], &psi = state[2], &sun_dot = state[3], &phi_dot = state[4];
     const Real &psi_dot = state[5];
     const Real &a = par[0], &b = par[1], &k0 = par[9], &k1 = par[10], &k2 = par[11], &k3 = par[12], &k4 = par[13];
     const Real &k5 = par[14], &k6 = par[15], &k7 = par[16], &k8 = par[17];
@@ -169,7 +193,7 @@ void project(const Real&, const Real* state, const Real* par, Real* out, Real* p
     const Real z4 = k5 * z2 + k6 * z3;
 
     // Result
-    out[0] = sun;
+    out[0] = sun_;
     out[1] = phi;
     out[2] = psi;
     out[3] = sun_dot - k1 * z4;

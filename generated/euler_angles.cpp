@@ -1,11 +1,31 @@
 // Equations of motion of 'euler_angles': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  psi [rad], theta [rad], phi [rad], then their rates
-//   par    A [kg m^2], B [kg m^2], C [kg m^2]
-//   cost   73 operations a right-hand side: 19 additions, 47 multiplications, 2 divisions, 5 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        psi [rad], theta [rad], phi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[7]          A = 1 [kg m^2], B = 1.4 [kg m^2], C = 2 [kg m^2],
+//                   then 4 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            73 operations a right-hand side: 19 additions, 47 multiplications, 2 divisions, 5 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "euler_angles.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.2, 1.1, 0.5, 0.3, -0.2, 1};
+//       double par[7], rate[6];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,34 @@
 // Equations of motion of 'falling_stick': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  theta [rad], x [m], y [m], then their rates
-//   par    m [kg], a [m], g [m/s^2]
-//   cost   15 operations a right-hand side: 3 additions, 9 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        theta [rad], x [m], y [m], then their rates
+//   rate[6]         d state / dt
+//   par[10]         m = 0.5 [kg], a = 0.6 [m], g = 9.81 [m/s^2],
+//                   then 7 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[1], velocity[1]; rows[3], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[6], position[1], pivots[1]
+//   cost            15 operations a right-hand side: 3 additions, 9 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "falling_stick.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.2, 0, 0.588039946705, 0, 0, 0};
+//       double par[10], rate[6];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

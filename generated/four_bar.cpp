@@ -1,11 +1,34 @@
 // Equations of motion of 'four_bar': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  alpha [rad], beta [rad], gamma [rad], then their rates
-//   par    a [m], b [m], c [m], d [m], m1 [kg], m2 [kg], m3 [kg]
-//   cost   97 operations a right-hand side: 28 additions, 58 multiplications, 3 divisions, 8 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        alpha [rad], beta [rad], gamma [rad], then their rates
+//   rate[6]         d state / dt
+//   par[16]         a = 1 [m], b = 4 [m], c = 3.5 [m], d = 3 [m], m1 = 1 [kg], m2 = 2 [kg], m3 = 1.5 [kg],
+//                   then 9 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[2], velocity[2]; rows[6], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[6], position[2], pivots[2]
+//   cost            97 operations a right-hand side: 28 additions, 58 multiplications, 3 divisions, 8 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "four_bar.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.5, 0.839510959448, 1.41332050088, 2, -0.729076763624, -0.350567744451};
+//       double par[16], rate[6];
+//       for (int k = 0; k < 7; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,32 @@
 // Equations of motion of 'free_body': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  psi [rad], theta [rad], phi [rad], then w1, w2, w3
-//   par    m [kg], I1 [kg*m^2], I2 [kg*m^2], I3 [kg*m^2]
-//   cost   21 operations a right-hand side: 3 additions, 13 multiplications, 1 division, 4 functions
+// M(q) u' = f(q, u, t), q' = h(q, u, t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        psi [rad], theta [rad], phi [rad], then w1, w2, w3
+//   rate[6]         d state / dt
+//   par[10]         m = 1 [kg], I1 = 1 [kg*m^2], I2 = 2 [kg*m^2], I3 = 2.5 [kg*m^2],
+//                   then 6 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[3]: w1, w2, w3
+//   cost            21 operations a right-hand side: 3 additions, 13 multiplications, 1 division, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "free_body.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.1, 0.9, 0.2, 0.3, 2, 0.1};
+//       double par[10], rate[6];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,32 @@
 // Equations of motion of 'furuta_points': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  phi [rad], theta [rad], then their rates
-//   par    M [kg], m [kg], r [m], l [m], g [m/s^2], tau0 [N*m], w [rad/s]
-//   cost   30 operations a right-hand side: 7 additions, 19 multiplications, 1 division, 3 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        phi [rad], theta [rad], then their rates
+//   rate[4]         d state / dt
+//   par[14]         M = 0.6 [kg], m = 0.3 [kg], r = 0.25 [m], l = 0.35 [m], g = 9.81 [m/s^2], tau0 = 0.05 [N*m],
+//                   w = 4 [rad/s], then 7 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[1]: momentum
+//   cost            30 operations a right-hand side: 7 additions, 19 multiplications, 1 division, 3 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "furuta_points.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0.8, 1, 0};
+//       double par[14], rate[4];
+//       for (int k = 0; k < 7; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'gyrocompass': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  alpha [rad], psi [rad], then their rates
-//   par    A [kg m^2], C [kg m^2], Om [rad/s], lat [rad]
-//   cost   9 operations a right-hand side: 1 addition, 6 multiplications, 0 divisions, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        alpha [rad], psi [rad], then their rates
+//   rate[4]         d state / dt
+//   par[14]         A = 1 [kg m^2], C = 2 [kg m^2], Om = 0.2 [rad/s], lat = 0.7 [rad],
+//                   then 10 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            9 operations a right-hand side: 1 addition, 6 multiplications, 0 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "gyrocompass.cpp"
+//
+//   int main() {
+//       const double state[4] = {0.3, 0, 0, 50};
+//       double par[14], rate[4];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

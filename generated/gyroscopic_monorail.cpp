@@ -1,11 +1,31 @@
 // Equations of motion of 'gyroscopic_monorail': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  alpha [rad], beta [rad], phi [rad], then their rates
-//   par    J [kg*m^2], A [kg*m^2], C [kg*m^2], Wh [N m], u [N m], N1 [N m]
-//   cost   43 operations a right-hand side: 11 additions, 27 multiplications, 1 division, 4 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        alpha [rad], beta [rad], phi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[12]         J = 40 [kg*m^2], A = 1 [kg*m^2], C = 1.5 [kg*m^2], Wh = 300 [N m], u = 5 [N m],
+//                   N1 = 2 [N m], then 6 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            43 operations a right-hand side: 11 additions, 27 multiplications, 1 division, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "gyroscopic_monorail.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.05, 0, 0, 0, 0, 150};
+//       double par[12], rate[6];
+//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

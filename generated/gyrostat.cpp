@@ -1,11 +1,32 @@
 // Equations of motion of 'gyrostat': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  psi [rad], theta [rad], phi [rad], then w1, w2, w3
-//   par    A [kg*m^2], B [kg*m^2], C [kg*m^2], D [kg*m^2], I [kg*m^2]
-//   cost   32 operations a right-hand side: 7 additions, 18 multiplications, 1 division, 6 functions
+// M(q) u' = f(q, u, t), q' = h(q, u, t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        psi [rad], theta [rad], phi [rad], then w1, w2, w3
+//   rate[6]         d state / dt
+//   par[16]         A = 3 [kg*m^2], B = 4 [kg*m^2], C = 5 [kg*m^2], D = 0.1 [kg*m^2], I = 0.2 [kg*m^2],
+//                   then 11 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[3]: w1, w2, w3
+//   cost            32 operations a right-hand side: 7 additions, 18 multiplications, 1 division, 6 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "gyrostat.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.1, 1, 0.3, 0.2, 0.1, 0.4};
+//       double par[16], rate[6];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 
@@ -20,20 +41,20 @@ inline double sin(double x), cos(double x);
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &A = par[0], &B = par[1], &C = par[2], &D = par[3], &I = par[4];
+    const Real &A = par[0], &B = par[1], &C = par[2], &D = par[3], &I_ = par[4];
 
     // Constants
     const Real M00 = A + D;
     const Real M11 = B + D;
-    const Real M22 = C + I;
-    const Real k0 = B - C + D - I;
-    const Real k1 = A - C + D - I;
+    const Real M22 = C + I_;
+    const Real k0 = B - C + D - I_;
+    const Real k1 = A - C + D - I_;
     const Real k2 = A - B;
     const Real k3 = Real(1) / M00;
     const Real k4 = Real(1) / M11;
     const Real k5 = Real(1) / M22;
     const Real k6 = Real(0.5) * M22;
-    const Real k7 = Real(0.5) * I;
+    const Real k7 = Real(0.5) * I_;
 
     // Result
     par[5] = M00;
@@ -53,7 +74,7 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs(const Real& t, const Real* state, const Real* par, Real* rate) {
     const Real &theta = state[1], &phi = state[2], &w1 = state[3], &w2 = state[4], &w3 = state[5];
-    const Real &I = par[4], &k0 = par[8], &k1 = par[9], &k2 = par[10], &k3 = par[11], &k4 = par[12];
+    const Real &I_ = par[4], &k0 = par[8], &k1 = par[9], &k2 = par[10], &k3 = par[11], &k4 = par[12];
     const Real &k5 = par[13];
 
     // Trigonometry
@@ -72,10 +93,10 @@ void rhs(const Real& t, const Real* state, const Real* par, Real* rate) {
     // M10 = 0, M20 = 0, M21 = 0
 
     // Forcing f
-    const Real z2 = I * (cos_t + Real(5));
+    const Real z2 = I_ * (cos_t + Real(5));
     const Real f0 = w2 * (k0 * w3 - z2);
     const Real f1 = -w1 * (k1 * w3 - z2);
-    const Real f2 = k2 * w1 * w2 + I * sin_t;
+    const Real f2 = k2 * w1 * w2 + I_ * sin_t;
 
     // Solve M u' = f with M = L D L^T
     const Real w1_dot = k3 * f0;
@@ -95,17 +116,17 @@ void rhs(const Real& t, const Real* state, const Real* par, Real* rate) {
 template <typename Real>
 void mass_forcing(const Real& t, const Real* state, const Real* par, Real* mass, Real* forcing) {
     const Real &w1 = state[3], &w2 = state[4], &w3 = state[5];
-    const Real &I = par[4], &M00 = par[5], &M11 = par[6], &M22 = par[7], &k0 = par[8], &k1 = par[9];
+    const Real &I_ = par[4], &M00 = par[5], &M11 = par[6], &M22 = par[7], &k0 = par[8], &k1 = par[9];
     const Real &k2 = par[10];
 
     // Trigonometry
     const auto [sin_t, cos_t] = sincos(t);
 
     // Forcing f
-    const Real z0 = I * (cos_t + Real(5));
+    const Real z0 = I_ * (cos_t + Real(5));
     const Real f0 = w2 * (k0 * w3 - z0);
     const Real f1 = -w1 * (k1 * w3 - z0);
-    const Real f2 = k2 * w1 * w2 + I * sin_t;
+    const Real f2 = k2 * w1 * w2 + I_ * sin_t;
 
     // Result
     mass[0] = M00;
@@ -124,7 +145,7 @@ template <typename Real>
 void energy(const Real& t, const Real* state, const Real* rate, const Real* par, Real* energy, Real* jacobi) {
     const Real &theta = state[1], &phi = state[2], &w1 = state[3], &w2 = state[4], &w3 = state[5];
     const Real &w1_dot = rate[3], &w2_dot = rate[4], &w3_dot = rate[5];
-    const Real &A = par[0], &B = par[1], &D = par[3], &I = par[4], &M22 = par[7], &k2 = par[10], &k6 = par[14];
+    const Real &A = par[0], &B = par[1], &D = par[3], &I_ = par[4], &M22 = par[7], &k2 = par[10], &k6 = par[14];
     const Real &k7 = par[15];
 
     // Trigonometry
@@ -154,11 +175,11 @@ void energy(const Real& t, const Real* state, const Real* rate, const Real* par,
     const Real z18 = k6 * z7 * z7;
     const Real z19 = M22 * cos_theta * z3 * z7;
     const Real z20 = k7 * z0 * z0;
-    const Real z21 = I * z0 * (cos_theta * z3 + z7);
+    const Real z21 = I_ * z0 * (cos_theta * z3 + z7);
     const Real T = (Real(0.5) * z14 + z15 + Real(0.5) * z17 + z18 + z19 + z20) + z21;
     const Real z22 = cos_theta * (z5 * z1 * z3 + z1 * z10);
     const Real z23 = z0 * (sin_t + sin_theta * z3 * z4 + z22 - z13);
-    const Real P = -I * z23;
+    const Real P = -I_ * z23;
     const Real h = Real(0.5) * z14 + z15 + Real(0.5) * z17 + z18 + z19 - z20;
 
     // Result

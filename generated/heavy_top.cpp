@@ -1,11 +1,31 @@
 // Equations of motion of 'heavy_top': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  phi [rad], theta [rad], psi [rad], then their rates
-//   par    m [kg], l [m], g [m/s^2], A [kg m^2], C [kg m^2]
-//   cost   32 operations a right-hand side: 7 additions, 22 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        phi [rad], theta [rad], psi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[12]         m = 2 [kg], l = 0.5 [m], g = 1 [m/s^2], A = 1 [kg m^2], C = 0.5 [kg m^2],
+//                   then 7 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            32 operations a right-hand side: 7 additions, 22 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "heavy_top.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 1, 0, 0, 0, 4};
+//       double par[12], rate[6];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

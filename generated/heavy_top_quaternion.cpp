@@ -1,11 +1,35 @@
 // Equations of motion of 'heavy_top_quaternion': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  e0, e1, e2, e3, then w1 [rad/s], w2 [rad/s], w3 [rad/s]
-//   par    m [kg], l [m], g [m/s^2], A [kg m^2], C [kg m^2], theta0 [rad]
-//   cost   49 operations a right-hand side: 15 additions, 33 multiplications, 1 division, 0 functions
+// M(q) u' = f(q, u, t), q' = h(q, u, t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[7]        e0, e1, e2, e3, then w1 [rad/s], w2 [rad/s], w3 [rad/s]
+//   rate[7]         d state / dt
+//   par[16]         m = 2 [kg], l = 0.5 [m], g = 1 [m/s^2], A = 1 [kg m^2], C = 0.5 [kg m^2], theta0 = 1 [rad],
+//                   then 10 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[5]: height, vertical, w1, w2, w3
+//   constraints_at  position[1], velocity[1]; rows[7], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[7], position[1], pivots[1]
+//   cost            49 operations a right-hand side: 15 additions, 33 multiplications, 1 division, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "heavy_top_quaternion.cpp"
+//
+//   int main() {
+//       const double state[7] = {0.8775825618903728, 0.479425538604203, 0, 0, 0, 0, 4};
+//       double par[16], rate[7];
+//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,35 @@
 // Equations of motion of 'hoop_pendulum': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], psi [rad], theta [rad], then their rates
-//   par    M [kg], m [kg], R [m], l [m], g [m/s^2]
-//   cost   23 operations a right-hand side: 5 additions, 14 multiplications, 2 divisions, 2 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        x [m], psi [rad], theta [rad], then their rates
+//   rate[6]         d state / dt
+//   par[17]         M = 2 [kg], m = 1 [kg], R = 0.5 [m], l = 0.4 [m], g = 9.81 [m/s^2],
+//                   then 12 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[1]: momentum
+//   constraints_at  position[1], velocity[1]; rows[3], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[6], position[1], pivots[1]
+//   cost            23 operations a right-hand side: 5 additions, 14 multiplications, 2 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "hoop_pendulum.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 0, 1.2, 0.3, 0.6, 0};
+//       double par[17], rate[6];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'kepler_parabolic': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  xi, eta, then their rates
-//   par    m [kg], k [N m^2]
-//   cost   24 operations a right-hand side: 6 additions, 16 multiplications, 2 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        xi, eta, then their rates
+//   rate[4]         d state / dt
+//   par[6]          m = 1 [kg], k = 1 [N m^2],
+//                   then 4 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            24 operations a right-hand side: 6 additions, 16 multiplications, 2 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "kepler_parabolic.cpp"
+//
+//   int main() {
+//       const double state[4] = {1.2, 0.2, 0, 0.4};
+//       double par[6], rate[4];
+//       for (int k = 0; k < 2; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,34 @@
 // Equations of motion of 'ladder_with_string': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], phi [rad], then their rates
-//   par    m [kg], l [m], k [N/m], d [m], g [m/s^2]
-//   cost   49 operations a right-hand side: 16 additions, 29 multiplications, 2 divisions, 2 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        x [m], y [m], phi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[17]         m = 8 [kg], l = 1.5 [m], k = 60 [N/m], d = 0.4 [m], g = 9.81 [m/s^2],
+//                   then 12 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[2], velocity[2]; rows[6], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[6], position[2], pivots[2]
+//   cost            49 operations a right-hand side: 16 additions, 29 multiplications, 2 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "ladder_with_string.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.373178285919, 0.650567419196, 1.05, 0, 0, 0};
+//       double par[17], rate[6];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,35 @@
 // Equations of motion of 'linked_particles': recursive, composite bodies.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x1 [m], y1 [m], x2 [m], y2 [m], then their rates
-//   par    m1 [kg], m2 [kg], l [m], beta [rad], g [m/s^2]
-//   cost   73 operations a right-hand side: 30 additions, 41 multiplications, 2 divisions, 0 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[8]        x1 [m], y1 [m], x2 [m], y2 [m], then their rates
+//   rate[8]         d state / dt
+//   par[15]         m1 = 1 [kg], m2 = 1.5 [kg], l = 1 [m], beta = 0.2 [rad], g = 9.81 [m/s^2],
+//                   then 10 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[16], M row by row; forcing[4], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: tension, turn
+//   constraints_at  position[2], velocity[2]; rows[8], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[8], position[2], pivots[2]
+//   cost            73 operations a right-hand side: 30 additions, 41 multiplications, 2 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "linked_particles.cpp"
+//
+//   int main() {
+//       const double state[8] = {0, 0, 0.6, 0.8, 0.7, 0.1, -0.1, 0.7};
+//       double par[15], rate[8];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

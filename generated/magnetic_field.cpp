@@ -1,11 +1,32 @@
 // Equations of motion of 'magnetic_field': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], z [m], then their rates
-//   par    m [kg], q [C], B [T], E [V/m]
-//   cost   4 operations a right-hand side: 1 addition, 3 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        x [m], y [m], z [m], then their rates
+//   rate[6]         d state / dt
+//   par[9]          m = 1 [kg], q = 1 [C], B = 2 [T], E = 0.6 [V/m],
+//                   then 5 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[1]: speed
+//   cost            4 operations a right-hand side: 1 addition, 3 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "magnetic_field.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.3, -0.2, 0, 0, 0.8, 0.1};
+//       double par[9], rate[6];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'motor_on_springs': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], phi [rad], then their rates
-//   par    M [kg], m [kg], e [m], J [kg*m^2], k [N/m], c [N s/m], N1 [N m]
-//   cost   19 operations a right-hand side: 5 additions, 11 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x [m], phi [rad], then their rates
+//   rate[4]         d state / dt
+//   par[15]         M = 8 [kg], m = 0.5 [kg], e = 0.05 [m], J = 0.01 [kg*m^2], k = 900 [N/m], c = 4 [N s/m],
+//                   N1 = 0.2 [N m], then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            19 operations a right-hand side: 5 additions, 11 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "motor_on_springs.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0, 0, 5};
+//       double par[15], rate[4];
+//       for (int k = 0; k < 7; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

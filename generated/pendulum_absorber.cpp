@@ -1,11 +1,31 @@
 // Equations of motion of 'pendulum_absorber': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  phi [rad], theta [rad], then their rates
-//   par    J [kg*m^2], m [kg], R [m], l [m]
-//   cost   28 operations a right-hand side: 7 additions, 17 multiplications, 1 division, 3 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        phi [rad], theta [rad], then their rates
+//   rate[4]         d state / dt
+//   par[9]          J = 2 [kg*m^2], m = 0.5 [kg], R = 0.2 [m], l = 0.05 [m],
+//                   then 5 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            28 operations a right-hand side: 7 additions, 17 multiplications, 1 division, 3 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "pendulum_absorber.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0.1, 20, 0};
+//       double par[9], rate[4];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'rate_gyroscope': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  theta [rad], phi [rad], then their rates
-//   par    A [kg*m^2], C [kg*m^2], k [N m], c [N m s]
-//   cost   25 operations a right-hand side: 5 additions, 16 multiplications, 0 divisions, 4 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        theta [rad], phi [rad], then their rates
+//   rate[4]         d state / dt
+//   par[13]         A = 0.002 [kg*m^2], C = 0.003 [kg*m^2], k = 2 [N m], c = 0.05 [N m s],
+//                   then 9 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            25 operations a right-hand side: 5 additions, 16 multiplications, 0 divisions, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "rate_gyroscope.cpp"
+//
+//   int main() {
+//       const double state[4] = {0.1, 0, 0, 100};
+//       double par[13], rate[4];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,12 +1,36 @@
 // Equations of motion of 'rattleback': kane, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], e0, e1, e2, e3, then w1 [rad/s], w2 [rad/s], w3 [rad/s]
-//   par    m [kg], g [m/s^2], a [m], b [m], c [m], h [m], A [kg m^2], B [kg m^2], C [kg m^2],
-//          D [kg m^2]
-//   cost   1026 operations a right-hand side: 346 additions, 673 multiplications, 6 divisions, 1 function
+// M(q) u' = f(q, u, t), q' = h(q, u, t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[9]        x [m], y [m], e0, e1, e2, e3, then w1 [rad/s], w2 [rad/s], w3 [rad/s]
+//   rate[9]         d state / dt
+//   par[31]         m = 1 [kg], g = 9.81 [m/s^2], a = 0.2 [m], b = 0.03 [m], c = 0.02 [m], h = 0.01 [m],
+//                   A = 0.0002 [kg m^2], B = 0.0016 [kg m^2], C = 0.0017 [kg m^2], D = -2e-05 [kg m^2],
+//                   then 21 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[4]: spin, w1, w2, w3
+//   constraints_at  position[3], velocity[3]; rows[27], A row by row
+//   multipliers_at  lambda[3]
+//   project         out[9], position[3], pivots[3]
+//   cost            1026 operations a right-hand side: 346 additions, 673 multiplications, 6 divisions, 1 function
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "rattleback.cpp"
+//
+//   int main() {
+//       const double state[9] = {0, 0, 1, 0, 0, 0, 0.05, 0, -5};
+//       double par[31], rate[9];
+//       for (int k = 0; k < 10; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

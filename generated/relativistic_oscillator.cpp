@@ -1,11 +1,31 @@
 // Equations of motion of 'relativistic_oscillator': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], then their rates
-//   par    m [kg], k [N/m], c [m/s]
-//   cost   18 operations a right-hand side: 4 additions, 10 multiplications, 3 divisions, 1 function
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[2]        x [m], then their rates
+//   rate[2]         d state / dt
+//   par[7]          m = 1 [kg], k = 2 [N/m], c = 3 [m/s],
+//                   then 4 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[1], M row by row; forcing[1], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            18 operations a right-hand side: 4 additions, 10 multiplications, 3 divisions, 1 function
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "relativistic_oscillator.cpp"
+//
+//   int main() {
+//       const double state[2] = {2, 0};
+//       double par[7], rate[2];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,30 @@
 // Equations of motion of 'restricted_three_bodies': lagrange, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x, y, then their rates
-//   par    mu
-//   cost   28 operations a right-hand side: 12 additions, 12 multiplications, 2 divisions, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x, y, then their rates
+//   rate[4]         d state / dt
+//   par[2]          mu = 0.0121505, then 1 number that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            28 operations a right-hand side: 12 additions, 12 multiplications, 2 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "restricted_three_bodies.cpp"
+//
+//   int main() {
+//       const double state[4] = {0.5, 0.85, 0, 0};
+//       double par[2], rate[4];
+//       for (int k = 0; k < 1; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'rod_in_bowl': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  theta [rad], then their rates
-//   par    m [kg], a [m], r [m], g [m/s^2]
-//   cost   15 operations a right-hand side: 3 additions, 8 multiplications, 1 division, 3 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[2]        theta [rad], then their rates
+//   rate[2]         d state / dt
+//   par[12]         m = 0.8 [kg], a = 0.3 [m], r = 0.22 [m], g = 9.81 [m/s^2],
+//                   then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[1], M row by row; forcing[1], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            15 operations a right-hand side: 3 additions, 8 multiplications, 1 division, 3 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "rod_in_bowl.cpp"
+//
+//   int main() {
+//       const double state[2] = {0.5, 0};
+//       double par[12], rate[2];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

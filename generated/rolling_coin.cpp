@@ -1,11 +1,34 @@
 // Equations of motion of 'rolling_coin': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], phi [rad], theta [rad], then spin, roll
-//   par    m [kg], r [m], g [m/s^2], beta [rad]
-//   cost   7 operations a right-hand side: 0 additions, 5 multiplications, 0 divisions, 2 functions
+// M(q) u' = f(q, u, t), q' = h(q, u, t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        x [m], y [m], phi [rad], theta [rad], then spin, roll
+//   rate[6]         d state / dt
+//   par[16]         m = 1.5 [kg], r = 0.3 [m], g = 9.81 [m/s^2], beta = 0.1 [rad],
+//                   then 12 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: spin, roll
+//   constraints_at  position[2], velocity[2]; rows[12], A row by row
+//   multipliers_at  lambda[2]
+//   cost            7 operations a right-hand side: 0 additions, 5 multiplications, 0 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "rolling_coin.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 0, 0.2, 0, 0.4, 5};
+//       double par[16], rate[6];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

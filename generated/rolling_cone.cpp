@@ -1,11 +1,34 @@
 // Equations of motion of 'rolling_cone': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  phi [rad], psi [rad], then their rates
-//   par    m [kg], h [m], beta [rad], M [N m]
-//   cost   0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        phi [rad], psi [rad], then their rates
+//   rate[4]         d state / dt
+//   par[18]         m = 1.2 [kg], h = 0.5 [m], beta = 0.4 [rad], M = 0.1 [N m],
+//                   then 14 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[1], velocity[1]; rows[2], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[4], position[1], pivots[1]
+//   cost            0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "rolling_cone.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0, 0.5, -1.2839662277738915};
+//       double par[18], rate[4];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,34 @@
 // Equations of motion of 'rolling_disc_in_space': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], psi [rad], theta [rad], phi [rad], then their rates
-//   par    m [kg], r [m], g [m/s^2]
-//   cost   164 operations a right-hand side: 53 additions, 102 multiplications, 5 divisions, 4 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[10]       x [m], y [m], psi [rad], theta [rad], phi [rad], then their rates
+//   rate[10]        d state / dt
+//   par[15]         m = 1 [kg], r = 0.5 [m], g = 9.81 [m/s^2],
+//                   then 12 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[25], M row by row; forcing[5], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[2], velocity[2]; rows[10], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[10], position[2], pivots[2]
+//   cost            164 operations a right-hand side: 53 additions, 102 multiplications, 5 divisions, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "rolling_disc_in_space.cpp"
+//
+//   int main() {
+//       const double state[10] = {0, 0, 0, 0.3, 0, 3, 0, 0.4, 0.2, 6};
+//       double par[15], rate[10];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

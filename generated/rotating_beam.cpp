@@ -1,18 +1,38 @@
 // Equations of motion of 'rotating_beam': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  phi [rad], q [m], then their rates
-//   par    J [kg*m^2], rho [kg/m], L [m], EI [N*m^2], M [N m]
-//   cost   14 operations a right-hand side: 3 additions, 10 multiplications, 1 division, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        phi [rad], q [m], then their rates
+//   rate[4]         d state / dt
+//   par[12]         J = 0.5 [kg*m^2], rho = 1 [kg/m], L = 2 [m], EI = 20 [N*m^2], M = 0.8 [N m],
+//                   then 7 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            14 operations a right-hand side: 3 additions, 10 multiplications, 1 division, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "rotating_beam.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0.1, 6, 0};
+//       double par[12], rate[4];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &J = par[0], &rho = par[1], &L = par[2], &EI = par[3];
+    const Real &J = par[0], &rho = par[1], &L = par[2], &EI_ = par[3];
 
     // Constants
     const Real k0 = J + (Real(1) / Real(3)) * rho * L * L * L;
@@ -21,7 +41,7 @@ void prepare(Real* par) {
     const Real M11 = Real(0.2) * z0;
     const Real k2 = (Real(8) / Real(15)) * z0;
     const Real z1 = Real(1) / L;
-    const Real z2 = EI * z1 * z1 * z1;
+    const Real z2 = EI_ * z1 * z1 * z1;
     const Real k3 = Real(4) * z2;
     const Real k4 = Real(5) * Real(1) / z0;
     const Real k5 = Real(2) * z2;

@@ -1,11 +1,34 @@
 // Equations of motion of 'skate_on_slope': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], phi [rad], then their rates
-//   par    m [kg], J [kg*m^2], alpha [rad], g [m/s^2]
-//   cost   18 operations a right-hand side: 4 additions, 11 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        x [m], y [m], phi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[9]          m = 1 [kg], J = 0.1 [kg*m^2], alpha = 0.3 [rad], g = 9.81 [m/s^2],
+//                   then 5 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[1], velocity[1]; rows[3], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[6], position[1], pivots[1]
+//   cost            18 operations a right-hand side: 4 additions, 11 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "skate_on_slope.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 0, 0, 0, 0, 2};
+//       double par[9], rate[6];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,35 @@
 // Equations of motion of 'sled': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  xC [m], yC [m], phi [rad], then their rates
-//   par    m [kg], J [kg*m^2]
-//   cost   12 operations a right-hand side: 2 additions, 8 multiplications, 1 division, 1 function
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        xC [m], yC [m], phi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[5]          m = 4 [kg], J = 0.8 [kg*m^2],
+//                   then 3 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[1]: v
+//   constraints_at  position[1], velocity[1]; rows[3], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[6], position[1], pivots[1]
+//   cost            12 operations a right-hand side: 2 additions, 8 multiplications, 1 division, 1 function
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "sled.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 0, 0, 1.2, 0, 0.3};
+//       double par[5], rate[6];
+//       for (int k = 0; k < 2; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,34 @@
 // Equations of motion of 'slider_crank': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  alpha [rad], beta [rad], x [m], then their rates
-//   par    m1 [kg], m2 [kg], m3 [kg], r [m], l [m], g [m/s^2]
-//   cost   83 operations a right-hand side: 25 additions, 49 multiplications, 3 divisions, 6 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        alpha [rad], beta [rad], x [m], then their rates
+//   rate[6]         d state / dt
+//   par[16]         m1 = 1.2 [kg], m2 = 0.8 [kg], m3 = 2 [kg], r = 0.15 [m], l = 0.4 [m], g = 9.81 [m/s^2],
+//                   then 10 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[2], velocity[2]; rows[6], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[6], position[2], pivots[2]
+//   cost            83 operations a right-hand side: 25 additions, 49 multiplications, 3 divisions, 6 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "slider_crank.cpp"
+//
+//   int main() {
+//       const double state[6] = {0.3, 0.111048172207, 0.540836667529, 12, 4.32565815562, -0.723684280805};
+//       double par[16], rate[6];
+//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

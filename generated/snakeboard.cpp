@@ -1,11 +1,36 @@
 // Equations of motion of 'snakeboard': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], theta [rad], psi [rad], phi [rad], then their rates
-//   par    m [kg], l [m], J [kg*m^2], Jr [kg*m^2], Jw [kg*m^2], A [rad], B [rad], w [rad/s]
-//   cost   74 operations a right-hand side: 24 additions, 41 multiplications, 2 divisions, 7 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[10]       x [m], y [m], theta [rad], psi [rad], phi [rad], then their rates
+//   rate[10]        d state / dt
+//   par[20]         m = 6 [kg], l = 0.2 [m], J = 0.016 [kg*m^2], Jr = 0.072 [kg*m^2], Jw = 0.0013 [kg*m^2],
+//                   A = 0.7 [rad], B = 0.3 [rad], w = 1 [rad/s],
+//                   then 12 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[25], M row by row; forcing[5], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: v, p
+//   constraints_at  position[2], velocity[2]; rows[10], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[10], position[2], pivots[2]
+//   cost            74 operations a right-hand side: 24 additions, 41 multiplications, 2 divisions, 7 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "snakeboard.cpp"
+//
+//   int main() {
+//       const double state[10] = {0, 0, 0, 0, 0, 0, 0, 0, 0.7, 0.3};
+//       double par[20], rate[10];
+//       for (int k = 0; k < 8; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'spherical_coordinates': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  r [m], theta [rad], phi [rad], then their rates
-//   par    m [kg], k [N/m], r0 [m]
-//   cost   33 operations a right-hand side: 5 additions, 24 multiplications, 2 divisions, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        r [m], theta [rad], phi [rad], then their rates
+//   rate[6]         d state / dt
+//   par[6]          m = 0.5 [kg], k = 3 [N/m], r0 = 1 [m],
+//                   then 3 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            33 operations a right-hand side: 5 additions, 24 multiplications, 2 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "spherical_coordinates.cpp"
+//
+//   int main() {
+//       const double state[6] = {1.2, 1, 0, 0.1, 0.2, 0.9};
+//       double par[6], rate[6];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'struck_rods_on_table': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], alpha [rad], beta [rad], then their rates
-//   par    m [kg], a [m], P [N s]
-//   cost   50 operations a right-hand side: 12 additions, 32 multiplications, 2 divisions, 4 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[8]        x [m], y [m], alpha [rad], beta [rad], then their rates
+//   rate[8]         d state / dt
+//   par[8]          m = 1 [kg], a = 0.5 [m], P = 2 [N s],
+//                   then 5 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[16], M row by row; forcing[4], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            50 operations a right-hand side: 12 additions, 32 multiplications, 2 divisions, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "struck_rods_on_table.cpp"
+//
+//   int main() {
+//       const double state[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+//       double par[8], rate[8];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

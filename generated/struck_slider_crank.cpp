@@ -1,11 +1,34 @@
 // Equations of motion of 'struck_slider_crank': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  alpha [rad], beta [rad], x [m], then their rates
-//   par    J [kg*m^2], m [kg], M [kg], a [m], b [m], P [N s]
-//   cost   79 operations a right-hand side: 23 additions, 47 multiplications, 3 divisions, 6 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        alpha [rad], beta [rad], x [m], then their rates
+//   rate[6]         d state / dt
+//   par[14]         J = 0.2 [kg*m^2], m = 1 [kg], M = 2 [kg], a = 0.3 [m], b = 0.8 [m], P = 1.5 [N s],
+//                   then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[2], velocity[2]; rows[6], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[6], position[2], pivots[2]
+//   cost            79 operations a right-hand side: 23 additions, 47 multiplications, 3 divisions, 6 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "struck_slider_crank.cpp"
+//
+//   int main() {
+//       const double state[6] = {1.5707963267948966, 0.384396774496, 0.74161984871, 0, 0, 0};
+//       double par[14], rate[6];
+//       for (int k = 0; k < 6; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,34 @@
 // Equations of motion of 'towed_trailer': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], phi [rad], then their rates
-//   par    M [kg], m [kg], J [kg*m^2], l [m], F [N]
-//   cost   28 operations a right-hand side: 7 additions, 17 multiplications, 2 divisions, 2 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x [m], phi [rad], then their rates
+//   rate[4]         d state / dt
+//   par[13]         M = 5 [kg], m = 2 [kg], J = 0.4 [kg*m^2], l = 0.8 [m], F = 3 [N],
+//                   then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[1], velocity[1]; rows[2], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[4], position[1], pivots[1]
+//   cost            28 operations a right-hand side: 7 additions, 17 multiplications, 2 divisions, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "towed_trailer.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 1.2, 1, -1.16504885746};
+//       double par[13], rate[4];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

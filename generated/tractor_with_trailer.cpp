@@ -1,11 +1,34 @@
 // Equations of motion of 'tractor_with_trailer': kane, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], phi [rad], psi [rad], then v [m/s], w [rad/s]
-//   par    m [kg], J [kg*m^2], M [kg], I [kg*m^2], l [m], F [N], N1 [N m]
-//   cost   22 operations a right-hand side: 4 additions, 13 multiplications, 1 division, 4 functions
+// M(q) u' = f(q, u, t), q' = h(q, u, t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        x [m], y [m], phi [rad], psi [rad], then v [m/s], w [rad/s]
+//   rate[6]         d state / dt
+//   par[15]         m = 4 [kg], J = 0.3 [kg*m^2], M = 3 [kg], I = 0.5 [kg*m^2], l = 1 [m], F = 2 [N],
+//                   N1 = 0.1 [N m], then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[2]: v, w
+//   constraints_at  position[2], velocity[2]; rows[12], A row by row
+//   multipliers_at  lambda[2]
+//   cost            22 operations a right-hand side: 4 additions, 13 multiplications, 1 division, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "tractor_with_trailer.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 0, 0.4, -0.3, 1, 0.5};
+//       double par[15], rate[6];
+//       for (int k = 0; k < 7; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 
@@ -20,12 +43,12 @@ inline double sin(double x), cos(double x);
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &m = par[0], &J = par[1], &M = par[2], &I = par[3], &l = par[4], &N1 = par[6];
+    const Real &m = par[0], &J = par[1], &M = par[2], &I_ = par[3], &l = par[4], &N1 = par[6];
 
     // Constants
     const Real k0 = m + M;
     const Real k1 = Real(1) / l;
-    const Real k2 = M - I * k1 * k1;
+    const Real k2 = M - I_ * k1 * k1;
     const Real k3 = k2 * k1;
     const Real k4 = N1 / J;
     const Real k5 = m + M + Real(2) * M * l * l;
@@ -182,7 +205,7 @@ void constraints_at(const Real&, const Real* state, const Real* par, Real* posit
 template <typename Real>
 void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
     const Real &phi = state[2], &psi = state[3], &v = state[4], &w = state[5];
-    const Real &M = par[2], &I = par[3], &l = par[4], &F = par[5], &k0 = par[7], &k1 = par[8], &k2 = par[9];
+    const Real &M = par[2], &I_ = par[3], &l = par[4], &F = par[5], &k0 = par[7], &k1 = par[8], &k2 = par[9];
     const Real &k3 = par[10], &k5 = par[12], &k6 = par[13], &k7 = par[14];
 
     // Trigonometry
@@ -205,7 +228,7 @@ void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambd
     const Real z8 = k1 * v * (w - z2) * cos_phi0;
     const Real z9 = k1 * z3 * sin_phi0 + z8;
     const Real z10 = k6 + sin_phi0 * sin_phi0;
-    const Real z11 = Real(0.5) * z5 - Real(0.5) * z7 - l * z9 * (I + M * z10);
+    const Real z11 = Real(0.5) * z5 - Real(0.5) * z7 - l * z9 * (I_ + M * z10);
     const Real z12 = z11 - (F - k7 * z2 * z2 * cos_phi0) * sin_phi0;
     const Real lambda_trailer = z12 / z10;
     const Real z13 = z9 * M * l * sin_psi;

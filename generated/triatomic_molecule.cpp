@@ -1,11 +1,31 @@
 // Equations of motion of 'triatomic_molecule': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x1 [m], x2 [m], x3 [m], then their rates
-//   par    m [kg], M [kg], k [N/m], b [m]
-//   cost   11 operations a right-hand side: 6 additions, 5 multiplications, 0 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        x1 [m], x2 [m], x3 [m], then their rates
+//   rate[6]         d state / dt
+//   par[10]         m = 1 [kg], M = 1.4 [kg], k = 10 [N/m], b = 1 [m],
+//                   then 6 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            11 operations a right-hand side: 6 additions, 5 multiplications, 0 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "triatomic_molecule.cpp"
+//
+//   int main() {
+//       const double state[6] = {-0.1, 1, 2, 0, 0, 0};
+//       double par[10], rate[6];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

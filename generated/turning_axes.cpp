@@ -1,11 +1,31 @@
 // Equations of motion of 'turning_axes': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  q1 [rad], q2 [rad], q3 [rad], then their rates
-//   par    m [kg], r [m], J [kg m^2], l [m]
-//   cost   31 operations a right-hand side: 7 additions, 21 multiplications, 1 division, 2 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[6]        q1 [rad], q2 [rad], q3 [rad], then their rates
+//   rate[6]         d state / dt
+//   par[13]         m = 0.8 [kg], r = 0.2 [m], J = 0.05 [kg m^2], l = 0.4 [m],
+//                   then 9 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[9], M row by row; forcing[3], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            31 operations a right-hand side: 7 additions, 21 multiplications, 1 division, 2 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "turning_axes.cpp"
+//
+//   int main() {
+//       const double state[6] = {0, 0.4, 0, 1.2, 0.3, 8};
+//       double par[13], rate[6];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

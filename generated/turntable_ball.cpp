@@ -1,11 +1,36 @@
 // Equations of motion of 'turntable_ball': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x [m], y [m], psi [rad], theta [rad], phi [rad], then their rates
-//   par    m [kg], a [m], Omega [rad/s]
-//   cost   93 operations a right-hand side: 25 additions, 61 multiplications, 3 divisions, 4 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[10]       x [m], y [m], psi [rad], theta [rad], phi [rad], then their rates
+//   rate[10]        d state / dt
+//   par[9]          m = 0.5 [kg], a = 0.2 [m], Omega = 3.5 [rad/s],
+//                   then 6 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[25], M row by row; forcing[5], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[3]: spin, centre_x, centre_y
+//   constraints_at  position[2], velocity[2]; rows[10], A row by row
+//   multipliers_at  lambda[2]
+//   project         out[10], position[2], pivots[2]
+//   cost            93 operations a right-hand side: 25 additions, 61 multiplications, 3 divisions, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "turntable_ball.cpp"
+//
+//   int main() {
+//       const double state[10] = {0.53, 0, 1.5707963267948966, 1.5707963267948966, 0, 0, 0.5, 1,
+//           4.14849103211e-16, 6.775};
+//       double par[9], rate[10];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,32 @@
 // Equations of motion of 'two_body': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  r [AU], phi [rad], X [AU], Y [AU], then their rates
-//   par    m1 [Msun], m2 [Msun], a [AU], ecc
-//   cost   14 operations a right-hand side: 1 addition, 11 multiplications, 2 divisions, 0 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[8]        r [AU], phi [rad], X [AU], Y [AU], then their rates
+//   rate[8]         d state / dt
+//   par[13]         m1 = 1.1 [Msun], m2 = 0.9 [Msun], a = 2 [AU], ecc = 0.5,
+//                   then 9 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[16], M row by row; forcing[4], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   outputs_at      out[5]: areal, x1, y1, x2, y2
+//   cost            14 operations a right-hand side: 1 addition, 11 multiplications, 2 divisions, 0 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "two_body.cpp"
+//
+//   int main() {
+//       const double state[8] = {1, 0, 0, 0, 0, 10.882796185405306, 0.4, -0.1};
+//       double par[13], rate[8];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'two_centres': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  u [rad], v [rad], then their rates
-//   par    m [kg], c [m], k1 [N m^2], k2 [N m^2]
-//   cost   42 operations a right-hand side: 11 additions, 25 multiplications, 2 divisions, 4 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        u [rad], v [rad], then their rates
+//   rate[4]         d state / dt
+//   par[11]         m = 1 [kg], c = 1 [m], k1 = 1 [N m^2], k2 = 0.5 [N m^2],
+//                   then 7 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            42 operations a right-hand side: 11 additions, 25 multiplications, 2 divisions, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "two_centres.cpp"
+//
+//   int main() {
+//       const double state[4] = {1, 1.2, 0, 0.4};
+//       double par[11], rate[4];
+//       for (int k = 0; k < 4; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

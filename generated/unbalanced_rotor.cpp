@@ -1,12 +1,32 @@
 // Equations of motion of 'unbalanced_rotor': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  a [rad], theta [rad], then their rates
-//   par    Ixx [kg m^2], Iyy [kg m^2], Izz [kg m^2], Ixy [kg m^2], Iyz [kg m^2], Izx [kg m^2], k [N m],
-//          M [N m]
-//   cost   45 operations a right-hand side: 13 additions, 27 multiplications, 1 division, 4 functions
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        a [rad], theta [rad], then their rates
+//   rate[4]         d state / dt
+//   par[12]         Ixx = 0.3 [kg m^2], Iyy = 0.25 [kg m^2], Izz = 0.2 [kg m^2], Ixy = 0.02 [kg m^2],
+//                   Iyz = -0.03 [kg m^2], Izx = 0.04 [kg m^2], k = 2 [N m], M = 0.1 [N m],
+//                   then 4 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            45 operations a right-hand side: 13 additions, 27 multiplications, 1 division, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "unbalanced_rotor.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0, 0, 3};
+//       double par[12], rate[4];
+//       for (int k = 0; k < 8; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

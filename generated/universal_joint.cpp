@@ -1,11 +1,34 @@
 // Equations of motion of 'universal_joint': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  theta1 [rad], theta2 [rad], then their rates
-//   par    J1 [kg m^2], J2 [kg m^2], beta [rad]
-//   cost   34 operations a right-hand side: 7 additions, 22 multiplications, 1 division, 4 functions
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        theta1 [rad], theta2 [rad], then their rates
+//   rate[4]         d state / dt
+//   par[8]          J1 = 0.6 [kg m^2], J2 = 0.9 [kg m^2], beta = 0.5 [rad],
+//                   then 5 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[1], velocity[1]; rows[2], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[4], position[1], pivots[1]
+//   cost            34 operations a right-hand side: 7 additions, 22 multiplications, 1 division, 4 functions
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "universal_joint.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0, 2, 2.278987854649098};
+//       double par[8], rate[4];
+//       for (int k = 0; k < 3; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,31 @@
 // Equations of motion of 'vibration_absorber': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  x1 [m], x2 [m], then their rates
-//   par    M [kg], m [kg], K [N/m], omega [rad/s], P [N]
-//   cost   10 operations a right-hand side: 3 additions, 6 multiplications, 0 divisions, 1 function
+// M(q) q'' = f(q, q', t).
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        x1 [m], x2 [m], then their rates
+//   rate[4]         d state / dt
+//   par[13]         M = 10 [kg], m = 1 [kg], K = 400 [N/m], omega = 7 [rad/s], P = 5 [N],
+//                   then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   cost            10 operations a right-hand side: 3 additions, 6 multiplications, 0 divisions, 1 function
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "vibration_absorber.cpp"
+//
+//   int main() {
+//       const double state[4] = {0, 0, 0, -0.7142857142857142};
+//       double par[13], rate[4];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

@@ -1,11 +1,34 @@
 // Equations of motion of 'yo_yo': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  y [m], theta [rad], then their rates
-//   par    m [kg], J [kg*m^2], b [m], l0 [m], g [m/s^2]
-//   cost   8 operations a right-hand side: 2 additions, 5 multiplications, 0 divisions, 1 function
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma.
+// This file includes nothing and allocates nothing. Real is double, or another type of numbers with the functions used.
 //
-// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+//   t               the time [s]
+//   state[4]        y [m], theta [rad], then their rates
+//   rate[4]         d state / dt
+//   par[13]         m = 0.1 [kg], J = 4e-05 [kg*m^2], b = 0.01 [m], l0 = 0.2 [m], g = 9.81 [m/s^2],
+//                   then 8 numbers that prepare computes from them; call it after each change
+//   mass_forcing    mass[4], M row by row; forcing[2], f
+//   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
+//   constraints_at  position[1], velocity[1]; rows[2], A row by row
+//   multipliers_at  lambda[1]
+//   project         out[4], position[1], pivots[1]
+//   cost            8 operations a right-hand side: 2 additions, 5 multiplications, 0 divisions, 1 function
+//
+// Example: the rates at the scene's initial state. Compile it with c++ -std=c++20 -O2 example.cpp
+//
+//   #include <cstdio>
+//   #include "yo_yo.cpp"
+//
+//   int main() {
+//       const double state[4] = {-0.2, 0, 0.299970003, 0.00299970003};
+//       double par[13], rate[4];
+//       for (int k = 0; k < 5; ++k) par[k] = parameter_values[k];
+//       prepare(par);
+//       rhs(0.0, state, par, rate);
+//       for (const double value : rate) std::printf("%.17g\n", value);
+//   }
 
 namespace {  // seen in this file alone
 

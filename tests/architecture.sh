@@ -52,7 +52,7 @@ forbid 'cpp-httplib outside the server of pages' '#include.*httplib' "${not_serv
 mapfile -t not_executable < <(files lib generator | grep -v '^lib/alembert/executable.cpp')
 forbid 'dlfcn outside the module' '#include <dlfcn' "${not_module[@]}"
 forbid 'memory that can be run outside its one file' 'PROT_EXEC' "${not_executable[@]}"
-forbid 'the emitted code includes something' '#include' templates/solver.cpp.mustache generated/*.cpp
+forbid 'the emitted code includes something' '^ *#include' templates/solver.cpp.mustache generated/*.cpp
 forbid 'a shell' '\b(system|popen)\(' "${runtime[@]}" "${generator[@]}"
 
 # Two types of one name in one namespace, each in a header of its own, are undefined behaviour that no compiler sees where no

@@ -8,7 +8,9 @@
 
 #include "alembert/abi.hpp"
 #include "alembert/error.hpp"
+#include "emit/comment.hpp"
 #include "emit/elementary.hpp"
+#include "emit/head.hpp"
 #include "emit/layout.hpp"
 #include "emit/numbers.hpp"
 #include "emit/solver_functions.hpp"
@@ -26,7 +28,7 @@ std::vector<std::string> note_lines(const std::vector<std::string>& notes) {
     std::vector<std::string> lines;
     for (const std::string& note : notes) {
         if (lines.empty() || lines.back().size() + note.size() > line_width) lines.emplace_back();
-        lines.back() += (lines.back().empty() ? "" : ", ") + note;
+        lines.back() += (lines.back().empty() ? "" : ", ") + comment_text(note);
     }
     return lines;
 }
@@ -38,7 +40,7 @@ mustache::data data_of(const EmittedFunction& function) {
         std::vector<std::string> lines;
         for (const CodeStatement& statement : passage.statements) lines.push_back(wrapped(statement.text));
         mustache::data section;
-        section.set("title", passage.title);
+        section.set("title", comment_text(passage.title));
         section.set("notes", list_of(note_lines(passage.notes)));
         section.set("lines", list_of(lines));
         sections << section;
@@ -46,7 +48,7 @@ mustache::data data_of(const EmittedFunction& function) {
     mustache::data result;
     result.set("name", function.name);
     result.set("is_part", function.is_part);
-    result.set("about", function.about);
+    result.set("about", comment_text(function.about));
     result.set("arguments", function.arguments);
     result.set("unpack", list_of(function.unpacked));
     result.set("ignored", list_of(function.ignored));
@@ -71,7 +73,7 @@ public:
         add_derivatives();
         add_named_functions();
         file_.set("functions", functions_);
-        describe(cost);
+        describe();
         add_counts();
         set_elementary(file_, elementary_functions(p_));
         file_.set("batch", options_.batch);
@@ -138,7 +140,7 @@ private:
             for (const EmittedFunction& part : written(p_, words_, task, options_)) functions_ << data_of(part);
             mustache::data entry;
             entry.set("name", function.name);
-            entry.set("about", task.about);
+            entry.set("about", comment_text(task.about));
             entry.set("rows", std::to_string(function.rows));
             entry.set("columns", std::to_string(function.columns));
             entry.set("operations", std::to_string(function.operations.total()));
@@ -148,26 +150,15 @@ private:
         file_.set("has_named_functions", !options_.functions.empty());
     }
 
-    void describe(const Operations& cost) {
-        const bool own_speeds = !p_.speeds.empty(), is_free = p_.nodes_of(Group::gamma).empty();
+    void describe() {
         file_.set("scene", ascii_identifier(p_.name));
         file_.set("formulation", p_.formulation);
         file_.set("version", ALEMBERT_VERSION);
-        file_.set("state", described(words_.q(), p_.coordinates) +
-                               (own_speeds ? ", then " + described(words_.u(), p_.speeds) : ", then their rates"));
-        file_.set("equation", own_speeds ? "M(q) u' = f(q, u, t), q' = h(q, u, t)" : "M(q) q'' = f(q, q', t)");
-        file_.set("reaction", is_free      ? ""
-                              : own_speeds ? " + A^T lambda with A u' = gamma"
-                                           : " + A^T lambda with A q'' = gamma");
-        file_.set("parameters", words_.par().empty() ? "none" : described(words_.par(), p_.parameters));
-        file_.set("operations",
-                  fmt::format("{} a right-hand side: {}, {}, {}, {}", counted(cost.total(), "operation"),
-                              counted(cost.additions, "addition"), counted(cost.multiplications, "multiplication"),
-                              counted(cost.divisions, "division"), counted(cost.functions, "function")));
-        file_.set("has_speeds", own_speeds);
-        file_.set("speed_names", quoted(words_.u()));
-        file_.set("coordinate_names", quoted(words_.q()));
-        file_.set("parameter_names", quoted(words_.par()));
+        file_.set("head", commented(head_of(p_, words_, options_), options_.language));
+        file_.set("has_speeds", !p_.speeds.empty());
+        file_.set("speed_names", quoted(labels_of(words_.u())));
+        file_.set("coordinate_names", quoted(labels_of(words_.q())));
+        file_.set("parameter_names", quoted(labels_of(words_.par())));
         file_.set("output_names", quoted(root_names(p_, {Group::output, Group::speed})));
         file_.set("event_names", quoted(root_names(p_, {Group::event})));
         std::string values;

@@ -10,8 +10,6 @@ namespace alembert {
 
 namespace {
 
-constexpr std::string_view in_units = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789*/^-. ";
-
 std::string wrapped_line(const std::string& line) {
     std::string result;
     std::size_t start = 0;
@@ -55,22 +53,6 @@ std::string quoted(const std::vector<std::string>& names) {
     std::string result;
     for (const std::string& name : names) result += fmt::format("\"{}\", ", name);
     return result;
-}
-
-std::string described(const std::vector<std::string>& names, const std::vector<Quantity>& quantities) {
-    std::string result, line;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        std::string unit;
-        for (const char c : quantities[i].unit)
-            if (in_units.find(c) != std::string_view::npos) unit += c;
-        const std::string item = names[i] + (unit.empty() ? "" : " [" + unit + "]");
-        if (line.size() + item.size() > line_width - 20) {
-            result += line + ",\n//          ";
-            line.clear();
-        }
-        line += (line.empty() ? "" : ", ") + item;
-    }
-    return result + line;
 }
 
 std::string described(const NamedFunction& function) {

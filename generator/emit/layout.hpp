@@ -21,9 +21,6 @@ std::string wrapped_list(const std::vector<std::string>& items);
 /// "\"a\", \"b\", "
 std::string quoted(const std::vector<std::string>& names);
 
-/// "l1 [m], l2 [m]" over several lines of a comment.
-std::string described(const std::vector<std::string>& names, const std::vector<Quantity>& quantities);
-
 /// "7 x 7, row by row; 120 operations": the shape of its values, and their cost.
 std::string described(const NamedFunction& function);
 

@@ -8,26 +8,11 @@
 #include <cstdint>
 #include <string_view>
 
+#include "emit/reserved_words.hpp"
+
 namespace alembert {
 
 namespace {
-
-constexpr std::array keywords{
-    "alignas",     "alignof",   "and",        "and_eq",    "asm",      "auto",         "bitand",
-    "bitor",       "bool",      "break",      "case",      "catch",    "char",         "char8_t",
-    "char16_t",    "char32_t",  "class",      "compl",     "concept",  "const",        "consteval",
-    "constexpr",   "constinit", "const_cast", "continue",  "co_await", "co_return",    "co_yield",
-    "decltype",    "default",   "delete",     "do",        "double",   "dynamic_cast", "else",
-    "enum",        "explicit",  "export",     "extern",    "false",    "float",        "for",
-    "friend",      "goto",      "if",         "inline",    "int",      "long",         "mutable",
-    "namespace",   "new",       "noexcept",   "not",       "not_eq",   "nullptr",      "operator",
-    "or",          "or_eq",     "private",    "protected", "public",   "register",     "reinterpret_cast",
-    "requires",    "return",    "short",      "signed",    "sizeof",   "static",       "static_assert",
-    "static_cast", "struct",    "switch",     "template",  "this",     "thread_local", "throw",
-    "true",        "try",       "typedef",    "typeid",    "typename", "union",        "unsigned",
-    "using",       "virtual",   "void",       "volatile",  "wchar_t",  "while",        "xor",
-    "xor_eq",      "typeof",    "linux",      "unix",      "i386",     "final",        "override",
-    "import",      "module"};
 
 // What templates/solver.cpp.mustache declares.
 // clang-format off
@@ -85,23 +70,37 @@ std::string ascii_identifier(const std::string& text) {
 }
 
 Names::Names() {
-    taken_.insert(keywords.begin(), keywords.end());
     taken_.insert(own.begin(), own.end());
+}
+
+bool Names::take(std::string& name) {
+    if (is_reserved(name)) name += '_';
+    return taken_.insert(name).second;
 }
 
 std::string Names::fresh(const std::string& wish) {
     std::string name = ascii_identifier(wish);
-    if (taken_.insert(name).second) return name;
+    if (take(name)) return name;
     if (name.back() != '_') {
         name += '_';
-        if (taken_.insert(name).second) return name;
+        if (take(name)) return name;
     }
     return numbered(name);
 }
 
 std::string Names::numbered(const std::string& prefix) {
     for (int& k = next_[prefix];; ++k)
-        if (const std::string name = prefix + std::to_string(k); taken_.insert(name).second) return name;
+        if (std::string name = prefix + std::to_string(k); take(name)) return name;
+}
+
+std::string label_of(const std::string& identifier) {
+    const std::string shorter = identifier.substr(0, identifier.size() - 1);
+    return identifier.back() == '_' && may_be_macro(shorter) ? shorter : identifier;
+}
+
+std::vector<std::string> labels_of(std::vector<std::string> identifiers) {
+    for (std::string& name : identifiers) name = label_of(name);
+    return identifiers;
 }
 
 }  // namespace alembert

@@ -18,7 +18,7 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
     std::string initial, columns;
     for (const double x : start.state) initial += shortest(x) + ", ";
     for (const auto* names : {&words.q(), &words.u()})
-        for (const std::string& column : *names) columns += "," + column;
+        for (const std::string& column : *names) columns += "," + label_of(column);
     kainjow::mustache::data file;
     file.set("scene", scene);
     file.set("version", ALEMBERT_VERSION);

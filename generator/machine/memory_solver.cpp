@@ -34,9 +34,9 @@ struct Tables {
     explicit Tables(const Program& p, const Vocabulary& words)
         : scene(ascii_identifier(p.name)),
           formulation(p.formulation),
-          coordinates(words.q()),
-          speeds(words.u()),
-          parameters(words.par()),
+          coordinates(labels_of(words.q())),
+          speeds(labels_of(words.u())),
+          parameters(labels_of(words.par())),
           outputs(root_names(p, {Group::output, Group::speed})),
           events(root_names(p, {Group::event})) {
         for (const Quantity& parameter : p.parameters) values.push_back(parameter.value);

@@ -22,6 +22,20 @@ namespace alembert {
 
 namespace {
 
+Start assembled(const Mechanism& m) {
+    Start start = start_of(m);
+    assemble(start, m, lower_constraints(m), {});
+    return start;
+}
+
+/// (q, q'), or (q, u).
+std::vector<double> state_in(const Start& start, const Emission& e) {
+    const State<double> at = state_of(start, e.mechanism, e.equations);
+    std::vector<double> state = at.q;
+    state.insert(state.end(), at.qdot.begin(), at.qdot.end());
+    return state;
+}
+
 /// The main program supports equations and constraints only.
 SourceFile main_program(const Emission& e, const Program& program, CodeLanguage language) {
     const Mechanism& m = e.mechanism;
@@ -29,12 +43,24 @@ SourceFile main_program(const Emission& e, const Program& program, CodeLanguage 
         throw ModelError(
             say("a main program beside the equations follows no contacts, dry friction nor events that change the "
                 "motion, and this scene has some; use 'alembert simulate', or the library"));
-    Start start = start_of(m);
-    assemble(start, m, lower_constraints(m), {});
-    const State<double> state = state_of(start, m, e.equations);
-    StandaloneStart from{.t = state.t, .state = state.q, .duration = start.duration, .tolerance = start.tolerance};
-    from.state.insert(from.state.end(), state.qdot.begin(), state.qdot.end());
-    return standalone(program, from, language);
+    const Start start = assembled(m);
+    return standalone(
+        program,
+        {.t = start.t, .state = state_in(start, e), .duration = start.duration, .tolerance = start.tolerance},
+        language);
+}
+
+/// The state of the calling example: coordinates that follow from the constraints with 12 digits, so that the same
+/// text is written everywhere; none if the scene has no initial state.
+void add_example(EmitOptions& options, const Emission& e) try {
+    const Start start = start_of(e.mechanism);
+    const std::vector<double> given = state_in(start, e);
+    std::vector<double> state = state_in(assembled(e.mechanism), e);
+    for (std::size_t i = 0; i < state.size(); ++i)
+        if (state[i] != given[i]) state[i] = std::stod(fmt::format("{:.12g}", state[i]));
+    options.t = start.t;
+    options.state = state;
+} catch (const ModelError&) {  // the equations hold without one
 }
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
@@ -126,7 +152,9 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     }
     Program& program = e.derivatives ? e.derivatives->program : e.choice.program;
     e.functions = named_functions(program, e, options);
-    e.source = emit(program, {.batch = options.batch, .language = options.language, .functions = e.functions});
+    EmitOptions text{.batch = options.batch, .language = options.language, .functions = e.functions};
+    add_example(text, e);
+    e.source = emit(program, text);
     if (options.standalone) e.main = main_program(e, program, options.language);
     if (options.casadi)
         e.casadi = casadi_functions(program, {.language = options.language, .functions = e.functions});

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/head.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "emit/comment.hpp"
+#include "emit/layout.hpp"
+#include "emit/numbers.hpp"
+#include "emit/solver_functions.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Items = std::vector<std::string>;
+
+constexpr std::size_t name_width = 16;
+
+std::string with_unit(const std::string& text, const std::string& unit) {
+    const std::string shown = comment_text(unit);
+    return shown.empty() ? text : fmt::format("{} [{}]", text, shown);
+}
+
+class Head {
+public:
+    Head(const Program& p, const Vocabulary& words, const EmitOptions& options)
+        : p_(p),
+          words_(words),
+          options_(options),
+          is_c_(options.language == CodeLanguage::c),
+          scene_(ascii_identifier(p.name)),
+          n_(words.q().size()),
+          s_(words.u().size()),
+          parameters_(words.par().size()),
+          length_(parameters_ + words.constants().size()) {}
+
+    Items lines() {
+        lines_ = {
+            fmt::format("Equations of motion of '{}': {}.", scene_, comment_text(p_.formulation)),
+            fmt::format("Written by alembert {} from a scene; may be used, changed and passed on freely (MIT).",
+                        ALEMBERT_VERSION),
+            ""};
+        equation();
+        lines_.emplace_back();
+        arguments();
+        results();
+        const Operations cost = p_.count(p_.right_hand_side());
+        entry("cost",
+              {fmt::format("{} a right-hand side: {}, {}, {}, {}", counted(cost.total(), "operation"),
+                           counted(cost.additions, "addition"), counted(cost.multiplications, "multiplication"),
+                           counted(cost.divisions, "division"), counted(cost.functions, "function"))});
+        lines_.insert(lines_.end(), {"", example_title(), ""});
+        is_c_ ? example_in_c() : example_in_cpp();
+        return lines_;
+    }
+
+private:
+    std::size_t count(Group group) const { return p_.nodes_of(group).size(); }
+
+    /// "  name    a, b," and further lines below the first item.
+    void entry(const std::string& name, const Items& items) {
+        std::string line = fmt::format("  {:<{}}", name, name_width);
+        bool is_fresh = true;
+        if (line.size() > name_width + 2) line += "  ";
+        for (std::size_t k = 0; k < items.size(); ++k) {
+            const std::string item = items[k] + (k + 1 < items.size() ? "," : "");
+            if (!is_fresh && line.size() + item.size() + 1 > line_width) {
+                lines_.push_back(line);
+                line = std::string(name_width + 2, ' ');
+                is_fresh = true;
+            }
+            line += (is_fresh ? "" : " ") + item;
+            is_fresh = false;
+        }
+        lines_.push_back(line);
+    }
+
+    Items with_units(const Items& names, const std::vector<Quantity>& quantities) const {
+        Items items;
+        for (std::size_t k = 0; k < names.size(); ++k)
+            items.push_back(with_unit(label_of(names[k]), quantities[k].unit));
+        return items;
+    }
+
+    void equation() {
+        const bool own_speeds = !p_.speeds.empty();
+        std::string text = own_speeds ? "M(q) u' = f(q, u, t), q' = h(q, u, t)" : "M(q) q'' = f(q, q', t)";
+        if (count(Group::gamma) > 0)
+            text += own_speeds ? " + A^T lambda with A u' = gamma" : " + A^T lambda with A q'' = gamma";
+        if (is_c_) {
+            lines_.insert(lines_.end(), {text + ".",
+                                         "C99; nothing is allocated, no function keeps state, and the library of "
+                                         "mathematics is all that is needed.",
+                                         "With -DALEMBERT_REAL=float all numbers are floats."});
+        } else {
+            lines_.insert(lines_.end(), {text + ".",
+                                         "This file includes nothing and allocates nothing. Real is "
+                                         "double, or another type of numbers with the functions used."});
+        }
+    }
+
+    void arguments() {
+        entry("t", {"the time [s]"});
+        Items state = with_units(words_.q(), p_.coordinates);
+        if (p_.speeds.empty()) {
+            state.back() += ", then their rates";
+        } else {
+            Items speeds = with_units(words_.u(), p_.speeds);
+            speeds.front() = "then " + speeds.front();
+            state.insert(state.end(), speeds.begin(), speeds.end());
+        }
+        entry(fmt::format("state[{}]", n_ + s_), state);
+        entry(fmt::format("rate[{}]", n_ + s_), {"d state / dt"});
+        Items par;
+        for (std::size_t k = 0; k < parameters_; ++k)
+            par.push_back(
+                with_unit(fmt::format("{} = {}", label_of(words_.par()[k]), shortest(p_.parameters[k].value)),
+                          p_.parameters[k].unit));
+        if (length_ > parameters_) {
+            const std::string made = fmt::format("{}{} that prepare computes from them; call it after each change",
+                                                 par.empty() ? "" : "then ",
+                                                 counted(static_cast<long>(length_ - parameters_), "number"));
+            par.push_back(made);
+        }
+        if (par.empty()) par.emplace_back("nothing is read");
+        entry(fmt::format("par[{}]", length_), par);
+    }
+
+    /// The arrays of the other functions.
+    void results() {
+        const std::size_t constraints = count(Group::velocity);
+        const auto of = [&](const char* function, const std::string& arrays) { entry(function, {arrays}); };
+        if (count(Group::mass) > 0)
+            of("mass_forcing", fmt::format("mass[{}], M row by row; forcing[{}], f", s_ * s_, s_));
+        if (count(Group::kinetic) > 0)
+            of("energy",
+               "energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]");
+        const auto named = [&](const char* function, std::initializer_list<Group> groups) {
+            Items names = root_names(p_, groups);
+            if (names.empty()) return;
+            names.front() = fmt::format("out[{}]: {}", names.size(), names.front());
+            entry(function, names);
+        };
+        named("outputs_at", {Group::output, Group::speed});
+        named("events_at", {Group::event});
+        if (constraints > 0)
+            of("constraints_at", fmt::format("position[{0}], velocity[{0}]; rows[{1}], A row by row", constraints,
+                                             count(Group::row) + count(Group::speed_row)));
+        if (count(Group::multiplier) > 0)
+            of("multipliers_at", fmt::format("lambda[{}]", count(Group::multiplier)));
+        if (count(Group::projected) > 0)
+            of("project", fmt::format("{}[{}], position[{}], pivots[{}]", is_c_ ? "moved" : "out",
+                                      count(Group::projected), count(Group::position), count(Group::pivot)));
+        if (!p_.nodes_of(Group::jacobian).empty())
+            of("jacobian", fmt::format("values[{}]", jacobian(p_).rows.size()));
+        if (!p_.nodes_of(Group::event_impulse).empty())
+            of("impulses_at", fmt::format("out[{}]", count(Group::event_impulse)));
+    }
+
+    std::string example_title() const {
+        const std::string title =
+            options_.state.empty() ? "Example: the rates at a state; put your own numbers in place of the zeros."
+                                   : "Example: the rates at the scene's initial state.";
+        return title + " Compile it with" +
+               (is_c_ ? fmt::format(" cc -std=c99 -O2 example.c {}.c -lm", scene_)
+                      : " c++ -std=c++20 -O2 example.cpp");
+    }
+
+    /// The line `before` + numbers + "};", broken.
+    void numbers(const std::string& before) {
+        Items items;
+        for (std::size_t k = 0; k < n_ + s_; ++k)
+            items.push_back(options_.state.empty() ? "0" : shortest(options_.state[k]));
+        std::string line = before;
+        for (std::size_t k = 0; k < items.size(); ++k) {
+            const std::string item = items[k] + (k + 1 < items.size() ? "," : "};");
+            if (line.size() + item.size() > line_width) {
+                lines_.push_back(line);
+                line = "          ";
+            }
+            line += (k == 0 || line.back() == ' ' ? "" : " ") + item;
+        }
+        lines_.push_back(line);
+    }
+
+    void example_in_cpp() {
+        lines_.insert(lines_.end(),
+                      {"  #include <cstdio>", fmt::format("  #include \"{}.cpp\"", scene_), "", "  int main() {"});
+        numbers(fmt::format("      const double state[{}] = {{", n_ + s_));
+        lines_.push_back(fmt::format("      double par[{}]{}, rate[{}];", std::max<std::size_t>(length_, 1),
+                                     length_ > 0 ? "" : " = {}", n_ + s_));
+        if (parameters_ > 0)
+            lines_.push_back(
+                fmt::format("      for (int k = 0; k < {}; ++k) par[k] = parameter_values[k];", parameters_));
+        if (length_ > parameters_) lines_.emplace_back("      prepare(par);");
+        lines_.insert(lines_.end(),
+                      {fmt::format("      rhs({}, state, par, rate);", real_literal(options_.t)),
+                       "      for (const double value : rate) std::printf(\"%.17g\\n\", value);", "  }"});
+    }
+
+    void example_in_c() {
+        lines_.insert(lines_.end(), {"  #include <stdio.h>", fmt::format("  #include \"{}.h\"", scene_), "",
+                                     "  int main(void) {"});
+        numbers(fmt::format("      const ALEMBERT_REAL state[{}_state] = {{", scene_));
+        lines_.insert(
+            lines_.end(),
+            {fmt::format("      ALEMBERT_REAL par[{0}_par + 1], rate[{0}_state];", scene_),
+             fmt::format("      {}_defaults(par);", scene_),
+             fmt::format("      {}_rhs({}, state, par, rate);", scene_, shortest(options_.t)),
+             fmt::format("      for (int k = 0; k < {}_state; ++k) printf(\"%.17g\\n\", (double)rate[k]);",
+                         scene_),
+             "      return 0;", "  }"});
+    }
+
+    /// rhs deduces the type of numbers from its arguments.
+    static std::string real_literal(double x) {
+        const std::string text = shortest(x);
+        return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+    }
+
+    const Program& p_;
+    const Vocabulary& words_;
+    const EmitOptions& options_;
+    bool is_c_;
+    std::string scene_;
+    std::size_t n_, s_, parameters_, length_;
+    Items lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> head_of(const Program& program, const Vocabulary& words, const EmitOptions& options) {
+    return Head(program, words, options).lines();
+}
+
+}  // namespace alembert

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Words that emitted code must not use as the name of a value: keywords of C and C++, and macros of their
+/// headers, of POSIX and of compilers. A macro would replace the name before the compiler sees it.
+///
+///     is_reserved("register");    // a keyword
+///     may_be_macro("M_PI");       // by its shape
+///     may_be_macro("errno");      // by a list
+///
+/// No keyword and no macro of these headers ends in a single `_`, so a `_` after the word makes a name of it.
+
+#include <string_view>
+
+namespace alembert {
+
+/// Whether the name begins with a capital and a second character that is no small letter, and has two capitals, as
+/// macros have by convention, or is one of the macros that do not.
+bool may_be_macro(std::string_view name);
+
+/// Whether it is a keyword, or may be a macro.
+bool is_reserved(std::string_view name);
+
+}  // namespace alembert
