@@ -12,6 +12,7 @@
 #include "program/constants.hpp"
 #include "program/flatten.hpp"
 #include "program/share.hpp"
+#include "symbolic/distance.hpp"
 
 namespace alembert {
 
@@ -52,13 +53,26 @@ std::vector<std::string> sources_of_row(const Mechanism& m, int i) {
     return labels;
 }
 
+/// Whether distances from places given in numbers would be multiplied out.
+bool loses_digits(const Mechanism& m, const Equations& e) {
+    const auto holds = [&](const ex& value) { return holds_distance_from_number(value, *m.z); };
+    for (int i = 0; i < e.size(); ++i) {
+        if (holds(e.forcing(i))) return true;
+        for (int j = 0; j <= i; ++j)
+            if (holds(e.M(i, j))) return true;
+    }
+    return std::any_of(e.gamma.begin(), e.gamma.end(), holds) || std::any_of(e.h.begin(), e.h.end(), holds) ||
+           std::any_of(e.A.begin(), e.A.end(),
+                       [&](const auto& row) { return std::any_of(row.begin(), row.end(), holds); });
+}
+
 std::optional<Equations> textbook_equations(const Mechanism& m, Equations equations) {
     double size = 0;
     for (int i = 0; i < equations.size(); ++i) {
         for (int j = 0; j <= i; ++j) size += m.z->tree_size(equations.M(i, j));
         size += m.z->tree_size(equations.forcing(i));
     }
-    if (size > largest_tree) return std::nullopt;
+    if (size > largest_tree || loses_digits(m, equations)) return std::nullopt;
     for (int i = 0; i < equations.size(); ++i) {
         for (int j = 0; j <= i; ++j) {
             if (!make_readable({&equations.M(i, j)}, m)) return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include "language/say.hpp"
 #include "scene/functions.hpp"
+#include "symbolic/distance.hpp"
 #include "symbolic/functions.hpp"
 #include "symbolic/unspecified.hpp"
 
@@ -260,7 +261,8 @@ Value Translator::evaluate(const Tree& tree) {
                 }
                 GiNaC::exvector terms{std::get<ex>(first)};
                 for (std::size_t i = 1; i < tree.args.size(); ++i) terms.push_back(scalar_of(*tree.args[i]));
-                return ex(GiNaC::add(std::move(terms)));
+                const ex sum = GiNaC::add(std::move(terms));
+                return is_distance_from_number(sum, z) ? z.name(sum) : sum;
             }
             case Tree::Kind::product: {
                 GiNaC::exvector factors;

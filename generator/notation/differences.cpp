@@ -74,19 +74,39 @@ std::vector<Polynomial> candidates(const Polynomial& of, const Pair& pair, int n
     return {power_of_sum(pair, n, mixed / (Rational(n) * s), s)};
 }
 
+/// rest·c·(x + b/2c)², of which the terms are rest·(c·x² + b·x): distances from a number, as (x − 5)².
+std::vector<Polynomial> completed_squares(const Polynomial& of, const Term& term) {
+    std::vector<Polynomial> result;
+    for (std::size_t i = 0; i < term.monomial.size(); ++i) {
+        const Factor& x = term.monomial[i];
+        if (!is_whole_symbol(x) || x.exponent != 1 || x.atom->steady) continue;
+        Monomial rest = term.monomial;
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(i));
+        const Monomial square = rest * power({{x.atom, 1}}, 2);
+        const Rational c = coefficient_of(of, square), b = term.coefficient;
+        if (!cln::zerop(c)) result.push_back(Polynomial::collect({{square, c}, term, {rest, b * b / (4 * c)}}));
+    }
+    return result;
+}
+
 std::optional<Polynomial> best_power(const Polynomial& polynomial) {
     std::optional<Polynomial> best;
     std::size_t least = polynomial.size();  // the number of terms to beat, counting the power as one
-    for (const Term& term : polynomial.terms())
+    const auto offer = [&](std::vector<Polynomial> powers) {
+        for (Polynomial& power : powers)
+            if (const std::size_t left = (polynomial - power).size() + 1; left < least) {
+                least = left;
+                best = std::move(power);
+            }
+    };
+    for (const Term& term : polynomial.terms()) {
         for (const Pair& pair : pairs_in(term.monomial)) {
             const int n = to_int(pair.x.exponent + pair.y.exponent);
             if (pair.y.exponent != 1 || n > highest_power) continue;
-            for (Polynomial& power : candidates(polynomial, pair, n, term.coefficient))
-                if (const std::size_t left = (polynomial - power).size() + 1; left < least) {
-                    least = left;
-                    best = std::move(power);
-                }
+            offer(candidates(polynomial, pair, n, term.coefficient));
         }
+        offer(completed_squares(polynomial, term));
+    }
     return best;
 }
 
