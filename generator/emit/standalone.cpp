@@ -6,6 +6,8 @@
 #include <kainjow/mustache.hpp>
 
 #include "emit/numbers.hpp"
+#include "emit/projection_text.hpp"
+#include "emit/solver_functions.hpp"
 #include "emit/templates.hpp"
 #include "emit/vocabulary.hpp"
 
@@ -32,6 +34,8 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
     file.set("k", std::to_string(words.constants().size()));
     file.set("constraints", std::to_string(program.nodes_of(Group::velocity).size()));
     file.set("has_project", !program.nodes_of(Group::projected).empty());
+    file.set("has_energy", !energy(program).results.empty());
+    file.set("projection", projection_text(program, language));
     file.set("initial", initial);
     file.set("columns", columns);
     file.set("start", shortest(start.t));

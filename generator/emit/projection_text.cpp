@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/projection_text.hpp"
+
+#include <algorithm>
+#include <kainjow/mustache.hpp>
+
+#include "emit/names.hpp"
+#include "emit/solver_functions.hpp"
+#include "emit/templates.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// Whether the speeds have eliminated all constraints.
+bool is_eliminated(const Program& p) {
+    const std::vector<int> rows = p.nodes_of(Group::speed_row);
+    return !p.speeds.empty() && std::all_of(rows.begin(), rows.end(), [&](int node) { return p.is_zero(node); });
+}
+
+}  // namespace
+
+std::string projection_text(const Program& p, CodeLanguage language) {
+    const bool is_c = language == CodeLanguage::c, has_project = !project(p).results.empty();
+    kainjow::mustache::data file;
+    file.set("call", is_c ? ascii_identifier(p.name) + "_" : "");
+    file.set("math", is_c ? "" : "::");
+    file.set("own_speeds", !p.speeds.empty());
+    file.set("has_project", has_project);
+    file.set("has_energy", !energy(p).results.empty());
+    file.set("has_near", has_project && !is_eliminated(p) && !gamma_at(p).results.empty() &&
+                             !mass_forcing(p).results.empty() && !constraints_at(p).results.empty());
+    return kainjow::mustache::mustache{std::string(template_projection)}.render(file);
+}
+
+}  // namespace alembert

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// C for programs that integrate the emitted equations: the projection on the constraints that `simulate` uses,
+/// also near singular poses, and the balance of energy. The main program beside a file and the functional mock-up
+/// unit have the same text.
+///
+///     projection_text(program, CodeLanguage::c);
+
+#include <string>
+
+#include "emit/statement.hpp"
+#include "program/program.hpp"
+
+namespace alembert {
+
+/// The text expects the constants n, speeds and constraints, the emitted functions, and <float.h>, <math.h>,
+/// <string.h>. The template is templates/projection.c.mustache.
+std::string projection_text(const Program& program, CodeLanguage language);
+
+}  // namespace alembert
