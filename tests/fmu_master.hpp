@@ -158,8 +158,17 @@ public:
             ok("fmi3GetDirectionalDerivative", &unknown, one, &known, one, s, one, &result, one);
         return result;
     }
-    /// Event mode; true if the simulation ends.
+    /// Event mode, and back to continuous time; true if the simulation ends.
     bool update() {
+        if (is_continuous_) ok(prefix() + "EnterEventMode");
+        is_continuous_ = false;
+        const bool over = in_event_mode();
+        if (over) return true;
+        ok(prefix() + "EnterContinuousTimeMode");
+        is_continuous_ = true;
+        return false;
+    }
+    bool in_event_mode() {
         if (unit_.version == 3) {
             bool need = false, over = false, nominals = false, values = false, next = false;
             double when = 0;
@@ -197,7 +206,7 @@ private:
     const Unit& unit_;
     void* me_ = nullptr;
     double tolerance_ = 0;
-    bool over_ = false;
+    bool over_ = false, is_continuous_ = false;
     const void* callbacks_[5] = {};
 };
 
