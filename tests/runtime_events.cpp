@@ -293,4 +293,51 @@ TEST_CASE(
     }
 }
 
+// Functions without instructions have no bounds; their slopes along the motion tell that they turn within a step.
+// y = sin(w t) in y'' = −w² y from y = 0: sin(k y) has zeros where y = π j/k; a quarter of a period holds ⌊k/π⌋ of
+// them besides y = 0.
+TEST_CASE("events: a function without bounds that turns many times in a step has all its zeros") {
+    for (const Method method :
+         {Method::taylor, Method::dop853, Method::verner98, Method::radau, Method::gauss, Method::rk4})
+        for (const double k : {3.3, 12.0, 41.0, 77.7}) {
+            if (needs_series(method)) continue;  // they come with emitted code
+            CAPTURE(k);
+            INFO(name(method));
+            const Trajectory motion = integrate(oscillator(), {0, 1},
+                                                {.method = method,
+                                                 .duration = 10.5 * std::numbers::pi,
+                                                 .tolerance = 1e-10,
+                                                 .step = has_fixed_step(method) ? 0.05 : 0},
+                                                one_event([=](double, const double* y, const double*,
+                                                              double* out) { out[0] = std::sin(k * y[0]); }));
+            const int quarter = static_cast<int>(k / std::numbers::pi);
+            CHECK(static_cast<int>(motion.events.size()) == 21 * quarter + 10);
+        }
+}
+
+TEST_CASE("events: smooth ones cost three evaluations in each step and those that locate a zero") {
+    const auto evaluations = [](const Events& events) {
+        return integrate(oscillator(), {1, 0}, {.duration = 100, .tolerance = 1e-10}, events).statistics;
+    };
+    const Statistics without = evaluations({});
+    const Statistics with = evaluations(make_events({{.name = "place"}, {.name = "turn"}, {.name = "far"}},
+                                                    [](double, const double* y, const double* rate, double* out) {
+                                                        out[0] = y[0] - 0.3;
+                                                        out[1] = y[1];
+                                                        out[2] = rate[1] * y[0] + 1.5;
+                                                    }));
+    CHECK(with.steps == without.steps);
+    const long zeros = 31 + 32, dense = 3;  // dop853 needs three more for its dense output
+    CHECK(with.evaluations - without.evaluations <= (3 + dense) * with.steps + 12 * zeros);
+}
+
+TEST_CASE("events: a function that is zero but for rounding does not have its steps divided") {
+    const Trajectory motion = integrate(oscillator(), {1, 0}, {.duration = 20, .tolerance = 1e-10},
+                                        one_event([](double, const double* y, const double*, double* out) {
+                                            out[0] = (1 + y[0] + y[1]) - y[1] - y[0] - 1;
+                                        }));
+    CHECK(motion.statistics.evaluations <
+          40 * motion.statistics.steps + 40 * static_cast<long>(motion.events.size()));
+}
+
 }  // namespace runtime_events

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "alembert/event_watch.hpp"
 #include "alembert/recorder.hpp"
 #include "alembert/run.hpp"
 

@@ -182,6 +182,7 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
         .canonical = canonical,
         .jacobian_operations = derivatives ? std::optional(derivatives->operations.total()) : std::nullopt,
         .effort = effort});
+    mode->event_code = event_code(mode->run());
     mode->operations = mode->run().count(mode->run().right_hand_side());
     return mode;
 }

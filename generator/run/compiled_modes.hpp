@@ -20,6 +20,7 @@
 #include "alembert/rhs.hpp"
 #include "alembert/series.hpp"
 #include "derive/derived.hpp"
+#include "program/event_code.hpp"
 #include "program/switches.hpp"
 #include "run/method.hpp"
 #include "run/solver_code.hpp"
@@ -38,9 +39,10 @@ struct CompiledMode {
     Operations operations = {};  ///< of one right-hand side
     CodeOfSeries series = {};    ///< for taylor, or for a run that may go over to it
     bool was_asked_for_series = false;
-    std::optional<Module> canonical = {};         ///< for rattle
-    std::optional<int> jacobian_operations = {};  ///< set if it is emitted
-    double effort = 0;                            ///< of a right-hand side (effort_of)
+    std::optional<Module> canonical = {};              ///< for rattle
+    std::optional<int> jacobian_operations = {};       ///< set if it is emitted
+    double effort = 0;                                 ///< of a right-hand side (effort_of)
+    std::shared_ptr<const EventCode> event_code = {};  ///< of the events of `run`
     bool was_asked_for_jacobian = false;
     std::optional<Module> with_jacobian = {};  ///< after the motion was found stiff; nothing where it is too long
 };

@@ -194,7 +194,24 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         return refusal_of(self->derived.mechanism.frictions[static_cast<std::size_t>(friction)], self->program, t,
                           y);
     };
-    mode.contact.events = first_events(std::move(mode.contact.events), events);
+    const std::shared_ptr<const EventCode> code = mode.compiled.event_code;
+    if (code) {
+        const int first = mode.module.table().events - static_cast<int>(jumps.events());
+        system.bounds_of_functions = {
+            .exist = [=](int k) { return !code->events[static_cast<std::size_t>(first + k)].empty(); },
+            .of =
+                [=](int k, const MotionBounds& motion) {
+                    return bounds_of(code->events[static_cast<std::size_t>(first + k)], self->par.data(), motion);
+                }};
+    }
+    mode.contact.events = first_events(mode.contact.events, events, self->module, &self->par);
+    if (code && events > 0)
+        mode.contact.events.bounds = {
+            .exist = [=](int k) { return !code->events[static_cast<std::size_t>(k)].empty(); },
+            .of =
+                [=](int k, const MotionBounds& motion) {
+                    return bounds_of(code->events[static_cast<std::size_t>(k)], self->par.data(), motion);
+                }};
     mode.contact.switching = std::make_shared<const Switching>(std::move(system));
     const int dimension = mode.contact.rhs.dimension;
     Rhs& rhs = mode.contact.rhs;
@@ -242,6 +259,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
                    .projection = Projection(module, values),
                    .contact = {.rhs = make_rhs(module, values, compiled_.work()),
                                .events = make_events(module, values, stops, directions)}});
+    mode->contact.events.bounds = bounds_of(made.event_code, values);
     if (method.when_stiff || method.when_cheaper) mode->contact.rhs.effort = made.effort;
     if (made.series.module) mode->contact.rhs.series = make_series(made.series.module, values);
     if (made.canonical) mode->contact.rhs.canonical = make_canonical(module, *made.canonical, start_.parameters);

@@ -152,13 +152,13 @@ Switching switching_of(const Module& module, const std::vector<double>& values, 
     return system;
 }
 
-Events first_events(Events all, std::size_t count) {
+Events first_events(const Events& all, std::size_t count, const Module& module, const std::vector<double>* par) {
     if (count == 0) return {};
     std::vector<Event> list(all.list.begin(), all.list.begin() + static_cast<std::ptrdiff_t>(count));
     return make_events(std::move(list),
-                       [all = std::move(all), count](double t, const double* y, const double* rate, double* out) {
-                           std::vector<double> values(all.list.size());
-                           all(t, y, rate, values.data());
+                       [module, par, count](double t, const double* y, const double* rate, double* out) {
+                           std::vector<double> values(static_cast<std::size_t>(module.table().events));
+                           module.table().events_at(t, y, rate, par->data(), values.data());
                            std::copy_n(values.begin(), count, out);
                        });
 }

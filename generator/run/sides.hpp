@@ -45,8 +45,8 @@ Switching switching_of(const Module& module, const std::vector<double>& values, 
                        std::vector<std::string> names, Work work, Correction correct,
                        std::function<Rhs(const std::vector<double>& values)> smooth);
 
-/// The scene's events, the first `count` of the module's.
-Events first_events(Events all, std::size_t count);
+/// The scene's events, the first `count` of the module's, with the signs that `par` holds when they are called.
+Events first_events(const Events& all, std::size_t count, const Module& module, const std::vector<double>* par);
 
 /// σ at a state of a motion, for evaluations after the motion: the signs, and α where the state slides along a
 /// zero. `sizes` are the largest |g_k| of the motion.

@@ -14,6 +14,7 @@
 #include "emit/emit.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
+#include "program/event_code.hpp"
 #include "run/method.hpp"
 #include "run/regularization.hpp"
 #include "run/rows.hpp"
@@ -162,6 +163,7 @@ void Sweeper::compile_smooth() {
         ensemble_->series_packs = std::move(series.packs);
     }
     s_.timings.compile = process_seconds() - begin;
+    ensemble_->event_code = event_code(program_);
     for (const Mechanism::EventAction& event : s_.mechanism.event_actions) {
         ensemble_->stops.push_back(event.stop);
         ensemble_->directions.push_back(event.direction);

@@ -258,9 +258,12 @@ private:
             options.project = projection->after_steps();
             rhs = projection->guarded(std::move(rhs), member.parameters);
         }
-        const Trajectory motion = integrate(
-            rhs, state, options,
-            e_.stops.empty() ? Events() : make_events(e_.module, member.parameters, e_.stops, e_.directions));
+        Events events;
+        if (!e_.stops.empty()) {
+            events = make_events(e_.module, member.parameters, e_.stops, e_.directions);
+            events.bounds = bounds_of(e_.event_code, par);
+        }
+        const Trajectory motion = integrate(rhs, state, options, events);
         const std::span<const double> end = motion.final_state();
         feed_.done(member,
                    {.time = motion.times.back(),

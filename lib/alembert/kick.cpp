@@ -43,8 +43,9 @@ std::vector<double> as_integrated(const Kicks& kicks, double t, const std::vecto
 
 Events with_zeros_passed(const Events& events, std::vector<Event> list, std::vector<PassedZero> passed,
                          double start) {
-    return make_events(std::move(list), [events, passed = std::move(passed), start](
-                                            double t, const double* y, const double* rates, double* out) {
+    const EventBounds bounds = events.bounds;
+    Events result = make_events(std::move(list), [events, passed = std::move(passed), start](
+                                                     double t, const double* y, const double* rates, double* out) {
         events(t, y, rates, out);
         for (std::size_t k = 0; k < passed.size(); ++k) {
             const PassedZero& zero = passed[k];
@@ -53,6 +54,8 @@ Events with_zeros_passed(const Events& events, std::vector<Event> list, std::vec
             if (std::abs(out[k]) <= zero.band) out[k] = 0;
         }
     });
+    result.bounds = bounds;
+    return result;
 }
 
 std::optional<std::string> KickSeries::add(const std::string& name, double t, const LastZero& zero,

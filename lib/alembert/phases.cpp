@@ -304,15 +304,25 @@ private:
                                                         : std::max(1e-12 * sizes[k], 2 * off);
             }
         }
-        return make_events(std::move(list), [base = std::move(held), watches, scene](
-                                                double t, const double* y, const double* rates, double* out) {
-            base(t, y, rates, out);
-            for (std::size_t k = 0; k < watches.size(); ++k) {
-                double& g = out[scene + k];
-                g += watches[k].bound;
-                if (t <= watches[k].open_until) g = std::max(g, std::numeric_limits<double>::min());
-            }
-        });
+        const EventBounds bounds = held.bounds;
+        Events result = make_events(
+            std::move(list),
+            [base = std::move(held), watches, scene](double t, const double* y, const double* rates, double* out) {
+                base(t, y, rates, out);
+                for (std::size_t k = 0; k < watches.size(); ++k) {
+                    double& g = out[scene + k];
+                    g += watches[k].bound;
+                    if (t <= watches[k].open_until) g = std::max(g, std::numeric_limits<double>::min());
+                }
+            });
+        result.bounds = {.exist = bounds.exist, .of = [bounds, watches, scene](int k, const MotionBounds& motion) {
+                             Bounds of = bounds.of(k, motion);
+                             if (k < static_cast<int>(scene)) return of;
+                             const double shift = watches[static_cast<std::size_t>(k) - scene].bound;
+                             of.value = of.value + Interval{shift, shift};
+                             return of;
+                         }};
+        return result;
     }
 
     /// Whether contacts open and close again and again at the same time.

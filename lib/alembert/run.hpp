@@ -23,6 +23,7 @@
 
 #include <fmt/format.h>
 
+#include "alembert/event_watch.hpp"
 #include "alembert/integrate.hpp"
 #include "alembert/pace.hpp"
 #include "alembert/recorder.hpp"

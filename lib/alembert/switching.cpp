@@ -181,9 +181,12 @@ private:
         auto sides = std::make_shared<SwitchSides>(system_, sides_, dimension());
         const auto values = [this, watched, sides, undefined = undefined_, sizes = sizes_, normals = normals_](
                                 double t, const double* y, const double* rate, double* out) {
-            if (!events_.list.empty()) events_(t, y, rate, out);
             sides->evaluate(t, y);
             sides->find_bounds(t, y);
+            if (!events_.list.empty()) {
+                if (system_.before_step) system_.before_step(sides->sigma());
+                events_(t, y, rate, out);
+            }
             for (std::size_t k = 0; k < sizes->size(); ++k) {
                 (*sizes)[k] = std::max((*sizes)[k], std::abs(sides->value(static_cast<int>(k))));
                 (*normals)[k] = std::max((*normals)[k], std::abs(sides->normal(static_cast<int>(k))));
@@ -198,7 +201,29 @@ private:
                 value = -1;
             }
         };
-        return make_events(std::move(list), values);
+        Events result = make_events(std::move(list), values);
+        result.bounds = bounds_with(watched);
+        return result;
+    }
+
+    /// While a function slides, its σ changes within a step, and bounds for one σ say nothing.
+    EventBounds bounds_with(const std::vector<Watched>& watched) const {
+        if (std::find(sides_.of.begin(), sides_.of.end(), 0) != sides_.of.end()) return {};
+        const int scene = static_cast<int>(events_.list.size());
+        const auto one = [scene, watched](int k) { return watched[static_cast<std::size_t>(k - scene)]; };
+        return {.exist =
+                    [=, this](int k) {
+                        if (k < scene) return events_.bounds.has(k);
+                        return one(k).what == Watched::What::side && system_.bounds_of_functions.has(one(k).index);
+                    },
+                .of =
+                    [=, this](int k, const MotionBounds& motion) {
+                        if (k < scene) return events_.bounds.of(k, motion);
+                        const Watched w = one(k);
+                        Bounds of = w.sign * system_.bounds_of_functions.of(w.index, motion);
+                        of.value = of.value + Interval{w.offset, w.offset};
+                        return of;
+                    }};
     }
 
     /// Decides how the motion goes on where the functions watched at `hit` have reached zero.

@@ -96,9 +96,11 @@ struct Switching {
         {};
     /// The message if the k-th of the latter numbers is negative. Required together with `bounds`.
     std::function<std::string(int k, double t, const double* y)> refusal = {};
+    /// Bounds on the g_k, with the σ of the last call of `before_step`; may be empty.
+    EventBounds bounds_of_functions = {};
     std::function<void(const SideChange&)> on_change = {};  ///< may be empty
     std::function<void(const std::vector<double>& sigma)> before_step =
-        {};  ///< called with σ before on_step; may be empty
+        {};  ///< called with σ before on_step and before the events of the run; may be empty
 
     int count() const { return static_cast<int>(names.size()); }
     /// How many numbers `values` gives.

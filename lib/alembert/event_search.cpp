@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// The search for zeros of one event in a piece of a step (event_watch.hpp).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "alembert/event_watch.hpp"
+#include "alembert/tolerances.hpp"
+
+namespace alembert {
+namespace {
+
+constexpr double bend = 2;  ///< a function that approaches zero may later fall this many times as steeply
+constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+double EventWatch::value(const Stretch& step, int index, double theta) {
+    const double t = step.start + theta * (step.end - step.start);
+    step.interpolate(theta, state_.data());
+    rhs_(t, state_.data(), rate_.data());
+    ++evaluations_;
+    events_(t, state_.data(), rate_.data(), out_.data());
+    return out_[static_cast<std::size_t>(index)];
+}
+
+/// Goes through the points of the piece and the turning points between them and records where the sign changes.
+/// Points where the event is not a number are skipped.
+void EventWatch::look_at_piece(const Stretch& step, const Piece& piece, int index, std::vector<Crossing>& found) {
+    const auto k = static_cast<std::size_t>(index);
+    theta_.clear();
+    g_.clear();
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        const Sample& sample = samples_[piece[i]];
+        theta_.push_back(sample.theta);
+        g_.push_back(sample.value[k]);
+        slope_five_[i] = sample.slope[k];
+    }
+    for (const double turn : turning_points(step, index)) {
+        const auto after = std::upper_bound(theta_.begin(), theta_.end(), turn);
+        g_.insert(g_.begin() + (after - theta_.begin()), value(step, index, turn));
+        theta_.insert(after, turn);
+    }
+    int& last_sign = sign_[k];
+    std::size_t left = 0;
+    for (std::size_t i = 1; i < g_.size(); ++i) {
+        if (std::isnan(g_[i])) continue;
+        const int now = side_of(g_[i]);
+        if (last_sign != 0 && now == 0) record(step, index, theta_[i], -last_sign, found);
+        if (last_sign * now < 0)
+            record(step, index, locate(step, index, theta_[left], g_[left], theta_[i], g_[i]), now, found);
+        last_sign = now;
+        left = i;
+    }
+}
+
+void EventWatch::record(const Stretch& step, int index, double theta, int direction,
+                        std::vector<Crossing>& found) {
+    if (std::isnan(theta)) return;
+    const double time = theta == 1 ? step.end : step.start + theta * (step.end - step.start);
+    const Event& event = events_.list[static_cast<std::size_t>(index)];
+    if (!event.at_once && time - run_start_ <= simultaneous(step.start, step.end)) return;
+    found.push_back({.index = index,
+                     .time = time,
+                     .theta = theta,
+                     .direction = direction,
+                     .counts = event.direction == 0 || event.direction == direction});
+    if (stops(found.back())) stop_ = std::min(stop_, theta);
+}
+
+/// The places between points of the same sign at which g has the other sign.
+std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
+    const std::size_t points = theta_.size();
+    std::vector<double> found;
+    const auto add = [&](double theta) {
+        if (!std::isnan(theta)) found.push_back(theta);
+        return !std::isnan(theta);
+    };
+    for (std::size_t i = 0; i + 1 < points; ++i) add(turns_between(step, index, i));
+    if (!found.empty()) return found;
+    add(at_the_end(step, index, 0, 1));
+    for (std::size_t i = 0; i + 2 < points; ++i)
+        if (add(between(step, index, &theta_[i], &g_[i]))) ++i;
+    add(at_the_end(step, index, points - 1, points - 2));
+    return found;
+}
+
+/// Between two neighbouring points of the same sign: does g fall towards zero from both, so steeply that the
+/// tangents, below which no function that is convex towards zero lies, meet on the other side?
+double EventWatch::turns_between(const Stretch& step, int index, std::size_t left) {
+    const int side = side_of(g_[left]);
+    const double a = side * g_[left], b = side * g_[left + 1], width = theta_[left + 1] - theta_[left];
+    const double fall = -side * slope_five_[left], rise = side * slope_five_[left + 1];
+    if (side == 0 || !(b > 0) || !(fall > 0) || !(rise > 0)) return no_place;
+    const double share =
+        (b - a + fall * width) / ((fall + rise) * width);  // of the width, where the tangents meet
+    const double meet = a - fall * std::clamp(share, 0.0, 1.0) * width;
+    if (!(meet <= 0)) return no_place;
+    return lowest(step, index, theta_[left], g_[left], theta_[left] + std::clamp(share, 0.1, 0.9) * width,
+                  theta_[left + 1], g_[left + 1]);
+}
+
+/// Between the two points of a gap, `from` being an end of the piece: does g approach zero from there steeply
+/// enough, and come back?
+double EventWatch::at_the_end(const Stretch& step, int index, std::size_t from, std::size_t to) {
+    const int side = side_of(g_[from]);
+    const double a = theta_[from], b = theta_[to], slope = slope_five_[from];
+    if (side == 0 || side_of(g_[to]) != side || side * g_[from] + bend * side * slope * (b - a) >= 0 ||
+        side * g_[to] < side * g_[from])
+        return no_place;
+    return from < to ? lowest(step, index, a, g_[from], (a + b) / 2, b, g_[to])
+                     : lowest(step, index, b, g_[to], (a + b) / 2, a, g_[from]);
+}
+
+/// For three neighbouring points of the same sign: a place between them where g has the other sign. It is searched
+/// for where g is nearest to zero, and only if a parabola through the points comes near zero or a line through two
+/// of them meets zero before the third. Not a number if there is none.
+double EventWatch::between(const Stretch& step, int index, const double* theta, const double* g) {
+    const int side = side_of(g[1]);
+    if (side == 0 || side_of(g[0]) * side < 0 || side_of(g[2]) != side) return no_place;
+    const double before = (g[1] - g[0]) / (theta[1] - theta[0]), after = (g[2] - g[1]) / (theta[2] - theta[1]);
+    const double half_curvature = (after - before) / (theta[2] - theta[0]);
+    const double slope = before + half_curvature * (theta[1] - theta[0]);
+    const double vertex = theta[1] - slope / (2 * half_curvature);
+    if (!(half_curvature * side > 0) || vertex <= theta[0] || vertex >= theta[2]) return no_place;
+    const double parabola = side * (g[1] - slope * slope / (4 * half_curvature));
+    const double nearest = std::min({side * g[0], side * g[1], side * g[2]}),
+                 farthest = std::max(side * g[0], side * g[2]);
+    const bool turns_back =
+        side * g[1] < side * g[0] && side * g[1] < side * g[2] && side * g[1] < bend * (farthest - side * g[1]);
+    if (parabola > nearest / 2 && !turns_back) return no_place;
+    return lowest(step, index, theta[0], g[0], vertex, theta[2], g[2]);
+}
+/// Golden-section search for the place where g is nearest to zero, until g has the other sign there. The result is
+/// not a number if no such place is found, or as soon as the values show that no function convex towards zero can
+/// have one.
+double EventWatch::lowest(const Stretch& step, int index, double left, double g_left, double middle, double right,
+                          double g_right) {
+    constexpr double golden = 0.6180339887498949;
+    constexpr int enough = 4, most = 40;
+    const int side = side_of(g_right);
+    g_left *= side, g_right *= side;
+    double a = middle, g_a = side * value(step, index, a);
+    for (int i = 0; i < most && g_a > 0; ++i) {
+        const double fall = (g_left - g_a) / (a - left), rise = (g_right - g_a) / (right - a);
+        if (i >= enough && g_a > fall * (right - a) && g_a > rise * (a - left)) return no_place;
+        const double b = a - left > right - a ? a - (1 - golden) * (a - left) : a + (1 - golden) * (right - a);
+        const double g_b = side * value(step, index, b);
+        const bool is_lower = g_b < g_a;
+        const bool moves_right = (b < a) == is_lower;  // the right end of the bracket
+        (moves_right ? right : left) = is_lower ? a : b;
+        (moves_right ? g_right : g_left) = is_lower ? g_a : g_b;
+        if (is_lower) a = b, g_a = g_b;
+    }
+    return g_a <= 0 ? a : no_place;
+}
+
+/// The zero between two points of different signs, as θ; not a number if it is a pole.
+double EventWatch::locate(const Stretch& step, int index, double left, double g_left, double right,
+                          double g_right) {
+    double b = left, g_b = g_left;    // the newest point
+    double a = right, g_a = g_right;  // the other side of the zero
+    const double least = 4 * tolerance::epsilon * std::max(1.0, std::abs(step.end) / (step.end - step.start));
+    const double highest = std::max(std::abs(g_left), std::abs(g_right));  // a pole rises above both
+    double part = 0.5;
+    for (int i = 0; i < 100; ++i) {
+        const double next = b + part * (a - b);
+        const double g_next = value(step, index, next);
+        const bool same_side = side_of(g_next) == side_of(g_b);
+        const double c = same_side ? b : a,
+                     g_c = same_side ? g_b : g_a;  // the point that drops out of the bracket
+        if (!same_side) a = b, g_a = g_b;
+        b = next, g_b = g_next;
+        const double width = std::abs(a - b);
+        const double best = std::abs(g_b) < std::abs(g_a) ? b : a;
+        if (g_b == 0) return b;
+        if (width <= 2 * least) return std::min(std::abs(g_a), std::abs(g_b)) > highest ? no_place : best;
+
+        const double xi = (b - a) / (c - a);
+        const double phi = (g_b - g_a) / (g_c - g_a);
+        part = 0.5;
+        if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)  // inverse quadratic interpolation is safe
+            part =
+                g_b / (g_a - g_b) * g_c / (g_a - g_c) + (c - b) / (a - b) * g_b / (g_c - g_b) * g_a / (g_c - g_a);
+        part = std::clamp(part, least / width, 1 - least / width);
+    }
+    return b;
+}
+
+}  // namespace alembert

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Intervals that contain all values of an expression, and with them its first and second derivative.
+///
+///     const Interval x{1, 2};
+///     sin(x) * x;                                       // contains sin(a)·a for each a in x
+///     const Bounds y = sin({x, {1, 1}, {0, 0}});        // sin x, and its derivatives by x
+///
+/// Each result is widened by a few rounding errors (Moore, Interval Analysis, 1966, §§3, 11). An operation that is
+/// undefined somewhere in its arguments gives the whole line where it is defined at all.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace alembert {
+
+struct Interval {
+    double low = 0, high = 0;
+
+    static Interval whole() { return {-HUGE_VAL, HUGE_VAL}; }
+    bool has(double x) const { return low <= x && x <= high; }
+    bool has_sign() const { return low > 0 || high < 0; }
+    double size() const { return std::max(std::abs(low), std::abs(high)); }
+};
+
+inline Interval widened(double low, double high) {
+    constexpr double rounded = 4 * std::numeric_limits<double>::epsilon(),
+                     least = std::numeric_limits<double>::min();
+    const double a = low - rounded * std::abs(low) - (low != 0 ? least : 0),
+                 b = high + rounded * std::abs(high) + (high != 0 ? least : 0);
+    return {std::isnan(a) ? -HUGE_VAL : a, std::isnan(b) ? HUGE_VAL : b};
+}
+inline Interval hull(const Interval& a, const Interval& b) {
+    return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+inline Interval operator+(const Interval& a, const Interval& b) {
+    return widened(a.low + b.low, a.high + b.high);
+}
+inline Interval operator-(const Interval& a) {
+    return {-a.high, -a.low};
+}
+inline Interval operator-(const Interval& a, const Interval& b) {
+    return a + -b;
+}
+inline Interval operator*(const Interval& a, const Interval& b) {
+    const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
+    const double p[4] = {product(a.low, b.low), product(a.low, b.high), product(a.high, b.low),
+                         product(a.high, b.high)};
+    return widened(std::min({p[0], p[1], p[2], p[3]}), std::max({p[0], p[1], p[2], p[3]}));
+}
+inline Interval operator*(double c, const Interval& a) {
+    return Interval{c, c} * a;
+}
+inline Interval inverse(const Interval& a) {
+    return a.has_sign() ? widened(1 / a.high, 1 / a.low) : Interval::whole();
+}
+/// aⁿ, n ≥ 0.
+inline Interval power(const Interval& a, int n) {
+    if (n == 0) return {1, 1};
+    const double low = std::pow(a.low, n), high = std::pow(a.high, n);
+    if (n % 2 == 1) return widened(low, high);
+    return widened(a.has(0) ? 0 : std::min(low, high), std::max(low, high));
+}
+template <typename Function>
+Interval rising(const Interval& a, Function f) {
+    return widened(f(a.low), f(a.high));
+}
+inline Interval cos(const Interval& a) {
+    constexpr double turn = 2 * std::numbers::pi, exact = 1e15;
+    if (!(a.high - a.low < turn) || a.size() > exact) return {-1, 1};
+    const double first = std::cos(a.low), last = std::cos(a.high), few = 1e-15 * std::max(1.0, a.size());
+    const auto passes = [&](double phase) {  // a place phase + turn k lies in the interval
+        return std::floor((a.high + few - phase) / turn) >= std::ceil((a.low - few - phase) / turn);
+    };
+    return {passes(std::numbers::pi) ? -1 : std::max(-1.0, std::min(first, last) - few),
+            passes(0) ? 1 : std::min(1.0, std::max(first, last) + few)};
+}
+inline Interval sin(const Interval& a) {
+    return cos(a - Interval{std::numbers::pi / 2, std::numbers::pi / 2});
+}
+
+/// A quantity along a motion and its first two derivatives by time.
+struct Bounds {
+    Interval value, first, second;
+};
+
+inline Bounds whole_bounds() {
+    return {Interval::whole(), Interval::whole(), Interval::whole()};
+}
+inline Bounds operator+(const Bounds& a, const Bounds& b) {
+    return {a.value + b.value, a.first + b.first, a.second + b.second};
+}
+inline Bounds operator*(double c, const Bounds& a) {
+    return {c * a.value, c * a.first, c * a.second};
+}
+inline Bounds operator*(const Bounds& a, const Bounds& b) {
+    return {a.value * b.value, a.first * b.value + a.value * b.first,
+            a.second * b.value + 2.0 * (a.first * b.first) + a.value * b.second};
+}
+/// f(a), given the bounds of f, f' and f'' on a.value.
+inline Bounds through(const Bounds& a, const Interval& f, const Interval& slope, const Interval& bend) {
+    return {f, slope * a.first, bend * power(a.first, 2) + slope * a.second};
+}
+Bounds power(const Bounds& a, int n);
+Bounds inverse(const Bounds& a);
+Bounds sin(const Bounds& a);
+Bounds cos(const Bounds& a);
+Bounds tan(const Bounds& a);
+Bounds asin(const Bounds& a);
+Bounds acos(const Bounds& a);
+Bounds atan(const Bounds& a);
+Bounds sinh(const Bounds& a);
+Bounds cosh(const Bounds& a);
+Bounds tanh(const Bounds& a);
+Bounds exp(const Bounds& a);
+Bounds log(const Bounds& a);
+Bounds sqrt(const Bounds& a);
+Bounds abs(const Bounds& a);
+Bounds sign(const Bounds& a);
+Bounds pow(const Bounds& a, const Bounds& b);
+Bounds atan2(const Bounds& y, const Bounds& x);
+Bounds least_of(const Bounds& a, const Bounds& b);
+
+}  // namespace alembert
