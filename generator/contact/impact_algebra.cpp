@@ -6,6 +6,7 @@
 #include "contact/impact_algebra.hpp"
 
 #include <cmath>
+#include <set>
 
 #include "formalism/lagrange.hpp"
 #include "language/say.hpp"
@@ -160,19 +161,23 @@ private:
     /// A coordinate inside a function, at a number other than zero and multiples of π.
     bool turns_by_a_decimal(std::size_t i) const {
         if (!GiNaC::is_a<GiNaC::numeric>(m_.q_start[i]) || m_.q_start[i].is_zero()) return false;
+        std::set<unsigned> seen;  // intermediate symbols, by hash: many expressions share them
         const auto inside = [&](const ex& e, const auto& self) -> bool {
-            if (GiNaC::is_a<GiNaC::function>(e)) return e.has(m_.q[i]);
+            if (GiNaC::is_a<GiNaC::function>(e)) return m_.z->depends(e, {m_.q[i]});
+            if (GiNaC::is_a<GiNaC::symbol>(e)) {
+                const auto* const entry = m_.z->find(GiNaC::ex_to<GiNaC::symbol>(e));
+                return entry != nullptr && seen.insert(e.gethash()).second && self(entry->definition, self);
+            }
             for (std::size_t k = 0; k < e.nops(); ++k)
                 if (self(e.op(k), self)) return true;
             return false;
         };
         for (std::size_t a = 0; a < n_; ++a) {
             for (std::size_t b = 0; b <= a; ++b)
-                if (inside(m_.z->expand(M_(static_cast<unsigned>(a), static_cast<unsigned>(b))), inside))
-                    return true;
-            if (inside(m_.z->expand(impulse_[a]), inside)) return true;
+                if (inside(M_(static_cast<unsigned>(a), static_cast<unsigned>(b)), inside)) return true;
+            if (inside(impulse_[a], inside)) return true;
             for (const Row& row : rows_)
-                if (inside(m_.z->expand(row.a[a]), inside)) return true;
+                if (inside(row.a[a], inside)) return true;
         }
         return false;
     }

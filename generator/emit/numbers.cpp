@@ -7,7 +7,11 @@
 #include <cln/real.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
+
+#include "alembert/error.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -17,6 +21,19 @@ std::string digits(const cln::cl_I& value) {
     std::ostringstream out;
     out << value;
     return out.str();
+}
+
+/// The nearest double, which must exist.
+double nearest_double(const Rational& value) {
+    const double nearest = cln::double_approx(value);
+    if (std::isfinite(nearest)) return nearest;
+    const double digits =
+        (cln::integer_length(cln::numerator(value)) - cln::integer_length(cln::denominator(value))) *
+        std::log10(2.0);
+    throw ModelError(
+        say("the equations contain a number of about 1e{:.0f}, which is too large for double precision: "
+            "no code can hold it; give the scene other units, or a parameter in place of the number",
+            digits));
 }
 
 }  // namespace
@@ -29,7 +46,7 @@ std::string number_text(const Rational& value) {
     const cln::cl_I numerator = cln::numerator(value), denominator = cln::denominator(value);
     const cln::cl_I largest = cln::expt_pos(cln::cl_I(2), 53);
     if (denominator == 1 && cln::abs(numerator) <= largest) return fmt::format("Real({})", digits(numerator));
-    const double nearest = cln::double_approx(value);
+    const double nearest = nearest_double(value);
     // A decimal such as 9.81 is written with its digits; 1/3 is left to the division of Real.
     cln::cl_I rest = denominator;
     while (cln::zerop(cln::mod(rest, 2))) rest = cln::exquo(rest, 2);
@@ -41,9 +58,10 @@ std::string number_text(const Rational& value) {
 
 std::string exact_text(const Rational& value) {
     const auto is_double = [](const Rational& r) {
-        return cln::zerop(r) || cln::equal(cln::rational(cln::cl_DF(cln::double_approx(r))), r);
+        return cln::zerop(r) || cln::equal(cln::rational(cln::cl_DF(nearest_double(r))), r);
     };
     const auto text = [](const Rational& r) { return fmt::format("Real({})", shortest(cln::double_approx(r))); };
+    nearest_double(value);
     if (is_double(value)) return text(value);
     const Rational above = cln::numerator(value), below = cln::denominator(value);
     if (is_double(above) && is_double(below)) return fmt::format("({} / {})", text(above), text(below));

@@ -8,6 +8,7 @@
 #include "program/differentiate.hpp"
 #include "program/switches.hpp"
 #include "run/first_accelerations.hpp"
+#include "run/sides.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -77,7 +78,7 @@ UnitModel unit_model(Scene scene, const std::string& by) {
             say("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
                 "gives those after\n",
                 model.scene.file));
-    Program program = lowered(model).program;
+    Program program = with_signs_told(model, lowered(model).program);
     Start start = start_of(model.mechanism);
     assemble(start, model.mechanism, lower_constraints(model.mechanism), {});
     model.start = state_of(start, model.mechanism, model.equations);

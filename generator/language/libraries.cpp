@@ -93,6 +93,7 @@ constexpr std::array patterns{
     to_say("a function whose sign is needed is not a number at t = {}"),
     to_say("{} has a fixed step: give it, for example step = {}"),
     to_say("step = {}: more than {} steps"),
+    to_say("longest_step (max_step of a scene) = {}: more than {} steps"),
     to_say("sample = {}: more than {} rows"),
     // CLI11.
     to_say("The following argument was not expected: {}"),

@@ -12,10 +12,15 @@ using GiNaC::ex;
 
 namespace {
 
-ex at_rest(const ex& e, const Mechanism& m) {
+/// Nothing if that divides by a rate.
+std::optional<ex> at_rest(const ex& e, const Mechanism& m) {
     GiNaC::exmap still;
     for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
-    return m.z->expand(e).subs(still, GiNaC::subs_options::no_pattern);
+    try {
+        return m.z->expand(e).subs(still, GiNaC::subs_options::no_pattern);
+    } catch (const GiNaC::pole_error&) {
+        return std::nullopt;
+    }
 }
 
 std::vector<GiNaC::symbol> clock(const Mechanism& m) {
@@ -82,8 +87,9 @@ Energy energy_of(const Mechanism& mechanism) {
             for (int i = 0; const ex& entry : z.push_forward(p, {{m.qdot[j], 1}}))
                 twice.push_back(entry * m.qdot[i++] * m.qdot[j]);
         result.kinetic = z.name(GiNaC::add(std::move(twice)) / 2);
-        result.potential = z.name(-at_rest(L, m));
         result.energy = result.jacobi;
+        const std::optional<ex> still = at_rest(L, m);
+        result.potential = z.name(still ? -*still : result.energy - result.kinetic);
     } else {
         result.kinetic = m.kinetic_energy();
         result.potential = m.potential_energy();

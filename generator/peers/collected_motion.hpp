@@ -95,6 +95,7 @@ public:
         motion_.statistics = {.steps = by_.steps(),
                               .rejected = by_.rejected(),
                               .evaluations = system_.evaluations + watch_.evaluations(),
+                              .work = system_.evaluations + watch_.evaluations(),
                               .seconds = 0,
                               .method = by_.name};
         return std::move(motion_);

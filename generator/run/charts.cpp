@@ -70,7 +70,7 @@ public:
             if (!whole.times.empty()) options.start = whole.times.back();
             options.duration =
                 end - options.start > 16 * tolerance_of_time * std::abs(end) ? end - options.start : 0;
-            options.budget = std::max(1L, given.budget - whole.statistics.evaluations);
+            options.budget = std::max(1L, given.budget - whole.statistics.work);
             Trajectory piece =
                 by_quaternion ? in_angles(rhs, state, options) : integrate(rhs, state, options, leaving());
             if (whole.times.empty())

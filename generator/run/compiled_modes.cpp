@@ -142,7 +142,8 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
                                    with_contacts_watched(with_closed(derived_.mechanism, closed), closed), planes),
                                closed.empty() ? derived_.by : "routh");
     seconds_.derive += lap();
-    Program program = free_ && is_own ? *std::move(free_) : lowered(derived).program;
+    std::vector<int> signs;  // told already
+    Program program = free_ && is_own ? *std::move(free_) : with_quotient_signs(lowered(derived).program, signs);
     if (program.singular) need_accelerations(derived, program, first);
     std::optional<Switched> jumps;
     // rattle calculates with momenta, in which signs are not held constant.

@@ -21,6 +21,7 @@
 #include "alembert/series.hpp"
 #include "derive/derived.hpp"
 #include "program/event_code.hpp"
+#include "program/quotient_signs.hpp"
 #include "program/switches.hpp"
 #include "run/method.hpp"
 #include "run/solver_code.hpp"

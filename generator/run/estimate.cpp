@@ -184,7 +184,7 @@ public:
     /// first step differs too, because it does not always depend on the tolerance.
     std::optional<PhasedMotion> other(Options& options) const {
         options = given_;
-        options.budget = std::min(given_.budget, 4 * motion_.statistics.evaluations + 10'000);
+        options.budget = std::min(given_.budget, 4 * motion_.statistics.work + 10'000);
         const bool fixed = has_fixed_step(options.method);
         for (const double factor : {0.1, 10.0}) {
             const double length = factor < 1 ? 0.5 : 2;
@@ -269,7 +269,7 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     std::vector<double> moved = initial;
     for (std::size_t i = 0; i < compared; ++i) moved[i] += beside * (i % 2 == 0 ? 1 : -0.5);
     Options third = given;
-    third.budget = 2 * motion.statistics.evaluations + 10'000;
+    third.budget = 2 * motion.statistics.work + 10'000;
     const PhasedMotion neighbour = run(third, moved);
     estimate.lyapunov = exponent(separations(neighbour, motion, compared));
     if (!estimate.lyapunov) return estimate;

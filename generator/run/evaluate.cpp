@@ -14,6 +14,7 @@
 #include "model/friction.hpp"
 #include "program/without_rounding.hpp"
 #include "run/held_state.hpp"
+#include "run/sides.hpp"
 #include "state/assemble.hpp"
 #include "state/diagnose.hpp"
 
@@ -84,7 +85,7 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     if (const std::vector<int> planes = frictions_in_planes(m, closed); !planes.empty())
         static_cast<Derived&>(e) =
             derived_again(e, with_directions_held(m, planes), closed.empty() ? e.by : "routh");
-    Program program = lowered(e).program;
+    Program program = with_signs_told(e, lowered(e).program);
     if (const auto jumps = switched(program, SecondRates::wanted)) {
         std::optional<HeldState> held =
             jumps->has_frictions() ? held_state(*jumps, state) : standing_state(*jumps, state);
@@ -116,6 +117,13 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     e.kinetic = single(Group::kinetic);
     e.potential = single(Group::potential);
     e.energy = single(Group::energy);
+    if (!std::isfinite(e.kinetic) || !std::isfinite(e.potential) || !std::isfinite(e.energy)) {
+        std::optional<std::string> what;
+        for (const Group group : {Group::kinetic, Group::potential, Group::energy})
+            if (!what) what = not_finite(program, state, group);
+        e.warn(say("warning: the energy is not a number here, because of {}\n",
+                   what.value_or(say("numbers that overflow"))));
+    }
     const std::vector<double> position = values_of(program, value, Group::position),
                               velocity = values_of(program, value, Group::velocity);
     for (std::size_t k = 0; k < position.size(); ++k)

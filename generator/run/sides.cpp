@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "language/say.hpp"
+#include "program/quotient_signs.hpp"
 
 namespace alembert {
 
@@ -82,6 +84,23 @@ std::string text_of(const Program& p, int id, int depth = 0) {
         }
     }
 }
+
+}  // namespace
+
+Program with_signs_told(Prepared& prepared, const Program& program) {
+    std::vector<int> signs;
+    Program made = with_quotient_signs(program, signs);
+    std::set<std::string> arguments;
+    for (const int x : signs) arguments.insert(text_of(made, x));
+    for (const std::string& x : arguments)
+        prepared.warn(
+            say("warning: a quotient such as {0}/abs({0}) or {0}/sqrt(({0})^2) is followed as sign({0}), "
+                "which is 0 where {0} is 0; write sign({0})\n",
+                x));
+    return made;
+}
+
+namespace {
 
 /// The name of the sign of a reaction on which a friction acts; nothing for signs that the scene has.
 std::optional<std::string> name_of_reaction(const Program& program, int id) {

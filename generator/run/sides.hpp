@@ -13,6 +13,7 @@
 #include "alembert/module.hpp"
 #include "alembert/switching.hpp"
 #include "program/switches.hpp"
+#include "state/prepared.hpp"
 
 namespace alembert {
 
@@ -44,6 +45,10 @@ using Correction =
 Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
                        std::vector<std::string> names, Work work, Correction correct,
                        std::function<Rhs(const std::vector<double>& values)> smooth);
+
+/// The program in which signs that the scene writes as x/|x| or x/√(x²) are such (program/quotient_signs.hpp),
+/// with a warning for each.
+Program with_signs_told(Prepared& prepared, const Program& program);
 
 /// The scene's events, the first `count` of the module's, with the signs that `par` holds when they are called.
 Events first_events(const Events& all, std::size_t count, const Module& module, const std::vector<double>* par);

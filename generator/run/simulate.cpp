@@ -15,6 +15,7 @@
 #include "run/held_state.hpp"
 #include "run/method.hpp"
 #include "run/regularization.hpp"
+#include "run/sides.hpp"
 #include "run/trust.hpp"
 #include "state/assemble.hpp"
 
@@ -63,7 +64,7 @@ public:
 
     void run() {
         const double begin = process_seconds();
-        Program program = lowered(run_).program;
+        Program program = with_signs_told(run_, lowered(run_).program);
         start_ = start_of(run_.mechanism);
         run_.adjusted = assemble(start_, run_.mechanism, lower_constraints(run_.mechanism), {});
         first_ = state_of(start_, run_.mechanism, run_.equations);
@@ -129,11 +130,17 @@ private:
             check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
     }
 
-    /// A change to the same state is not recorded.
+    /// A change to the same state is not recorded. Frictions that stick at one instant come in the order of the
+    /// scene: rounding decides which is found first.
     static void note(std::vector<Run::FrictionChange>& changes, const Run::FrictionChange& change) {
         const auto last = std::find_if(changes.rbegin(), changes.rend(),
                                        [&](const auto& known) { return known.friction == change.friction; });
-        if (last == changes.rend() || last->side != change.side) changes.push_back(change);
+        if (last != changes.rend() && last->side == change.side) return;
+        const auto place = std::find_if(changes.rbegin(), changes.rend(), [&](const auto& known) {
+            return known.time != change.time || known.side != 0 || change.side != 0 ||
+                   known.friction <= change.friction;
+        });
+        changes.insert(place.base(), change);
     }
 
     const JointReactions* reactions() const { return reactions_ ? &*reactions_ : nullptr; }

@@ -18,6 +18,7 @@
 #include "run/method.hpp"
 #include "run/regularization.hpp"
 #include "run/rows.hpp"
+#include "run/sides.hpp"
 #include "run/solver_code.hpp"
 #include "run/sweep_method.hpp"
 #include "state/assemble.hpp"
@@ -68,7 +69,7 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
     starts_.emplace(m, names);
     has_varied_bodies_ = !m.masses.empty() && varies_parameters(m, names);
     s_.conserved = energy_of(m).conserved && !has_jumps(m);
-    program_ = lowered(s_).program;
+    program_ = with_signs_told(s_, lowered(s_).program);
     for (const Quantity& q : program_.coordinates) s_.coordinates.push_back(q.name);
     if (!m.speeds.empty())
         for (const Quantity& u : program_.speeds) s_.speeds.push_back(u.name);

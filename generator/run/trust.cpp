@@ -70,7 +70,10 @@ std::vector<std::string> doubts(const Evidence& e) {
             say("the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left",
                 *e.error.lyapunov, *e.error.horizon));
     const auto hold = [&](const std::string& what, const std::optional<double>& drift) {
-        if (drift && !(*drift <= two_digits_of_energy))
+        if (drift && !std::isfinite(*drift))
+            reasons.push_back(
+                say("{} is not a number: its terms are too large or too small for double precision", what));
+        else if (drift && !(*drift <= two_digits_of_energy))
             reasons.push_back(say("{} is off by {:.1e} of the largest kinetic energy", what, *drift));
     };
     hold(say("the energy, which should stay,"), e.energy);

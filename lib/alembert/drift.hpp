@@ -9,7 +9,8 @@
 ///     drift.balance();
 ///
 /// Where rates jump, E changes by the work of the impulses, and by the jump of T₁ + 2T₀ = E − h that is due to a
-/// moving frame (energy.hpp); both count as work.
+/// moving frame (energy.hpp); both count as work. If one of these was not a number at any step, neither is what is
+/// told.
 
 #include <algorithm>
 #include <cmath>
@@ -44,9 +45,9 @@ public:
         largest_kinetic_ = std::max(largest_kinetic_, e.kinetic);
         largest_energy_ = std::max(largest_energy_, std::abs(e.total));
         largest_work_ = std::max(largest_work_, std::abs(work));
-        energy_ = std::max(energy_, std::abs(e.total - energy_start_));
-        balance_ = std::max(balance_, std::abs(e.total - energy_start_ - work));
-        jacobi_ = std::max(jacobi_, std::abs(e.jacobi - jacobi_start_));
+        grow(energy_, std::abs(e.total - energy_start_));
+        grow(balance_, std::abs(e.total - energy_start_ - work));
+        grow(jacobi_, std::abs(e.jacobi - jacobi_start_));
     }
 
     /// To be called when rates have jumped.
@@ -88,7 +89,12 @@ private:
 
     double of_motion(double drift, double energy, double work) const {
         const double size = std::max({largest_kinetic_, 1e-10 * energy, 1e-4 * work});
-        return drift > 0 ? drift / size : 0;
+        return drift == 0 ? 0 : drift / size;
+    }
+
+    /// What is not a number stays so: it says nothing of how far a quantity has departed.
+    static void grow(double& most, double departure) {
+        if (!(departure <= most) && !std::isnan(most)) most = departure;
     }
 
     double scale(double start) const {

@@ -66,6 +66,10 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
                       options.duration / 1000));
     check(!has_fixed_step(options.method) || options.duration == 0 || options.duration / options.step < most_steps,
           fmt::format("step = {}: more than {:g} steps", options.step, most_steps));
+    check(has_fixed_step(options.method) || options.longest_step == 0 ||
+              options.duration / options.longest_step < most_steps,
+          fmt::format("longest_step (max_step of a scene) = {}: more than {:g} steps", options.longest_step,
+                      most_steps));
     check(options.duration == 0 || options.duration / sample_interval(options) < most_rows,
           fmt::format("sample = {}: more than {:g} rows", options.sample, most_rows));
 }
@@ -152,7 +156,7 @@ void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Even
         rest.step = 0;
         rest.sample = interval;
         rest.grid = options.grid.value_or(options.start);
-        rest.budget = std::max(1L, options.budget - whole.statistics.evaluations);
+        rest.budget = std::max(1L, options.budget - whole.statistics.work);
         if (is_stiff) {
             rest.turns.effort_per_time = next->effort_per_time;
             rest.method = *options.when_stiff;

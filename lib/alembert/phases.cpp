@@ -184,7 +184,7 @@ private:
                 here.longest_step =
                     here.longest_step > 0 ? std::min(here.longest_step, short_enough) : short_enough;
             }
-            here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
+            here.budget = std::max(1L, options_.budget - result_.statistics.work);
         }
         here.project = mode.project;
         here.rhs_when_stiff = mode.rhs_when_stiff;
@@ -253,6 +253,7 @@ private:
         sum.steps += s.steps;
         sum.rejected += s.rejected;
         sum.evaluations += s.evaluations;
+        sum.work += s.work;
         sum.seconds += s.seconds;
         sum.method = s.method;
         if (!sum.switched)

@@ -125,6 +125,7 @@ public:
         const Trajectory inner = integrate(system_, step_start_, inner_options(), events_in_own_time());
         result_.statistics = inner.statistics;
         result_.statistics.evaluations += further_evaluations_;
+        result_.statistics.work += further_evaluations_;
         if (inner.failure && !is_finished_)
             fail(*inner.failure);
         else

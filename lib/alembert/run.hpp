@@ -87,6 +87,7 @@ public:
             if (options_.duration > 0) steps();
         }
         result_.statistics.evaluations = evaluations();
+        result_.statistics.work = work();
         return std::move(result_);
     }
 
@@ -96,6 +97,19 @@ private:
     long evaluations() const {
         return step_.evaluations() + watch_.evaluations() + stiffness_.evaluations() + rounding_.evaluations() +
                further_evaluations_ + (series_ ? series_->evaluations() : 0);
+    }
+
+    /// What the budget bounds: a power series counts as the evaluations that take as long.
+    long work() const {
+        if constexpr (requires { step_.effort(); }) return evaluations() + (of_series() - 1) * step_.evaluations();
+        return evaluations();
+    }
+    long of_series() const {
+        if constexpr (requires { step_.effort(); }) {
+            const double times = step_.effort() / effort_of_evaluation(step_.rhs(), false);
+            return std::max(1L, static_cast<long>(std::min(times, 1e6)));
+        }
+        return 1;
     }
 
     /// The predicted effort of the steps so far (pace.hpp), without events.
@@ -273,7 +287,7 @@ private:
                 rounding_.look(step_.rhs(), step_.time(), step_.state(), step_.rate());
         if (!options_.when_stiff && !options_.turns.back && !series_) return;
         pace_.add(step_.time(), effort());
-        if (evaluations() >= options_.budget) return;
+        if (work() >= options_.budget) return;
         if (series_ && series_->finds_cheaper({.t = step_.time(),
                                                .y = step_.state(),
                                                .h = step_.length(),
@@ -365,7 +379,7 @@ private:
 
     bool is_over_budget() {
         const int watched = options_.when_stiff ? 1 : 0;
-        if (evaluations() + step_.most_evaluations() + watched <= options_.budget) return false;
+        if (work() + of_series() * step_.most_evaluations() + watched <= options_.budget) return false;
         fail(FailureKind::budget_used_up, -1,
              fmt::format("{} right-hand sides were not enough to come further than t = {}; raise the budget, "
                          "loosen the tolerance or shorten the duration",

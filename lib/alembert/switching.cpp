@@ -118,7 +118,7 @@ private:
         here.duration = end_ - t_ > 16 * tolerance::epsilon * std::abs(end_) ? end_ - t_ : 0;
         here.sample = sample_interval(options_);
         here.grid = options_.grid.value_or(options_.start);
-        here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
+        here.budget = std::max(1L, options_.budget - result_.statistics.work);
         here.rhs_when_stiff = {};
         here.when_cheaper = {};  // the series of a piece is another one
         if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
@@ -298,9 +298,16 @@ private:
         sides_ = best.sides;
         SwitchSides here(system_, sides_, dimension());
         for (const int k : still) here.bring_to_zero(k, t_, state_.data());
-        for (const auto* list : {&open, &still})
-            for (const int k : *list) tell(k, SideChange::Kind::sliding);
+        std::vector<int> all = open;
+        all.insert(all.end(), still.begin(), still.end());
+        for (const int k : as_declared(std::move(all))) tell(k, SideChange::Kind::sliding);
         return true;
+    }
+
+    /// Rounding decides which of several functions that become zero at once is found first.
+    static std::vector<int> as_declared(std::vector<int> functions) {
+        std::sort(functions.begin(), functions.end());
+        return functions;
     }
 
     static bool rests(const SideChoice& choice, const std::vector<int>& all) {
@@ -342,7 +349,7 @@ private:
         sides_ = found[0].sides;
         for (const int k : open)
             if (sides_.is_pair(k) && sides_[k] != 0) seed(k);
-        for (const int k : open)
+        for (const int k : as_declared(open))
             if (before[k] != sides_[k] &&
                 (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side yet
                 tell(k, sides_[k] == 0   ? SideChange::Kind::sliding

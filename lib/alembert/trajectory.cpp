@@ -19,6 +19,7 @@ void append(Trajectory& first, Trajectory next, double grid, double sample) {
     first.statistics.steps += next.statistics.steps;
     first.statistics.rejected += next.statistics.rejected;
     first.statistics.evaluations += next.statistics.evaluations;
+    first.statistics.work += next.statistics.work;
     std::vector<Switch>& later = first.statistics.later_switches;
     if (!first.statistics.switched)
         first.statistics.switched = next.statistics.switched;

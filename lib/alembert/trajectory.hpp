@@ -79,6 +79,7 @@ struct Statistics {
     long steps = 0;  ///< accepted steps
     long rejected = 0;
     long evaluations = 0;                 ///< of the right-hand side, those for dense output and events included
+    long work = 0;                        ///< the same, a series counting as the evaluations that take as long
     double seconds = 0;                   ///< processor time of this thread, without setting up the system
     std::string method;                   ///< the method at the start
     std::optional<Switch> switched = {};  ///< the first change of method
