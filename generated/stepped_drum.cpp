@@ -144,8 +144,8 @@ void constraints_at(const Real&, const Real* state, const Real* par, Real* posit
     const Real &R = par[1], &r = par[2];
 
     // Result
-    position[0] = Real(1) + y1 + R * theta;
-    position[1] = Real(1.5) + y2 - r * theta;
+    position[0] = y1 + (Real(1) + R * theta);
+    position[1] = y2 - (r * theta - Real(1.5));
     velocity[0] = y1_dot + R * theta_dot;
     velocity[1] = y2_dot - r * theta_dot;
     rows[0] = R;
@@ -175,8 +175,8 @@ void project(const Real&, const Real* state, const Real* par, Real* out, Real* p
     const Real &k7 = par[13], &k8 = par[14], &k9 = par[15], &k10 = par[16];
 
     // Projection
-    const Real z0 = Real(1) + y1 + R * theta;
-    const Real z1 = Real(1.5) + y2 - r * theta;
+    const Real z0 = y1 + (Real(1) + R * theta);
+    const Real z1 = y2 - (r * theta - Real(1.5));
     const Real z2 = y2_dot - r * theta_dot;
     const Real z3 = k10 * (z0 + k7 * z1);
     const Real z4 = k6 * z1 + k7 * z3;

@@ -2,6 +2,7 @@
 #include "symbolic/distance.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 namespace alembert {
@@ -12,39 +13,63 @@ using GiNaC::is_a;
 
 namespace {
 
-/// Whether `e` depends on a coordinate, a rate or time otherwise than through functions.
-bool moves_as_polynomial(const ex& e, const Intermediates& z) {
-    if (is_a<GiNaC::function>(e)) return false;
-    if (!is_a<GiNaC::symbol>(e))
-        return std::any_of(e.begin(), e.end(), [&](const ex& part) { return moves_as_polynomial(part, z); });
-    const GiNaC::symbol& symbol = ex_to<GiNaC::symbol>(e);
-    if (const Intermediates::Entry* const entry = z.find(symbol)) return moves_as_polynomial(entry->definition, z);
-    using Kind = SymbolInfo::Kind;
-    const Kind kind = z.symbols().info(symbol).kind;
-    return kind == Kind::coordinate || kind == Kind::speed || kind == Kind::input || kind == Kind::time;
-}
+class Search {
+public:
+    explicit Search(const Intermediates& z) : z_(z) {}
 
-bool holds(const ex& e, const Intermediates& z, std::set<unsigned>& seen) {
-    if (is_a<GiNaC::symbol>(e)) {
-        const GiNaC::symbol& symbol = ex_to<GiNaC::symbol>(e);
-        const Intermediates::Entry* const entry = z.find(symbol);
-        return entry != nullptr && seen.insert(symbol.gethash()).second && holds(entry->definition, z, seen);
+    bool is_distance(const ex& e) {
+        if (!is_a<GiNaC::add>(e)) return false;
+        const auto is_number = [](const ex& term) { return term.info(GiNaC::info_flags::numeric); };
+        return std::any_of(e.begin(), e.end(), is_number) && degree(e) == 1;
     }
-    return is_distance_from_number(e, z) ||
-           std::any_of(e.begin(), e.end(), [&](const ex& part) { return holds(part, z, seen); });
-}
+
+    bool holds(const ex& e) {
+        if (is_a<GiNaC::symbol>(e)) {
+            const GiNaC::symbol& symbol = ex_to<GiNaC::symbol>(e);
+            const Intermediates::Entry* const entry = z_.find(symbol);
+            return entry != nullptr && seen_.insert(symbol.gethash()).second && holds(entry->definition);
+        }
+        return is_distance(e) || std::any_of(e.begin(), e.end(), [&](const ex& part) { return holds(part); });
+    }
+
+private:
+    static constexpr int nonlinear = 2;  // this degree and all higher ones
+
+    /// The degree in coordinates, rates and time outside of functions.
+    int degree(const ex& e) {
+        if (is_a<GiNaC::symbol>(e)) return degree_of(ex_to<GiNaC::symbol>(e));
+        int result = 0;
+        if (is_a<GiNaC::add>(e))
+            for (const ex& part : e) result = std::max(result, degree(part));
+        if (is_a<GiNaC::mul>(e))
+            for (const ex& part : e) result += degree(part);
+        if (is_a<GiNaC::power>(e)) result = degree(e.op(0)) == 0 ? 0 : nonlinear;
+        return std::min(result, nonlinear);
+    }
+
+    int degree_of(const GiNaC::symbol& symbol) {
+        if (const auto known = degrees_.find(symbol.gethash()); known != degrees_.end()) return known->second;
+        using Kind = SymbolInfo::Kind;
+        const Kind kind = z_.symbols().info(symbol).kind;
+        const bool moves =
+            kind == Kind::coordinate || kind == Kind::speed || kind == Kind::input || kind == Kind::time;
+        const Intermediates::Entry* const entry = z_.find(symbol);
+        return degrees_[symbol.gethash()] = entry != nullptr ? degree(entry->definition) : moves ? 1 : 0;
+    }
+
+    const Intermediates& z_;
+    std::map<unsigned, int> degrees_;
+    std::set<unsigned> seen_;
+};
 
 }  // namespace
 
 bool is_distance_from_number(const ex& e, const Intermediates& z) {
-    if (!is_a<GiNaC::add>(e)) return false;
-    const auto is_number = [](const ex& term) { return term.info(GiNaC::info_flags::numeric); };
-    return std::any_of(e.begin(), e.end(), is_number) && moves_as_polynomial(e, z);
+    return Search(z).is_distance(e);
 }
 
 bool holds_distance_from_number(const ex& e, const Intermediates& z) {
-    std::set<unsigned> seen;
-    return holds(e, z, seen);
+    return Search(z).holds(e);
 }
 
 }  // namespace alembert

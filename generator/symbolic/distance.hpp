@@ -13,8 +13,8 @@
 
 namespace alembert {
 
-/// A sum of a number that is not zero and something that depends on a coordinate, a rate or time as a polynomial.
-/// 1 - cos(x) is none: its digits are lost in the cosine.
+/// A sum of a number that is not zero and something that is linear in coordinates, rates and time. 1 - cos(x) is
+/// none, as its digits are lost in the cosine, nor is 1 - v^2, in which nothing can be multiplied out.
 bool is_distance_from_number(const GiNaC::ex& e, const Intermediates& z);
 
 /// Whether there is such a sum in `e` or in what its intermediate symbols stand for.
