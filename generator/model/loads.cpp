@@ -156,10 +156,67 @@ void add_pairs(Load& load, const Vector3& velocity, const Vector3& force, int si
                 {velocity[k], sign * force[k], position ? std::optional((*position)[k]) : std::nullopt});
 }
 
+Vector3 between(Building& here, const std::string& from, const std::string& to) {
+    return add(here.places.position(to), scale(-1, here.places.position(from), *here.m.z), *here.m.z);
+}
+
+/// A point that is fixed in the body or frame. A frame alone has no place; that of the force is given from a point
+/// of it.
+std::string point_of(Building& here, const Force& f) {
+    for (const Body& body : here.scene.bodies)
+        if (body.name.text == f.on->text) return f.on->text;
+    for (const Point& point : here.scene.points)
+        if (point.name.text == f.at.text && point.position.from.text != "O") return point.position.from.text;
+    throw SceneMistake{
+        {f.on->place, say("frame '{}' has no place of its own; expected a body, or a point '{}' whose 'from' is a "
+                          "point fixed in the frame",
+                          f.on->text, f.at.text)}};
+}
+
+/// v_B + ω × (r_P − r_B): the velocity of the body's point that is at the place now.
+Vector3 velocity_of_body_at(Building& here, const Force& f) {
+    const std::string fixed = point_of(here, f);
+    const Orientation& o = here.places.orientation(f.on->text);
+    const Vector3 omega = o.to_inertial(o.angular_velocity(), *here.m.z);
+    return add(here.places.velocity(fixed), cross(omega, between(here, fixed, f.at.text), *here.m.z), *here.m.z);
+}
+
+/// Whether the point keeps its place in some body, or in the axes of some frame beside a particle or body.
+bool is_fixed_in_a_body(Building& here, const std::string& point) {
+    std::vector<std::string> places{"O"}, axes{"N"};
+    for (const Particle& p : here.scene.particles) places.push_back(p.name.text);
+    for (const Body& b : here.scene.bodies) {
+        places.push_back(b.name.text);
+        axes.push_back(b.frame.text);
+    }
+    for (const Frame& f : here.scene.frames) axes.push_back(f.name.text);
+    for (const Point& p : here.scene.points)
+        if (p.name.text == point) places.push_back(p.position.from.text);
+    return std::any_of(places.begin(), places.end(), [&](const std::string& place) {
+        const Vector3 away = between(here, place, point);
+        return std::any_of(axes.begin(), axes.end(), [&](const std::string& frame) {
+            const Orientation& o = here.places.orientation(frame);
+            std::vector<ex> components;
+            for (int k = 0; k < 3; ++k) components.push_back(dot(away, o.axis(k), *here.m.z));
+            const std::vector<ex> rates = here.m.time_derivative(components);
+            return std::all_of(rates.begin(), rates.end(),
+                               [&](const ex& rate) { return rate.is_zero() || vanishes(rate, here.m) == true; });
+        });
+    });
+}
+
 void add_force(Building& here, const Force& f, const Origin& origin) {
     Load load{.origin = origin, .pairs = {}};
     const Vector3 F = here.places.along(f.vector, f.axes);
-    add_pairs(load, here.places.velocity(f.at.text), F, 1, here.places.position(f.at.text));
+    if (f.on) {
+        add_pairs(load, velocity_of_body_at(here, f), F, 1);
+    } else {
+        add_pairs(load, here.places.velocity(f.at.text), F, 1, here.places.position(f.at.text));
+        const bool has_frames = !here.scene.frames.empty() || !here.scene.bodies.empty();
+        const bool is_point = std::any_of(here.scene.points.begin(), here.scene.points.end(),
+                                          [&](const Point& p) { return p.name.text == f.at.text; });
+        load.at_moving_place = has_frames && is_point && !is_fixed_in_a_body(here, f.at.text);
+    }
     if (f.reaction)
         add_pairs(load, here.places.velocity(f.reaction->text), F, -1, here.places.position(f.reaction->text));
     here.m.loads.push_back(std::move(load));

@@ -38,6 +38,9 @@ struct Load {
         std::optional<GiNaC::ex> position = {};  ///< the quantity whose rate the velocity is, if there is one
     };
     std::vector<Pair> pairs;
+    /// Whether it is a force at a place that is fixed in no body, though the scene does not say which body it
+    /// pushes: its work is then that along the way of the place.
+    bool at_moving_place = false;
 };
 
 /// A particle or a body with what Newton's and Euler's equations need, for the formalisms that do not start from

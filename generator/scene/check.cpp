@@ -177,6 +177,7 @@ private:
             quantities_.check_point(f.at);
             quantities_.check_frame(f.axes);
             if (f.reaction) quantities_.check_point(*f.reaction);
+            if (f.on) quantities_.check_frame(*f.on);
             check(f.vector, force);
         }
         for (const Torque& t : scene_.torques) {

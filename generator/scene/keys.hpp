@@ -57,7 +57,7 @@ inline constexpr TableKeys table_keys[] = {
      TableKeys::Shape::list,
      {"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate", "axis",
       "pitch", "coordinates", "angles", "motion", "drive", "armature"}},
-    {"force", TableKeys::Shape::list, {"at", "vector", "axes", "reaction"}},
+    {"force", TableKeys::Shape::list, {"at", "vector", "axes", "reaction", "on"}},
     {"torque", TableKeys::Shape::list, {"on", "vector", "axes", "reaction"}},
     {"spring", TableKeys::Shape::list, {"between", "along", "stiffness", "length"}},
     {"damper", TableKeys::Shape::list, {"between", "along", "damping"}},

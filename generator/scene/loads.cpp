@@ -44,6 +44,7 @@ void read_force(Table table, Scene& scene) {
     force.vector = table.needed_vector("vector");
     if (auto axes = table.name("axes")) force.axes = std::move(*axes);
     force.reaction = table.name("reaction");
+    force.on = table.name("on");
     scene.forces.push_back(std::move(force));
 }
 

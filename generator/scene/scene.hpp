@@ -153,6 +153,7 @@ struct Force {
     Vector vector;
     Name axes{"N", {}};
     std::optional<Name> reaction;
+    std::optional<Name> on;  ///< the body, or frame, whose point there it pushes
 };
 
 /// An impulse ∫F dt at a point that acts at the start.

@@ -54,6 +54,24 @@ std::optional<std::string> warning_of_squares(const Prepared& p) {
     return describe(p.scene, found);
 }
 
+/// One for each force at a place that moves within a body.
+std::optional<std::string> warning_of_moving_places(const Prepared& p) {
+    std::vector<Diagnostic> found;
+    for (const Load& load : p.mechanism.loads) {
+        if (!load.at_moving_place) continue;
+        const Force& force = p.scene.forces[static_cast<std::size_t>(load.origin.index)];
+        found.push_back(
+            {force.place,
+             say("the place '{0}' is fixed in no body, and the work of this force is that along its way. "
+                 "A force that pushes a body at a changing place works along the body's point there: "
+                 "say on = \"BODY\"",
+                 force.at.text),
+             Severity::warning});
+    }
+    if (found.empty()) return {};
+    return describe(p.scene, found);
+}
+
 }  // namespace
 
 Prepared prepared(Scene scene, const Overrides& at, bool on_sheets) {
@@ -62,6 +80,7 @@ Prepared prepared(Scene scene, const Overrides& at, bool on_sheets) {
     OnSheets built = on_sheets ? build_on_sheets(result.scene) : OnSheets{build(result.scene), nullptr};
     result.mechanism = with_regular_constraints(with_regular_rows(std::move(built.mechanism)));
     if (auto warning = warning_of_squares(result)) result.warn(*std::move(warning));
+    if (auto warning = warning_of_moving_places(result)) result.warn(*std::move(warning));
     result.sheets = std::move(built.sheets);
     for (std::string& warning : check_bodies(result.scene, result.mechanism, at)) result.warn(std::move(warning));
     return result;
