@@ -31,7 +31,7 @@ restitution = 0.5
     const ReadableEquation& equation = d.shown.equations.at(0);
     std::printf("%s = %s\n", latex(equation.lhs).c_str(), latex(equation.rhs).c_str());
 
-    const Run run = simulate(scene, {.method = "dop853", .duration = 2.5, .tolerance = 1e-10});
+    const Run run = simulate(scene, {.method = "dop853", .duration = 2.4, .tolerance = 1e-10});
     for (const ContactEvent& event : run.motion.contacts) std::printf("impact at %.9f\n", event.time);
     std::printf("the estimated error is %s\n", *run.estimate->value < 1e-8 ? "below 1e-8" : "too large");
     return run.doubts.empty() ? 0 : 1;

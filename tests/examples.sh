@@ -27,6 +27,6 @@ the estimated error is below 1e-8'
 prints chain '1 rods: the energy keeps to 1e-9
 4 rods: the energy keeps to 1e-9'
 prints homework "proved
-refuted: sign in - x''*cos(theta)"
+refuted: sign in x''*cos(theta)"
 prints controller 'the trolley is 0.000 m from its goal, the rope 0.000 rad from the vertical'
 "$work/prefix/bin/alembert" --version

@@ -56,9 +56,8 @@ TEST_CASE("force: places that are fixed in a body, a frame or the ground need no
         "[parameters]\nl = 1\n[coordinates]\na = 0.3\nx = 0\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", \"a\"]]\n"
         "[[body]]\nname = \"B\"\nmass = 1\nframe = \"F\"\ninertia = 1\nposition = [\"x + l*cos(a)\", "
         "\"l*sin(a)\"]\n";
-    for (const char* const point :
-         {"offset = [\"x\", 0]", "offset = [\"x + 2*l*cos(a)\", \"2*l*sin(a)\"]",
-          "from = \"B\"\noffset = [1, 2]\naxes = \"F\"", "offset = [1, 2]", "offset = [\"x + 1\", 0]"}) {
+    for (const char* const point : {"offset = [\"x\", 0]", "offset = [\"x + 2*l*cos(a)\", \"2*l*sin(a)\"]",
+                                    "from = \"B\"\noffset = [1, 2]\naxes = \"F\"", "offset = [1, 2]"}) {
         CAPTURE(point);
         CHECK(derived(parse_scene(scene + "[[point]]\nname = \"P\"\n" + point +
                                       "\n[[force]]\nat = \"P\"\nvector = [1, 2]\n",

@@ -102,7 +102,8 @@ class Verbs(unittest.TestCase):
             with open(page, encoding="utf-8") as written:
                 self.assertIn("<math", written.read())
         self.assertIn("<svg", scene.draw()._repr_svg_())
-        self.assertNotIn("#include <", scene.emit().sources["double_pendulum.cpp"])
+        lines = scene.emit().sources["double_pendulum.cpp"].splitlines()
+        self.assertEqual([line for line in lines if line.startswith("#include <")], [])
 
     def test_results_print_what_the_program_prints(self):
         judged = alembert.Scene(scene_file("textbook/rotating_hoop.toml")).stability({"theta": 0})
