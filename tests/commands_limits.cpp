@@ -39,6 +39,16 @@ TEST_CASE("trust: an energy that is not a number is told, and the run is not tru
     }
 }
 
+TEST_CASE("sweep: a motion whose energy divides by zero is not done, and the row says why") {
+    const std::string scene = temporary("negative_power.toml",
+                                        "[coordinates]\nx = { initial = 1, rate = 0 }\n[energy]\n"
+                                        "lagrangian = \"x'^-0.5 - x^2/2\"\n");
+    const auto swept = run({"sweep", scene, "--vary", "x=0:1:2", "--duration", "0.5"});
+    CHECK(swept.exit == 4);
+    CHECK(swept.out.find(",done") == std::string::npos);
+    CHECK(swept.out.find("is not a number") != std::string::npos);
+}
+
 TEST_CASE("simulate: a longest step that makes more than 1e15 steps is refused as such a step is") {
     const std::string scene = particle("[forces]\nx = \"-x\"\n");
     for (const char* length : {"1e-300", "1e-15"})

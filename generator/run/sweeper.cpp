@@ -301,6 +301,12 @@ SweptMotion Sweeper::motion_of(const Member& member, const Outcome& outcome, std
     m.evaluations = outcome.evaluations;
     m.failed = !outcome.failure.empty();
     m.status = m.failed ? outcome.failure : outcome.stopped ? "stopped" : "done";
+    if (!m.failed && s_.conserved && std::isnan(m.drift)) {
+        m.failed = true;
+        m.status =
+            say("the energy, which should stay, is not a number: its terms are too large or too small for "
+                "double precision, or divide by zero");
+    }
     return m;
 }
 
