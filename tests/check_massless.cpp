@@ -107,7 +107,6 @@ TEST_CASE("check: what no inertia resists and no force moves may do anything, an
     CHECK(warnings[0].find("no inertia resists u2") != std::string::npos);
 }
 
-// The balance is put into the equations by evaluation: N·f of the rows themselves, with numbers.
 TEST_CASE("unresisted rates: none where inertia or constraints leave none, and not at special poses alone") {
     const auto count = [](const std::string& scene) {
         const Prepared p = prepared(parse_scene(scene, "massless.toml"));

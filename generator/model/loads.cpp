@@ -105,10 +105,14 @@ void add_joints(Building& here) {
         });
 }
 
+/// The vector from one point to another.
+Vector3 between(Building& here, const std::string& from, const std::string& to) {
+    return add(here.places.position(to), scale(-1, here.places.position(from), *here.m.z), *here.m.z);
+}
+
 /// The vector from the first point of a spring or damper to the second.
 Vector3 across(Building& here, const Link& link) {
-    return add(here.places.position(link.between->second.text),
-               scale(-1, here.places.position(link.between->first.text), *here.m.z), *here.m.z);
+    return between(here, link.between->first.text, link.between->second.text);
 }
 
 /// The length of a link, or the expression along which it acts.
@@ -156,10 +160,6 @@ void add_pairs(Load& load, const Vector3& velocity, const Vector3& force, int si
                 {velocity[k], sign * force[k], position ? std::optional((*position)[k]) : std::nullopt});
 }
 
-Vector3 between(Building& here, const std::string& from, const std::string& to) {
-    return add(here.places.position(to), scale(-1, here.places.position(from), *here.m.z), *here.m.z);
-}
-
 /// A point that is fixed in the body or frame. A frame alone has no place; that of the force is given from a point
 /// of it.
 std::string point_of(Building& here, const Force& f) {
@@ -183,15 +183,20 @@ Vector3 velocity_of_body_at(Building& here, const Force& f) {
 
 /// Whether the point keeps its place in some body, or in the axes of some frame beside a particle or body.
 bool is_fixed_in_a_body(Building& here, const std::string& point) {
-    std::vector<std::string> places{"O"}, axes{"N"};
+    std::vector<std::string> places, axes;
+    for (const Point& p : here.scene.points)
+        if (p.name.text == point) {  // nearly always it keeps its place in the axes in which it is given
+            places.push_back(p.position.from.text);
+            axes.push_back(p.position.axes.text);
+        }
+    places.emplace_back("O");
+    axes.emplace_back("N");
     for (const Particle& p : here.scene.particles) places.push_back(p.name.text);
     for (const Body& b : here.scene.bodies) {
         places.push_back(b.name.text);
         axes.push_back(b.frame.text);
     }
     for (const Frame& f : here.scene.frames) axes.push_back(f.name.text);
-    for (const Point& p : here.scene.points)
-        if (p.name.text == point) places.push_back(p.position.from.text);
     return std::any_of(places.begin(), places.end(), [&](const std::string& place) {
         const Vector3 away = between(here, place, point);
         return std::any_of(axes.begin(), axes.end(), [&](const std::string& frame) {
