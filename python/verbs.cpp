@@ -300,14 +300,17 @@ const std::map<std::string, VerbFunction> verb_functions = {{"agree", do_agree},
 
 /// A robot description is no scene yet: `file` is its path.
 Answer import_robot(const std::string& file, const Asked& asked) {
-    const ImportedRobot imported = imported_robot(file,
-                                                  {.source = {},
-                                                   .floating = asked.flag("floating"),
-                                                   .quaternion = asked.flag("quaternion"),
-                                                   .drives = asked.flag("drives"),
-                                                   .friction = asked.flag("friction"),
-                                                   .stops = asked.flag("stops")},
-                                                  asked.flag("right_angles"), asked.text("loops"));
+    const ImportedRobot imported = imported_robot(
+        file, {.scene = {.source = {},
+                         .floating = asked.flag("floating"),
+                         .quaternion = asked.flag("quaternion"),
+                         .drives = asked.flag("drives"),
+                         .friction = asked.flag("friction"),
+                         .stops = asked.flag("stops")},
+               .others = {.outside = asked.flag("allow_outside"), .packages = asked.texts("package")},
+               .right_angles = asked.flag("right_angles"),
+               .strict = asked.flag("strict"),
+               .loops = asked.text("loops")});
     return {.json = as_json(imported, file), .files = {{"scene", imported.scene.text}}};
 }
 

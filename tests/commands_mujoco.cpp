@@ -115,6 +115,59 @@ const char* const floating = R"(<mujoco model="walker">
 </mujoco>
 )";
 
+// Tendons with their lengths of rest from the file, from the pose of the springs, and with play; through sites of
+// bodies and of the world, over a pulley; springs by time constants; dampers and rotors of joints in space.
+const char* const tied = R"(<mujoco model="tied">
+  <compiler angle="radian"/>
+  <default>
+    <geom type="capsule" size="0.05 0.1"/>
+    <tendon stiffness="30" damping="0.7"/>
+    <default class="soft"><tendon stiffness="3"/></default>
+  </default>
+  <worldbody>
+    <site name="hook" pos="0.3 -0.4 1.5"/>
+    <body name="trunk" pos="0.3 -0.2 1.1" euler="0.2 0.3 -0.4">
+      <joint name="root" type="free" damping="0.8" armature="0.3"/>
+      <geom pos="0.02 0.01 -0.03"/>
+      <site name="eye" pos="0.1 0.05 0.2"/>
+      <site name="back" pos="-0.1 0.02 0.1"/>
+      <body name="left" pos="0.1 0.2 -0.1" euler="0 0.4 0">
+        <joint name="hip" type="ball" pos="0 0 0.02" damping="0.4" armature="0.05"/>
+        <geom pos="0 0 -0.2"/>
+        <site name="knuckle" pos="0.02 0 -0.3"/>
+        <body name="shin" pos="0 0 -0.4">
+          <joint name="knee" axis="0 1 0.2" springdamper="0.3 0.8" ref="0.2" springref="0.4" armature="0.01"/>
+          <joint name="slip" type="slide" axis="0 0.1 1" springref="0.1" damping="0.2"/>
+          <geom pos="0 0.01 -0.2"/>
+          <site name="toe" pos="0 0.05 -0.4"/>
+        </body>
+      </body>
+      <body name="right" pos="0.1 -0.2 -0.1">
+        <joint name="arm" type="ball"/>
+        <geom pos="0 0 -0.2"/>
+        <body name="hand" pos="0 0 -0.4">
+          <joint name="bend" axis="1 0 0" springdamper="0.5 1.2" damping="99" ref="-0.3"/>
+          <geom pos="0 0.1 -0.1"/>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+  <tendon>
+    <fixed name="cord" springlength="0.5"><joint joint="knee" coef="0.6"/><joint joint="bend" coef="-1.5"/></fixed>
+    <fixed name="rest" class="soft"><joint joint="knee" coef="2"/><joint joint="slip" coef="3"/></fixed>
+    <spatial name="string"><site site="hook"/><site site="eye"/><site site="back"/><site site="knuckle"/></spatial>
+    <spatial name="rope" springlength="0.1" damping="0">
+      <site site="hook"/><site site="toe"/><pulley divisor="2"/><site site="eye"/><site site="toe"/><site site="hook"/>
+    </spatial>
+    <spatial name="plain" stiffness="0" damping="0" rgba="1 0 0 1"><site site="hook"/><site site="eye"/></spatial>
+  </tendon>
+  <actuator>
+    <position name="pull" tendon="cord" kp="5" gear="1.5"/>
+    <motor name="twist" tendon="rest" gear="2"/>
+  </actuator>
+</mujoco>
+)";
+
 const char* const loops = R"(<mujoco model="loops">
   <compiler angle="radian"/>
   <default><geom type="capsule" size="0.02"/></default>
@@ -149,7 +202,7 @@ struct Loaded {
     explicit Loaded(const std::string& file) {
         std::array<char, 1000> error{};
         model.reset(mj_loadXML(file.c_str(), nullptr, error.data(), error.size()));
-        CAPTURE(error.data());
+        CAPTURE(std::string(error.data()));
         REQUIRE(model);
         model->opt.disableflags |=
             mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_CLAMPCTRL | mjDSBL_FRICTIONLOSS | mjDSBL_WARMSTART;
@@ -247,7 +300,7 @@ TEST_CASE("import: MJCF with every kind of joint, shape and motor accelerates as
     const unsigned seed = 20261123;
     CAPTURE(seed);
     std::mt19937_64 random(seed);
-    for (const char* text : {arm, floating, merged}) {
+    for (const char* text : {arm, floating, merged, tied}) {
         const std::string file = temporary("model.xml", text), scene = temporary("model.toml", "");
         const Json told = imported(file, scene, {"--drives"});
 

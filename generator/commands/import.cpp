@@ -21,11 +21,42 @@ namespace {
 struct ImportVerb {
     std::string robot, output, loops;
     RobotSceneOptions scene;
-    bool right_angles = false, json = false;
+    OtherFiles others;
+    bool right_angles = false, strict = false, json = false;
 };
 
+/// What is dropped, that which changes the motion first and then once more by its kinds.
+void tell_dropped(const std::string& robot, const std::vector<Robot::Dropped>& all) {
+    std::vector<std::string> changes;
+    for (const bool moves : {true, false})
+        for (const Robot::Dropped& dropped : all) {
+            if ((dropped.effect == Robot::Effect::motion) != moves) continue;
+            std::cerr << say("{}: dropped: {}{}{}\n", robot, escaped(dropped.what), dropped.of.empty() ? "" : ": ",
+                             escaped(fmt::format("{}", fmt::join(dropped.of, ", ")), 100'000));
+            if (moves) changes.push_back(escaped(dropped.what));
+        }
+    if (!changes.empty())
+        std::cerr << say("{}: the motion is changed by what is dropped: {}\n", robot, fmt::join(changes, "; "));
+}
+
+void refuse_changes(const std::string& robot, const std::vector<Robot::Dropped>& all) {
+    std::vector<std::string> changes;
+    for (const Robot::Dropped& dropped : all)
+        if (dropped.effect == Robot::Effect::motion)
+            changes.push_back(dropped.what +
+                              (dropped.of.empty() ? "" : fmt::format(" ({})", fmt::join(dropped.of, ", "))));
+    if (!changes.empty())
+        throw ModelError(
+            say("{}: the scene would leave out what changes the motion: {}; nothing is written with --strict",
+                robot, escaped(fmt::format("{}", fmt::join(changes, "; ")), 2000)));
+}
+
 int run(const ImportVerb& verb) {
-    const ImportedRobot imported = imported_robot(verb.robot, verb.scene, verb.right_angles, verb.loops);
+    const ImportedRobot imported = imported_robot(verb.robot, {.scene = verb.scene,
+                                                               .others = verb.others,
+                                                               .right_angles = verb.right_angles,
+                                                               .strict = verb.strict,
+                                                               .loops = verb.loops});
     const RobotScene& scene = imported.scene;
     parse_scene(scene.text, verb.output);  // a scene that is refused is not written
     write_file(verb.output, scene.text, {verb.robot});
@@ -34,10 +65,7 @@ int run(const ImportVerb& verb) {
                          escaped(remark.message, 300));
     for (const std::string& sentence : scene.notes)
         std::cerr << say("{}: note: {}\n", verb.robot, escaped(sentence, 300));
-    for (const Robot::Dropped& dropped : scene.dropped)
-        std::cerr << say("{}: dropped: {}{}{}\n", verb.robot, escaped(dropped.what),
-                         dropped.of.empty() ? "" : ": ",
-                         escaped(fmt::format("{}", fmt::join(dropped.of, ", ")), 100'000));
+    tell_dropped(verb.robot, scene.dropped);
     if (verb.json) {
         show(as_json(imported, verb.output));
         return 0;
@@ -51,18 +79,18 @@ int run(const ImportVerb& verb) {
 
 }  // namespace
 
-ImportedRobot imported_robot(const std::string& file, RobotSceneOptions options, bool right_angles,
-                             const std::string& loops) {
-    Robot robot = read_robot(file);
-    if (!loops.empty()) close_loops(robot, loops);
-    options.source = std::filesystem::path(file).filename().string();
-    const int rounded = rounded_right_angles(robot, right_angles);
-    ImportedRobot result{.scene = robot_scene(robot, options),
+ImportedRobot imported_robot(const std::string& file, ImportOptions options) {
+    Robot robot = read_robot(file, options.others);
+    if (!options.loops.empty()) close_loops(robot, options.loops);
+    options.scene.source = std::filesystem::path(file).filename().string();
+    const int rounded = rounded_right_angles(robot, options.right_angles);
+    ImportedRobot result{.scene = robot_scene(robot, options.scene),
                          .remarks = robot.remarks,
                          .rounded = rounded,
-                         .made_exact = right_angles,
-                         .has_drives = options.drives};
-    if (rounded > 0 && !right_angles)
+                         .made_exact = options.right_angles,
+                         .has_drives = options.scene.drives};
+    if (options.strict) refuse_changes(file, result.scene.dropped);
+    if (rounded > 0 && !options.right_angles)
         result.scene.notes.push_back(
             say("{} angle{} a right angle written with few digits, as 1.5708; with --right-angles {} exact, "
                 "which leaves terms out of the equations",
@@ -87,8 +115,16 @@ Json as_json(const ImportedRobot& imported, const std::string& file) {
     for (const auto& [own, name] : scene.links) links[own] = name;
     for (const auto& [own, name] : scene.joints) joints[own] = name;
     result["names"] = {{"links", links}, {"joints", joints}, {"coordinates", scene.coordinates_of}};
-    result["dropped"] = Json::object();
-    for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
+    result["dropped"] = result["changes_motion"] = Json::object();
+    const auto list = [&](const char* field, const Robot::Dropped& dropped) {
+        Json& names = result[field][dropped.what];
+        if (names.is_null()) names = Json::array();
+        for (const std::string& name : dropped.of) names.push_back(name);
+    };
+    for (const Robot::Dropped& dropped : scene.dropped) {
+        list("dropped", dropped);
+        if (dropped.effect == Robot::Effect::motion) list("changes_motion", dropped);
+    }
     result["warnings"] = Json::array();
     for (const Diagnostic& remark : imported.remarks)
         result["warnings"].push_back({{"line", remark.place.line}, {"message", remark.message}});
@@ -115,6 +151,13 @@ void add_import(CLI::App& app, Chosen& chosen) {
                   say("an input for the torque or force of each joint, or for each motor of the file"));
     verb.add_option("--loops", options->loops, say("a file of [[joint]]s between links, which close loops"))
         .type_name(values::file);
+    verb.add_flag("--strict", options->strict,
+                  say("refuses a robot if the scene leaves out what changes its motion"));
+    verb.add_option("--package", options->others.packages,
+                    say("a folder in which models that an SDF file includes are looked up; may be given often"))
+        .type_name(values::folder);
+    verb.add_flag("--allow-outside", options->others.outside,
+                  say("also reads files outside the folder of the robot, if it includes them"));
     verb.add_flag("--right-angles", options->right_angles, say("1.5708 and the like become right angles"));
     verb.add_flag("--json", options->json, say("print one JSON object"));
     verb.callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });

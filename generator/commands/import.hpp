@@ -3,7 +3,7 @@
 
 /// The verb `import`: the scene of a robot description.
 ///
-///     const ImportedRobot arm = imported_robot("arm6.urdf", {.drives = true}, false);
+///     const ImportedRobot arm = imported_robot("arm6.urdf", {.scene = {.drives = true}});
 ///     arm.scene.text;                       // the scene
 
 #include "report/json.hpp"
@@ -19,11 +19,16 @@ struct ImportedRobot {
     bool has_drives = false;
 };
 
-/// `source` of the options is set to the name of the file. With `right_angles`, 1.5708 and the like become right
-/// angles. `loops` is a file of joints that close loops (urdf/loops.hpp), or empty. Throws what `read_robot`,
-/// `close_loops` and `robot_scene` throw.
-ImportedRobot imported_robot(const std::string& file, RobotSceneOptions options, bool right_angles,
-                             const std::string& loops = {});
+struct ImportOptions {
+    RobotSceneOptions scene = {};  ///< `source` is set to the name of the file
+    OtherFiles others = {};
+    bool right_angles = false;  ///< 1.5708 and the like become right angles
+    bool strict = false;        ///< refuses, with ModelError, a scene that leaves out what changes the motion
+    std::string loops = {};     ///< a file of joints that close loops (urdf/loops.hpp), or empty
+};
+
+/// Throws what `read_robot`, `close_loops` and `robot_scene` throw.
+ImportedRobot imported_robot(const std::string& file, ImportOptions options);
 
 /// What `import --json` prints; `file` is the name of the scene.
 Json as_json(const ImportedRobot& imported, const std::string& file);

@@ -172,7 +172,9 @@ void Elements::read_inertial(const TiXmlElement& inertial, Robot::Link& link) {
                                        fmt::join(missing, ", ")));
     const Real33 own = inertia_matrix<double>({ixx, iyy, izz, ixy, iyz, ixz});
     link.inertia = turned<double>(own, at.rotation());
-    if (const PrincipalAxes<> principal = principal_axes<double>(own); has_negative_moment(principal))
+    const double rounding = link.mass * 1e-12;  // of a body of a micrometre
+    if (const PrincipalAxes<> principal = principal_axes<double>(own);
+        has_negative_moment(principal, rounding / rounded_moment))
         remark(place_of(*inertia),
                say("the principal moments of inertia of link {}, {:.6g}, {:.6g} and {:.6g}, are not all zero "
                    "or more; no body has them",

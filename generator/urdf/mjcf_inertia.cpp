@@ -79,6 +79,8 @@ std::optional<MjcfInertia> MjcfValues::shape(const XmlElement& geom, const std::
             file_.remark(geom, say("the mass of body {} leaves out a <geom> of type {}, which is no homogeneous "
                                    "sphere, capsule, cylinder, ellipsoid or box; give the body <inertial>",
                                    in_quotes(body), type));
+        if (mass.value_or(1) != 0)
+            file_.drop(say("masses of <geom>s that are no homogeneous solids"), body, Robot::Effect::motion);
         return std::nullopt;
     }
     if (size.size() < needed)
@@ -91,11 +93,13 @@ std::optional<MjcfInertia> MjcfValues::shape(const XmlElement& geom, const std::
     return result;
 }
 
-MjcfInertia MjcfValues::by_shapes(const std::vector<const XmlElement*>& geoms, const std::string& body) {
+MjcfInertia MjcfValues::by_shapes(const std::vector<MjcfPart>& geoms, const std::string& body) {
     std::vector<MjcfInertia> parts;
     MjcfInertia whole;
-    for (const XmlElement* geom : geoms)
-        if (const auto part = shape(*geom, body)) {
+    for (const MjcfPart& geom : geoms)
+        if (auto part = shape(*geom.element, body)) {
+            part->centre = geom.frame.shift + geom.frame.R * part->centre;
+            part->inertia = turned<double>(part->inertia, geom.frame.R);
             parts.push_back(*part);
             whole.mass += part->mass;
             whole.centre += part->mass * part->centre;

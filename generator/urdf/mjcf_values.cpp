@@ -79,6 +79,20 @@ std::optional<std::string> MjcfValues::text(const XmlElement& e, const char* att
     return std::nullopt;
 }
 
+std::set<std::string> MjcfValues::default_attributes(const XmlElement& e, const char* or_as) {
+    std::set<std::string> result;
+    for (const Class* c = &class_of(e); c->element != nullptr; c = &classes_.at(c->parent)) {
+        for (const char* tag : {e.Name(), or_as})
+            if (tag != nullptr)
+                for (const XmlElement* d = c->element->FirstChildElement(tag); d != nullptr;
+                     d = d->NextSiblingElement(tag))
+                    for (const tinyxml2::XMLAttribute* a = d->FirstAttribute(); a != nullptr; a = a->Next())
+                        result.insert(a->Name());
+        if (c->parent.empty()) break;
+    }
+    return result;
+}
+
 std::optional<std::vector<double>> MjcfValues::numbers(const XmlElement& e, const char* attribute,
                                                        std::size_t count, const char* or_as) {
     const std::optional<std::string> value = text(e, attribute, or_as);

@@ -21,6 +21,12 @@ struct MjcfInertia {
     Real33 inertia = Real33::Zero();
 };
 
+/// An element of a body, and the place of the <frame>s in which it stands.
+struct MjcfPart {
+    const XmlElement* element;
+    RobotPlace frame;
+};
+
 class MjcfValues {
 public:
     explicit MjcfValues(XmlFile& file);
@@ -33,6 +39,8 @@ public:
                                                const char* or_as = nullptr);
     std::optional<double> number(const XmlElement& e, const char* attribute, const char* or_as = nullptr);
     std::optional<bool> flag(const XmlElement& e, const char* attribute);
+    /// The attributes that the defaults of an element give.
+    std::set<std::string> default_attributes(const XmlElement& e, const char* or_as);
     Real3 three(const XmlElement& e, const char* attribute, const Real3& missing);
     Real33 rotation(const XmlElement& e);
     RobotPlace place(const XmlElement& e) { return {three(e, "pos", Real3::Zero()), rotation(e)}; }
@@ -42,7 +50,7 @@ public:
     /// <inertial>.
     MjcfInertia given(const XmlElement& inertial);
     /// The sum of all <geom> of a body. What has no shape of its own (meshes) is left out with a remark.
-    MjcfInertia by_shapes(const std::vector<const XmlElement*>& geoms, const std::string& body);
+    MjcfInertia by_shapes(const std::vector<MjcfPart>& geoms, const std::string& body);
     /// <compiler> boundmass, boundinertia, balanceinertia.
     void bound(MjcfInertia& inertia) const;
 

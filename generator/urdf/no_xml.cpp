@@ -16,10 +16,10 @@ namespace {
 
 }  // namespace
 
-Robot parse_mjcf(const std::string&, const std::string&) {
+Robot parse_mjcf(const std::string&, const std::string&, const OtherFiles&) {
     refuse("MJCF");
 }
-Robot parse_sdf(const std::string&, const std::string&) {
+Robot parse_sdf(const std::string&, const std::string&, const OtherFiles&) {
     refuse("SDF");
 }
 

@@ -26,14 +26,14 @@ std::string outermost(const std::string& text) {
 
 }  // namespace
 
-Robot parse_robot(const std::string& text, const std::string& file) {
+Robot parse_robot(const std::string& text, const std::string& file, const OtherFiles& others) {
     const std::string tag = outermost(text);
-    return tag == "mujoco" ? parse_mjcf(text, file)
-           : tag == "sdf"  ? parse_sdf(text, file)
+    return tag == "mujoco" ? parse_mjcf(text, file, others)
+           : tag == "sdf"  ? parse_sdf(text, file, others)
                            : parse_urdf(text, file);
 }
-Robot read_robot(const std::string& file) {
-    return parse_robot(text_of_file(file), file);
+Robot read_robot(const std::string& file, const OtherFiles& others) {
+    return parse_robot(text_of_file(file), file, others);
 }
 
 }  // namespace alembert

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "language/say.hpp"
@@ -55,7 +56,7 @@ public:
             else if (tag == "joint")
                 read_joint(*e);
             else if (tag != "transmission")
-                drop(fmt::format("<{}>", tag), named(*e));
+                drop(fmt::format("<{}>", tag), named(*e), effect_of(*e));
         }
         check_by_urdfdom(*root);
         robot_.name = model_->getName();
@@ -110,15 +111,27 @@ private:
         refuse(place, say("urdfdom refuses it: {}", escaped(said, 300)));
     }
     void drop_unknown(const TiXmlElement& e, const std::string& of) {
-        for (const std::string& what : elements_.unknown_attributes(e)) drop(what, of);
+        for (const std::string& what : elements_.unknown_attributes(e)) drop(what, of, Effect::motion);
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement())
             drop_unknown(*child, of);
     }
-    void drop(const std::string& what, const std::string& of) {
+    using Effect = Robot::Effect;
+    /// The effect of an element that is not read. Of what Gazebo adds, it is that of a damping or of a link that
+    /// does not fall; looks, contacts and the programs that it starts leave the motion as it is.
+    static Effect effect_of(const TiXmlElement& e) {
+        static const std::set<std::string> known{
+            "visual",      "collision", "material", "transmission",           "sensor", "safety_controller",
+            "calibration", "verbose",   "contact",  "self_collision_checking"};
+        if (e.ValueStr() != "gazebo") return known.contains(e.ValueStr()) ? Effect::none : Effect::motion;
+        for (const char* moves : {"dampingFactor", "turnGravityOff", "springStiffness", "static", "kinematic"})
+            if (e.FirstChildElement(moves) != nullptr) return Effect::motion;
+        return Effect::none;
+    }
+    void drop(const std::string& what, const std::string& of, Effect effect = Effect::none) {
         auto found = std::find_if(robot_.dropped.begin(), robot_.dropped.end(),
-                                  [&](const Robot::Dropped& d) { return d.what == what; });
-        if (found == robot_.dropped.end()) found = robot_.dropped.insert(found, {what, {}});
+                                  [&](const Robot::Dropped& d) { return d.what == what && d.effect == effect; });
+        if (found == robot_.dropped.end()) found = robot_.dropped.insert(found, {what, {}, effect});
         if (!of.empty() && (found->of.empty() || found->of.back() != of)) found->of.push_back(of);
     }
 
@@ -160,7 +173,8 @@ private:
         link.place = place_of(e);
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement())
-            if (child->ValueStr() != "inertial") drop(fmt::format("<{}>", child->ValueStr()), link.name);
+            if (child->ValueStr() != "inertial")
+                drop(fmt::format("<{}>", child->ValueStr()), link.name, effect_of(*child));
         if (const TiXmlElement* const inertial = elements_.only(e, "inertial")) {
             elements_.read_inertial(*inertial, link);
             drop_unknown(*inertial, link.name);
@@ -216,19 +230,23 @@ private:
             refuse(joint.place, say("the axis of joint {} is zero; expected a direction", in_quotes(joint.name)));
         if (joint.damping != 0 && (joint.type == Robot::Type::floating || joint.type == Robot::Type::planar ||
                                    joint.type == Robot::Type::fixed))
-            drop(say("damping of a floating, planar or fixed joint"), joint.name);
+            drop(say("damping of a floating, planar or fixed joint"), joint.name,
+                 joint.type == Robot::Type::fixed ? Effect::none : Effect::motion);
         if (!is_hinge && joint.limits) {
-            drop("<limit lower=… upper=…>", joint.name);
+            drop("<limit lower=… upper=…>", joint.name,
+                 joint.type == Robot::Type::planar ? Effect::motion : Effect::none);
             joint.limits.reset();
         }
         if (const TiXmlElement* const limit = e.FirstChildElement("limit"))
             for (const char* key : {"effort", "velocity"})
-                if (limit->Attribute(key) != nullptr) drop(fmt::format("<limit {}=…>", key), joint.name);
+                if (limit->Attribute(key) != nullptr)
+                    drop(fmt::format("<limit {}=…>", key), joint.name, Effect::driven);
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement()) {
             const std::string& tag = child->ValueStr();
             const std::array kept{"parent", "child", "origin", "axis", "mimic", "dynamics", "limit"};
-            if (std::find(kept.begin(), kept.end(), tag) == kept.end()) drop(fmt::format("<{}>", tag), joint.name);
+            if (std::find(kept.begin(), kept.end(), tag) == kept.end())
+                drop(fmt::format("<{}>", tag), joint.name, effect_of(*child));
         }
         int& above = robot_.links[static_cast<std::size_t>(joint.child)].joint;
         if (above >= 0)
@@ -298,7 +316,8 @@ private:
             if (const auto inertia = value(*child, {"drake:rotor_inertia", "rotor_inertia", "rotorInertia"}))
                 rotor = inertia;
         }
-        if (!rotor || joints.size() != 1) return drop("<transmission>", named(e));
+        if (!rotor || joints.size() != 1)
+            return drop("<transmission>", named(e), rotor ? Effect::motion : Effect::none);
         if (*rotor < 0)
             refuse(place_of(e), say("the rotor inertia of transmission {} is {}; expected zero or more",
                                     in_quotes(named(e)), *rotor));

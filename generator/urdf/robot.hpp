@@ -36,6 +36,12 @@ struct RobotPose {
 /// k with angle = k π/12, if that is the nearest double.
 std::optional<int> twelfths_of_pi(double angle);
 
+/// Which files a description may name.
+struct OtherFiles {
+    bool outside = false;                 ///< also those outside the folder of the file and outside `packages`
+    std::vector<std::string> packages{};  ///< folders in which the models of model:// are looked up
+};
+
 struct Robot {
     struct Link {
         std::string name;
@@ -43,6 +49,7 @@ struct Robot {
         double mass = 0;
         Real3 centre = Real3::Zero();
         Real33 inertia = Real33::Zero();  ///< about the mass centre, along the link's axes
+        double held = 0;                  ///< the part of its weight that an upward force at its mass centre bears
         int joint = -1;                   ///< the joint above; −1 for the root
     };
     enum class Type {
@@ -67,13 +74,16 @@ struct Robot {
         Type type;
         int parent, child;  ///< in `links`
         RobotPose at;
-        Real3 axis;                        ///< not normalized
-        Real3 second = Real3::UnitY();     ///< of a universal joint, perpendicular to `axis`
-        double pitch = 0;                  ///< of a screw, metres a radian
-        double damping = 0, friction = 0;  ///< friction: the Coulomb torque or force
-        double armature = 0;               ///< the inertia of a rotor, n² J behind a gear of ratio n
-        double stiffness = 0, rest = 0;    ///< of a spring along the coordinate
-        RobotPose start = {};              ///< of a floating joint
+        Real3 axis;                     ///< not normalized
+        Real3 second = Real3::UnitY();  ///< of a universal joint, perpendicular to `axis`
+        double pitch = 0;               ///< of a screw, metres a radian
+        /// Damping and armature of a spherical joint belong to each component of its angular velocity; of a
+        /// floating one to the velocity of its origin too.
+        double damping = 0;
+        double friction = 0;             ///< the Coulomb torque or force
+        double armature = 0;             ///< the inertia of a rotor, n² J behind a gear of ratio n
+        double stiffness = 0, rest = 0;  ///< of a spring along the coordinate
+        RobotPose start = {};            ///< of a floating joint
         std::optional<std::array<double, 2>> limits = {};
         std::optional<Mimic> mimic = {};  ///< for a mimicking joint, the independent joint that it follows
     };
@@ -86,21 +96,49 @@ struct Robot {
         Real3 axis = Real3::UnitZ(), second = Real3::UnitY();
         double pitch = 0;
     };
-    /// q of `joint` = Σ polynomial[k]·(q of `other`)^k; a constant if there is no other.
+    /// A length L = Σ coefficient·q + Σ factor·(distance of two points), and what acts along it.
+    struct Tendon {
+        struct Term {
+            int joint;
+            double coefficient;
+        };
+        struct Stretch {
+            int from, to;  ///< in `links`
+            Real3 from_at, to_at;
+            double factor = 1;
+        };
+        std::string name;
+        std::vector<Term> terms = {};
+        std::vector<Stretch> stretches = {};
+        double stiffness = 0, damping = 0, friction = 0, armature = 0;
+        std::array<double, 2> rest{0, 0};  ///< between these lengths the spring is slack
+        std::optional<std::array<double, 2>> limits = {};
+        double at_reference = 0;  ///< what L of the file is larger than L here
+        double start = 0;         ///< L where all q are 0
+    };
+    /// q of `joint` = Σ polynomial[k]·(q of `other`)^k; a constant if there is no other. With `of_tendons`, both
+    /// are tendons, and q is the difference of L from its value where all q are 0.
     struct Coupling {
         std::string name;
         int joint, other = -1;
         std::array<double, 5> polynomial{};
+        bool of_tendons = false;
     };
-    /// A motor with the control u: gear·(gain·u + constant + along·gear·q + rate·gear·q') along q.
+    /// A motor with the control u: gear·(gain·u + constant + along·gear·q + rate·gear·q') along q, or along the
+    /// length of a tendon.
     struct Actuator {
         std::string name;
-        int joint;
+        int joint, tendon = -1;
         double gear = 1, gain = 1, constant = 0, along = 0, rate = 0;
+        bool acts_alone() const { return constant != 0 || along != 0 || rate != 0; }
     };
+    /// Whether the motion of the scene differs from that of the robot without it: `driven` where inputs for motors
+    /// are added.
+    enum class Effect { none, motion, driven };
     struct Dropped {
         std::string what;             ///< "<visual>", "Coulomb friction"
         std::vector<std::string> of;  ///< the names of the links or joints concerned, or its own; may be empty
+        Effect effect = Effect::none;
     };
 
     std::string name;
@@ -109,6 +147,7 @@ struct Robot {
     int root = 0;  ///< in `links`
     std::vector<Loop> loops;
     std::vector<Coupling> couplings;
+    std::vector<Tendon> tendons;
     std::optional<std::vector<Actuator>> actuators;  ///< if the format has them
     Real3 gravity{0, 0, -9.81};
     bool has_world = false;  ///< whether the root is the ground, so that the file says what floats
@@ -122,14 +161,14 @@ int rounded_right_angles(Robot& robot, bool mend);
 
 /// The format is told by the outermost element: <robot>, <mujoco> or <sdf>. Throws SceneError if the file is none
 /// of them, if its links and joints form no tree, or if it has impossible values.
-Robot read_robot(const std::string& file);
+Robot read_robot(const std::string& file, const OtherFiles& others = {});
 /// `file` is used only in messages, and for files that it includes.
-Robot parse_robot(const std::string& text, const std::string& file);
+Robot parse_robot(const std::string& text, const std::string& file, const OtherFiles& others = {});
 
 /// Each for its format.
 Robot parse_urdf(const std::string& text, const std::string& file);
-Robot parse_mjcf(const std::string& text, const std::string& file);
-Robot parse_sdf(const std::string& text, const std::string& file);
+Robot parse_mjcf(const std::string& text, const std::string& file, const OtherFiles& others);
+Robot parse_sdf(const std::string& text, const std::string& file, const OtherFiles& others);
 
 /// Roll, pitch and yaw of R = R_z(yaw) R_y(pitch) R_x(roll); roll is 0 if pitch is a right angle. The rounding of
 /// right angles is removed.

@@ -74,8 +74,32 @@ std::string SceneWriter::coordinate(const Robot::Joint* of, const std::string& n
     result_.coordinates.push_back(name);
     result_.coordinates_of[of == nullptr ? "floating_base" : of->name].push_back(name);
     const std::string rest = about.empty() ? "" : fmt::format(", about = \"{}\"", about);
-    return fmt::format("{} = {{ initial = {}, rate = 0{}{} }}", scene_key(name), scene_number(initial),
+    const bool guess = all_guessed_ || (of != nullptr && guessed_.contains(static_cast<int>(index(*of))));
+    return fmt::format("{} = {{ {} = {}, {} = 0{}{} }}", scene_key(name), guess ? "guess" : "initial",
+                       scene_number(initial), guess ? "rate_guess" : "rate",
                        unit.empty() ? "" : fmt::format(", unit = \"{}\"", unit), rest);
+}
+
+/// Where coordinates start: at 0, between stops, or where a coupling of joints has them. What a coupling moves is
+/// a guess, and so is everything in a robot with closed loops, which are right only in the pose of the file.
+void SceneWriter::choose_starts() {
+    starts_.assign(robot_.joints.size(), 0);
+    for (std::size_t k = 0; k < robot_.joints.size(); ++k) {
+        const auto& limits = robot_.joints[k].limits;
+        if (options_.stops && limits && (*limits)[0] <= (*limits)[1] && ((*limits)[0] > 0 || (*limits)[1] < 0))
+            starts_[k] = ((*limits)[0] + (*limits)[1]) / 2;
+    }
+    for (std::size_t steps = 0; steps < robot_.couplings.size(); ++steps)
+        for (const Robot::Coupling& c : robot_.couplings) {
+            if (c.of_tendons) continue;
+            const double x = c.other < 0 ? 0 : starts_[static_cast<std::size_t>(c.other)];
+            double value = 0;
+            for (std::size_t k = c.polynomial.size(); k-- > 0;) value = value * x + c.polynomial[k];
+            if (value == starts_[static_cast<std::size_t>(c.joint)]) continue;
+            starts_[static_cast<std::size_t>(c.joint)] = value;
+            guessed_.insert(c.joint);
+        }
+    all_guessed_ = !guessed_.empty() && !robot_.loops.empty();
 }
 
 /// The coordinates of a turn in space.
@@ -110,14 +134,16 @@ void SceneWriter::joint_table(const std::string& name, const std::string& type, 
 
 void SceneWriter::free_joint(const Robot::Joint* joint, const std::string& own, const std::string& name,
                              const Group& child, const Stand& parent, const RobotPose& start) {
-    std::vector<std::string> list;
-    for (int k = 0; k < 3; ++k)
-        list.push_back(
-            coordinate(joint, values_.given(fmt::format("{}_{}", name, "xyz"[k])), "m", "", start.shift[k]));
+    std::vector<std::string> list, shifts;
+    for (int k = 0; k < 3; ++k) {
+        shifts.push_back(values_.given(fmt::format("{}_{}", name, "xyz"[k])));
+        list.push_back(coordinate(joint, shifts.back(), "m", "", start.shift[k]));
+    }
     for (std::string& one : turning(joint, name, start)) list.push_back(std::move(one));
     joint_table(own, "free", parent, {&child, -child.centre, {}},
                 fmt::format("{}coordinates = {{ {} }}\n", options_.quaternion ? "" : "angles = \"zyx\"\n",
                             fmt::join(list, ", ")));
+    if (joint != nullptr) in_space(*joint, child, shifts);
 }
 
 void SceneWriter::mover(const Robot::Joint& joint, const Group& child) {
@@ -139,9 +165,8 @@ void SceneWriter::hinge(const Robot::Joint& joint, const Group& child, const Sta
     if (joint.limits)
         about = fmt::format("limits {} to {}", scene_number((*joint.limits)[0]), scene_number((*joint.limits)[1]));
     const bool has_limits = joint.limits && (*joint.limits)[0] <= (*joint.limits)[1];
-    double initial = 0;
+    const double initial = starts_[index(joint)];
     if (has_limits && ((*joint.limits)[0] > 0 || (*joint.limits)[1] < 0)) {
-        if (options_.stops) initial = ((*joint.limits)[0] + (*joint.limits)[1]) / 2;
         result_.notes.push_back(options_.stops
                                     ? say("{} starts at {}, between its stops", q, scene_number(initial))
                                     : say("{} starts at 0, outside its limits", q));
@@ -181,6 +206,7 @@ void SceneWriter::several(const Robot::Joint& joint, const Group& child, Stand a
     joint_table(
         joint_names_[index(joint)], name_of(joint.type), at, {&child, -child.centre, turns},
         fmt::format("{}coordinates = {{ {} }}\n", angles ? "angles = \"zyx\"\n" : "", fmt::join(list, ", ")));
+    if (joint.type == Robot::Type::spherical) in_space(joint, child, {});
 }
 
 /// Adds a frame and a point in place of a joint, without a coordinate and without a constraint.

@@ -10,21 +10,6 @@
 
 namespace alembert {
 
-namespace {
-
-/// Adds factor·what to the text of a sum.
-void add_term(std::string& sum, double factor, const std::string& what) {
-    if (factor == 0) return;
-    const double size = std::abs(factor);
-    const std::string term = what.empty() ? scene_number(size)
-                             : size == 1  ? what
-                                          : fmt::format("{}*{}", scene_number(size), what);
-    sum += sum.empty() ? (factor < 0 ? "-" : "") : factor < 0 ? " - " : " + ";
-    sum += term;
-}
-
-}  // namespace
-
 void SceneWriter::damper(const Robot::Joint& joint, const std::string& along) {
     if (joint.damping != 0)
         dampers_ +=
@@ -74,30 +59,45 @@ void SceneWriter::drive(const Robot::Joint& joint, const std::string& q, bool sl
 void SceneWriter::actuators() {
     std::vector<std::string> without_mass;
     for (const Robot::Actuator& motor : *robot_.actuators) {
-        const std::string& q = values_of_[static_cast<std::size_t>(motor.joint)];
-        if (q.empty()) {
+        const bool pulls = motor.tendon >= 0;
+        const auto of = static_cast<std::size_t>(pulls ? motor.tendon : motor.joint);
+        const std::string& along = pulls ? lengths_[of] : values_of_[of];
+        if (along.empty()) {
             without_mass.push_back(motor.name);
             continue;
         }
         const std::string input = values_.given("drive_" + motor.name);
         inputs_ += fmt::format("{} = 0\n", scene_key(input));
-        auto force = std::find_if(forces_.begin(), forces_.end(), [&](const auto& f) { return f.first == q; });
-        if (force == forces_.end()) force = forces_.insert(force, {q, ""});
         const double g = motor.gear;
-        add_term(force->second, g * motor.gain, input);
-        add_term(force->second, g * motor.constant, "");
-        add_term(force->second, g * g * motor.along, q);
-        add_term(force->second, g * g * motor.rate, q + "'");
-        if (force->second.empty()) force->second = "0";
+        const auto push = [&](const std::string& q, double factor) {
+            auto force = std::find_if(forces_.begin(), forces_.end(), [&](const auto& f) { return f.first == q; });
+            if (force == forces_.end()) force = forces_.insert(force, {q, ""});
+            const std::string length = pulls ? fmt::format("({})", along) : along;
+            add_term(force->second, factor * g * motor.gain, input);
+            add_term(force->second, factor * g * motor.constant, "");
+            add_term(force->second, factor * g * g * motor.along, length);
+            add_term(force->second, factor * g * g * motor.rate, length + "'");
+            if (force->second.empty()) force->second = "0";
+        };
+        if (!pulls) push(along, 1);
+        if (pulls)
+            for (const Robot::Tendon::Term& term : robot_.tendons[of].terms)
+                push(values_of_[static_cast<std::size_t>(term.joint)], term.coefficient);
         result_.drives.push_back(input);
     }
     drop(say("motors of joints that move no mass"), without_mass);
 }
 
-/// Adds the condition that one coordinate is a polynomial in another, or constant.
+/// Adds the condition that one coordinate is a polynomial in another, or constant; or one length of a tendon, from
+/// its value at the reference pose.
 void SceneWriter::coupling(const Robot::Coupling& coupling) {
-    const auto value = [&](int joint) {
-        return joint < 0 ? std::string() : values_of_[static_cast<std::size_t>(joint)];
+    const auto value = [&](int of) {
+        if (of < 0) return std::string();
+        const auto i = static_cast<std::size_t>(of);
+        if (!coupling.of_tendons || lengths_[i].empty()) return coupling.of_tendons ? lengths_[i] : values_of_[i];
+        std::string difference = lengths_[i];
+        add_term(difference, -robot_.tendons[i].start, "");
+        return fmt::format("({})", difference);
     };
     const std::string q = value(coupling.joint), other = value(coupling.other);
     if (q.empty() || (coupling.other >= 0 && other.empty()))

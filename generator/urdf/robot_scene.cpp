@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "language/say.hpp"
 #include "scene/text.hpp"
@@ -37,6 +38,7 @@ SceneWriter::SceneWriter(const Robot& robot, const RobotSceneOptions& options) :
 
 RobotScene SceneWriter::write() {
     name_all();
+    choose_starts();
     head();
     if (options_.floating) {
         const Group ground{};
@@ -64,10 +66,14 @@ RobotScene SceneWriter::write() {
         throw ModelError(
             say("this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or "
                 "floating one, or a root that floats"));
+    for (const Group& group : groups_) held(group);
+    lengths_.resize(robot_.tendons.size());
+    for (std::size_t k = 0; k < robot_.tendons.size(); ++k) tendon(robot_.tendons[k], lengths_[k]);
     for (const Robot::Loop& one : robot_.loops) loop(one);
     for (const Robot::Coupling& one : robot_.couplings) coupling(one);
     if (options_.drives && robot_.actuators) actuators();
-    result_.text += joints_ + dampers_ + springs_ + frictions_ + stops_ + conditions_;
+    result_.text += joints_ + points_ + dampers_ + springs_ + frictions_ + stops_ + conditions_;
+    energies();
     for (const Group& group : groups_) mounted(group);
     if (!result_.drives.empty()) {
         result_.text += fmt::format("\n[inputs]\n{}\n[forces]\n", inputs_);
@@ -138,23 +144,34 @@ void SceneWriter::mounted(const Group& group) {
     }
 }
 
-void SceneWriter::drop(const std::string& what, std::vector<std::string> of) {
-    if (!of.empty()) result_.dropped.push_back({what, std::move(of)});
+void SceneWriter::drop(const std::string& what, std::vector<std::string> of, Robot::Effect effect) {
+    if (!of.empty()) result_.dropped.push_back({what, std::move(of), effect});
 }
 
-/// Friction, limits and motors that the options leave out.
+/// Friction, limits and motors that the options leave out; and what of the rest changes the motion now.
 void SceneWriter::drop_the_rest() {
+    using Effect = Robot::Effect;
     result_.dropped.insert(result_.dropped.begin(), robot_.dropped.begin(), robot_.dropped.end());
-    std::vector<std::string> without_friction, without_stops, motors;
-    for (const Robot::Joint& joint : robot_.joints) {
-        if (joint.friction != 0 && !with_friction_.contains(joint.name)) without_friction.push_back(joint.name);
-        if (joint.limits && !with_stops_.contains(joint.name)) without_stops.push_back(joint.name);
+    const auto without = [](const auto& list, auto is_left_out) {
+        std::vector<std::string> names;
+        for (const auto& one : list)
+            if (is_left_out(one)) names.push_back(one.name);
+        return names;
+    };
+    const auto rubs = [&](const auto& one) { return one.friction != 0 && !with_friction_.contains(one.name); };
+    const auto stops = [&](const auto& one) { return one.limits && !with_stops_.contains(one.name); };
+    drop(say("Coulomb friction of joints, without --friction"), without(robot_.joints, rubs), Effect::motion);
+    drop(say("Coulomb friction of tendons, without --friction"), without(robot_.tendons, rubs), Effect::motion);
+    drop(say("limits of joints, without --stops"), without(robot_.joints, stops), Effect::motion);
+    drop(say("limits of tendons, without --stops"), without(robot_.tendons, stops), Effect::motion);
+    if (robot_.actuators && !options_.drives) {
+        const auto alone = [](const Robot::Actuator& motor) { return motor.acts_alone(); };
+        drop(say("motors, without --drives"), without(*robot_.actuators, std::not_fn(alone)));
+        drop(say("motors that act without a control too, without --drives"), without(*robot_.actuators, alone),
+             Effect::motion);
     }
-    drop(say("Coulomb friction of joints, without --friction"), without_friction);
-    drop(say("limits of joints, without --stops"), without_stops);
-    if (robot_.actuators && !options_.drives)
-        for (const Robot::Actuator& motor : *robot_.actuators) motors.push_back(motor.name);
-    drop(say("motors, without --drives"), motors);
+    for (Robot::Dropped& one : result_.dropped)
+        if (one.effect == Effect::driven) one.effect = options_.drives ? Effect::motion : Effect::none;
 }
 
 /// What links and joints are called in the scene.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "scene/functions.hpp"
@@ -54,6 +55,16 @@ std::string scene_key(const std::string& name) {
     return std::all_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; })
                ? name
                : "\"" + name + "\"";
+}
+
+void add_term(std::string& sum, double factor, const std::string& what) {
+    if (factor == 0) return;
+    const double size = std::abs(factor);
+    const std::string term = what.empty() ? scene_number(size)
+                             : size == 1  ? what
+                                          : fmt::format("{}*{}", scene_number(size), what);
+    sum += sum.empty() ? (factor < 0 ? "-" : "") : factor < 0 ? " - " : " + ";
+    sum += term;
 }
 
 std::string SceneNames::given(const std::string& wanted) {

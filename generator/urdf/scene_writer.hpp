@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A robot while it becomes the text of a scene. Only robot_scene.cpp, robot_joints.cpp and robot_loads.cpp use
-/// this.
+/// A robot while it becomes the text of a scene. Only robot_scene.cpp, robot_joints.cpp, robot_loads.cpp and
+/// robot_tendons.cpp use this.
 
 #include <map>
 #include <set>
@@ -45,7 +45,7 @@ private:
     void mounted(const Group& group);
     void drop_the_rest();
     void map_names();
-    void drop(const std::string& what, std::vector<std::string> of);
+    void drop(const std::string& what, std::vector<std::string> of, Robot::Effect effect = Robot::Effect::none);
     static std::vector<std::string> turns_of(const Seat& at);
     static void add_turns(std::vector<std::string>& list, const Real3& rpy);
     Stand stand(int link, const RobotPose& at) const;
@@ -53,6 +53,7 @@ private:
     // robot_joints.cpp
     std::string coordinate(const Robot::Joint* of, const std::string& name, const std::string& unit,
                            const std::string& about = "", double initial = 0);
+    void choose_starts();
     std::vector<std::string> turning(const Robot::Joint* of, const std::string& name, const RobotPose& start);
     void joint_table(const std::string& name, const std::string& type, const Stand& parent, const Stand& child,
                      const std::string& rest);
@@ -73,6 +74,15 @@ private:
     void actuators();
     void coupling(const Robot::Coupling& coupling);
 
+    // robot_tendons.cpp: what acts on several coordinates
+    void held(const Group& group);
+    void in_space(const Robot::Joint& joint, const Group& child, const std::vector<std::string>& shifts);
+    void tendon(const Robot::Tendon& tendon, std::string& length);
+    void tendon_stops(const Robot::Tendon& tendon, const std::string& length);
+    std::string length_of(const Robot::Tendon& tendon);
+    std::string point_of(int link, const Real3& inside, const std::string& wanted);
+    void energies();
+
     const Robot& robot_;
     RobotSceneOptions options_;
     std::vector<Group> groups_;
@@ -80,7 +90,12 @@ private:
     SceneNames places_, values_, joints_taken_;
     std::vector<std::string> joint_names_, values_of_;  // for each joint of the robot
     std::vector<std::string> link_names_;               // of links that are fixed to others
-    std::string joints_, dampers_, springs_, frictions_, stops_, inputs_, conditions_;
+    std::vector<double> starts_;                        // of those with one coordinate
+    std::set<int> guessed_;                             // joints whose start may move
+    bool all_guessed_ = false;
+    std::vector<std::string> lengths_;  // of each tendon in coordinates; empty if it moves no mass
+    std::string joints_, dampers_, springs_, frictions_, stops_, inputs_, conditions_, points_;
+    std::string kinetic_, dissipation_;                        // sums
     std::vector<std::pair<std::string, std::string>> forces_;  // coordinate, sum of forces
     std::set<std::string> with_friction_, with_stops_;         // joints
     RobotScene result_;

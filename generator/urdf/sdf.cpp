@@ -12,6 +12,7 @@
 #include "alembert/inertia.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
+#include "urdf/sdf_include.hpp"
 #include "urdf/sdf_poses.hpp"
 
 namespace alembert {
@@ -23,9 +24,49 @@ using Kind = SdfPoses::Entry::Kind;
 
 constexpr double no_limit = 1e15;  // SDF writes 1e16 for a joint without limits
 
+/// The effect of what nobody asked for.
+Robot::Effect effect_in_sdf(const std::string& element, const std::string& attribute) {
+    using Effect = Robot::Effect;
+    static const std::set<std::string> elements{"actor",
+                                                "allow_auto_disable",
+                                                "atmosphere",
+                                                "audio",
+                                                "audio_sink",
+                                                "audio_source",
+                                                "battery",
+                                                "collision",
+                                                "drake:collision_filter_group",
+                                                "drake:proximity_properties",
+                                                "enable_wind",
+                                                "frame",
+                                                "gui",
+                                                "light",
+                                                "magnetic_field",
+                                                "material",
+                                                "must_be_base_link",
+                                                "particle_emitter",
+                                                "physics",
+                                                "projector",
+                                                "road",
+                                                "scene",
+                                                "self_collide",
+                                                "sensor",
+                                                "spherical_coordinates",
+                                                "visual",
+                                                "wind"};
+    static const std::set<std::string> of_drives{"effort", "velocity"};
+    if (!attribute.empty()) return Effect::none;
+    return elements.contains(element)    ? Effect::none
+           : of_drives.contains(element) ? Effect::driven
+                                         : Effect::motion;
+}
+
 class SdfReader {
 public:
-    SdfReader(const std::string& text, const std::string& file) : file_(text, file), poses_(file_) {}
+    SdfReader(const std::string& text, const std::string& file, const OtherFiles& others)
+        : file_(text, file), poses_(file_) {
+        include_models(file_, file, others);
+    }
 
     Robot read() {
         const XmlElement& root = file_.root();
@@ -39,8 +80,6 @@ public:
             const std::vector<double> v = g != nullptr ? file_.numbers_in(*g, 3) : std::vector<double>{0, 0, -9.8};
             robot_.gravity = {v[0], v[1], v[2]};
             for (const XmlElement* model : file_.children(*world, "model")) models.push_back(model);
-            for (const XmlElement* e : file_.children(*world, "include"))
-                file_.refuse(*e, say("<include> names another file; expected it written out, as by gz sdf -p"));
         }
         if (models.empty()) file_.refuse(root, say("no <model> is found; expected one, or some in a <world>"));
         for (const XmlElement* model : models) poses_.add_model(*model, file_.needed_text(*model, "name"), "");
@@ -54,7 +93,7 @@ public:
         for (const std::string& path : poses_.order())
             if (poses_.entries().at(path).kind == Kind::frame) add_frame(path);
         follow_leaders();
-        robot_.dropped = file_.left_out();
+        robot_.dropped = file_.left_out(effect_in_sdf);
         robot_.remarks = file_.remarks();
         return std::move(robot_);
     }
@@ -354,8 +393,8 @@ private:
 
 }  // namespace
 
-Robot parse_sdf(const std::string& text, const std::string& file) {
-    return SdfReader(text, file).read();
+Robot parse_sdf(const std::string& text, const std::string& file, const OtherFiles& others) {
+    return SdfReader(text, file, others).read();
 }
 
 }  // namespace alembert

@@ -31,8 +31,6 @@ void SdfPoses::add_model(const XmlElement& model, const std::string& name, const
             {Kind::joint, e, scope, file_.text_in(*e, "child").value_or(""), ""});
     for (const XmlElement* e : file_.children(model, "model"))
         add_model(*e, scope + file_.needed_text(*e, "name"), scope);
-    for (const XmlElement* e : file_.children(model, "include"))
-        file_.refuse(*e, say("<include> names another file; expected it written out, as by gz sdf -p"));
 }
 
 std::string SdfPoses::path(const XmlElement& e, const std::string& scope, const std::string& name) const {

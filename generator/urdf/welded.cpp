@@ -80,6 +80,18 @@ private:
         return next;
     }
 
+    /// What is left of moments by rounding, where they are differences of larger ones: a part of the largest
+    /// element, of m r² about the origin, or of the moment of a body of a micrometre.
+    double rounding_of(const WeldedBody& group, const std::vector<int>& heavy) const {
+        constexpr double part = 1e-14, micrometre = 1e-6;
+        double size = 0;
+        for (const int i : heavy) {
+            const double far = (seat(i).shift + seat(i).R * link(i).centre).squaredNorm();
+            size = std::max({size, link(i).inertia.cwiseAbs().maxCoeff(), std::abs(link(i).mass) * far});
+        }
+        return std::max(part * size, std::abs(group.mass) * micrometre * micrometre);
+    }
+
     void sum_up(WeldedBody& group) const {
         std::vector<int> heavy;
         for (const int i : group.links)
@@ -93,8 +105,10 @@ private:
         for (const int i : heavy)
             group.inertia += moved_from_centre<double>(turned<double>(link(i).inertia, seat(i).R), link(i).mass,
                                                        centre(i) - group.centre);
+        const double rounding = rounding_of(group, heavy);
+        if (group.inertia.cwiseAbs().maxCoeff() <= rounding) group.inertia.setZero();
         if (const PrincipalAxes<> own = principal_axes<double>(group.inertia);
-            !group.ground && has_negative_moment(own))
+            !group.ground && has_negative_moment(own, rounding / rounded_moment))
             throw ModelError(
                 say("link {}{} has the principal moments of inertia {:.6g}, {:.6g} and {:.6g}, which are not all "
                     "zero or more; no body has them",

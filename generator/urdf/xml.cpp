@@ -39,7 +39,7 @@ XmlFile::XmlFile(const std::string& text, std::string file) : file_(std::move(fi
     seen_.insert(document_.RootElement());
 }
 
-void XmlFile::include(const std::function<std::string(const std::string&)>& text_of) {
+void XmlFile::include(const std::function<std::string(const XmlElement&, const std::string&)>& text_of) {
     constexpr int most = 100;  // a file that includes itself
     int count = 0;
     const auto expand = [&](const auto& self, XmlElement& e) -> void {
@@ -52,7 +52,7 @@ void XmlFile::include(const std::function<std::string(const std::string&)>& text
             }
             if (++count > most) refuse(*child, say("more than {} files are included", most));
             tinyxml2::XMLDocument other;
-            const std::string name = needed_text(*child, "file"), inside = text_of(name);
+            const std::string name = needed_text(*child, "file"), inside = text_of(*child, name);
             if (other.Parse(inside.c_str(), inside.size()) != tinyxml2::XML_SUCCESS ||
                 other.RootElement() == nullptr)
                 refuse(*child, say("{}, which is included here, is no XML", in_quotes(name)));
@@ -192,25 +192,26 @@ void XmlFile::ignore(const XmlElement& e, const char* attribute) {
     for (const XmlElement* child : children(e)) ignore(*child);
 }
 
-void XmlFile::drop(const std::string& what, const std::string& of) {
-    auto found =
-        std::find_if(dropped_.begin(), dropped_.end(), [&](const Robot::Dropped& d) { return d.what == what; });
-    if (found == dropped_.end()) found = dropped_.insert(found, {what, {}});
+void XmlFile::drop(const std::string& what, const std::string& of, Robot::Effect effect) {
+    auto found = std::find_if(dropped_.begin(), dropped_.end(),
+                              [&](const Robot::Dropped& d) { return d.what == what && d.effect == effect; });
+    if (found == dropped_.end()) found = dropped_.insert(found, {what, {}, effect});
     if (!of.empty() && std::find(found->of.begin(), found->of.end(), of) == found->of.end())
         found->of.push_back(of);
 }
 
-void XmlFile::look(const XmlElement& e, const std::string& owner) {
+void XmlFile::look(const XmlElement& e, const std::string& owner, const EffectOf& effect) {
     const char* const name = e.Attribute("name");
     const std::string here = name != nullptr ? name : owner;
-    if (!seen_.contains(&e)) return drop(fmt::format("<{}>", e.Name()), here);
+    if (!seen_.contains(&e)) return drop(fmt::format("<{}>", e.Name()), here, effect(e.Name(), ""));
     for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next())
-        if (!seen_.contains(a)) drop(fmt::format("<{} {}=…>", e.Name(), a->Name()), here);
-    for (const XmlElement* child : children(e)) look(*child, here);
+        if (!seen_.contains(a))
+            drop(fmt::format("<{} {}=…>", e.Name(), a->Name()), here, effect(e.Name(), a->Name()));
+    for (const XmlElement* child : children(e)) look(*child, here, effect);
 }
 
-std::vector<Robot::Dropped> XmlFile::left_out() {
-    look(root(), "");
+std::vector<Robot::Dropped> XmlFile::left_out(const EffectOf& effect) {
+    look(root(), "", effect);
     return std::move(dropped_);
 }
 

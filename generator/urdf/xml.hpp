@@ -32,10 +32,12 @@ public:
     XmlFile(const std::string& text, std::string file);
 
     /// Replaces each <include file="…"/> by what stands in the outermost element of that file. `text_of` gives the
-    /// text of a file.
-    void include(const std::function<std::string(const std::string&)>& text_of);
+    /// text of a file that an element includes.
+    void include(const std::function<std::string(const XmlElement&, const std::string&)>& text_of);
 
     const XmlElement& root() const { return *document_.RootElement(); }
+    /// For rules that change the elements before anything is read.
+    XmlElement& editable_root() { return *document_.RootElement(); }
     static Place place_of(const XmlElement& e) { return {e.GetLineNum(), 1}; }
     [[noreturn]] void refuse(const XmlElement& e, const std::string& why) const;
     void remark(const XmlElement& e, const std::string& what) { remarks_.push_back({place_of(e), what}); }
@@ -70,12 +72,14 @@ public:
     /// Leaves the element, or one of its attributes, out of `left_out`, because it does not concern the motion.
     void ignore(const XmlElement& e, const char* attribute = nullptr);
     /// Lists it although it was read.
-    void drop(const std::string& what, const std::string& of);
-    /// All that was dropped, and all that nobody asked for.
-    std::vector<Robot::Dropped> left_out();
+    void drop(const std::string& what, const std::string& of, Robot::Effect effect = Robot::Effect::none);
+    /// All that was dropped, and all that nobody asked for, with the effect of an element, or of its attribute, on
+    /// the motion. The attribute is empty if the element is meant.
+    using EffectOf = std::function<Robot::Effect(const std::string& element, const std::string& attribute)>;
+    std::vector<Robot::Dropped> left_out(const EffectOf& effect);
 
 private:
-    void look(const XmlElement& e, const std::string& owner);
+    void look(const XmlElement& e, const std::string& owner, const EffectOf& effect);
 
     std::string file_;
     tinyxml2::XMLDocument document_;

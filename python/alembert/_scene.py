@@ -42,11 +42,13 @@ class Scene:
 
     @classmethod
     def from_robot(cls, path, *, loops=None, floating=False, quaternion=False, drives=False, friction=False, stops=False,
-                   right_angles=False):
+                   right_angles=False, strict=False, package=(), allow_outside=False):
         """The scene of a robot description in URDF (or another form that `import` reads); `loops` is a file of joints
-        that close loops. `.imported` says what became of its parts."""
+        that close loops, `package` a list of folders with models. `strict` refuses a robot whose motion the scene would
+        change. `.imported` says what became of its parts."""
         options = {"floating": floating, "quaternion": quaternion, "drives": drives, "friction": friction,
-                   "stops": stops, "right_angles": right_angles,
+                   "stops": stops, "right_angles": right_angles, "strict": strict,
+                   "package": [_os.fspath(folder) for folder in package], "allow_outside": allow_outside,
                    "loops": None if loops is None else _os.fspath(loops)}  # yapf: disable
         found = ask("import", "", _os.fspath(path), options)
         stem = _os.path.splitext(_os.path.basename(_os.fspath(path)))[0]

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "urdf/sdf_include.hpp"
+
+#include <cstring>
+
+#include "language/say.hpp"
+#include "scene/text.hpp"
+#include "scene/text_file.hpp"
+#include "urdf/other_files.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr int most_models = 200, deepest_model = 20;  // a model may include itself
+
+/// Before version 1.5 the axis of a joint was given along the axes of its model.
+bool has_old_axes(const XmlElement& root) {
+    const char* const version = root.Attribute("version");
+    if (version == nullptr) return false;
+    for (const char* old : {"1.0", "1.2", "1.3", "1.4"})
+        if (std::strcmp(version, old) == 0) return true;
+    return false;
+}
+
+std::string inside(const XmlElement& e, const char* tag) {
+    const XmlElement* const child = e.FirstChildElement(tag);
+    const char* const text = child == nullptr ? nullptr : child->GetText();
+    if (text == nullptr) return "";
+    const std::string all = text, blanks = " \t\r\n";
+    const std::size_t first = all.find_first_not_of(blanks);
+    return first == std::string::npos ? "" : all.substr(first, all.find_last_not_of(blanks) - first + 1);
+}
+
+class Includer {
+public:
+    Includer(XmlFile& file, const OtherFiles& others) : file_(file), others_(others) {}
+
+    void expand(XmlElement& e, const std::string& path, int depth) {
+        for (XmlElement* child = e.FirstChildElement(); child != nullptr;) {
+            XmlElement* const next = child->NextSiblingElement();
+            const std::string tag = child->Name();
+            if (tag == "world" || tag == "model" || tag == "sdf") expand(*child, path, depth);
+            if (tag == "include") {
+                if (++count_ > most_models || depth > deepest_model)
+                    file_.refuse(*child, say("more than {} files are included", most_models));
+                replace(e, *child, path, depth);
+            }
+            child = next;
+        }
+    }
+
+private:
+    void replace(XmlElement& around, XmlElement& include, const std::string& path, int depth) {
+        const auto refuse = [&](const std::string& why) { file_.refuse(include, why); };
+        const std::string uri = inside(include, "uri");
+        if (uri.empty()) refuse(say("{} has no <uri>; expected one", shown(include)));
+        if (const char* const merge = include.Attribute("merge");
+            merge != nullptr && std::strcmp(merge, "false") != 0)
+            refuse(say(
+                "<include merge> puts the parts of {} into the model; expected them written out, as by gz sdf -p",
+                in_quotes(uri)));
+        const std::string found = NamedFiles(path, others_).model(uri, refuse);
+        tinyxml2::XMLDocument other;
+        const std::string text = text_of_file(found);
+        if (other.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS || other.RootElement() == nullptr)
+            refuse(say("{}, which is included here, is no XML", in_quotes(uri)));
+        const XmlElement& root = *other.RootElement();
+        if (const XmlElement* const model = root.FirstChildElement("model")) {
+            XmlElement& copy =
+                *around.InsertAfterChild(&include, model->DeepClone(include.GetDocument()))->ToElement();
+            keep_axes(copy, has_old_axes(root));
+            expand(copy, found, depth + 1);
+            override(copy, include);
+        } else if (root.FirstChildElement("light") == nullptr && root.FirstChildElement("actor") == nullptr) {
+            refuse(say("{} holds no <model>", in_quotes(uri)));
+        }
+        around.DeleteChild(&include);
+    }
+
+    /// Writes into the joints along which axes theirs are given, because the outer file may be of another version.
+    static void keep_axes(XmlElement& e, bool old) {
+        const char* const key = "use_parent_model_frame";
+        for (XmlElement* child = e.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+            keep_axes(*child, old);
+            const bool is_axis =
+                std::strcmp(child->Name(), "axis") == 0 || std::strcmp(child->Name(), "axis2") == 0;
+            if (is_axis && child->FirstChildElement("xyz") != nullptr && child->FirstChildElement(key) == nullptr)
+                child->InsertNewChildElement(key)->SetText(old);
+        }
+    }
+
+    /// What an <include> says takes the place of what the model says.
+    static void override(XmlElement& model, const XmlElement& include) {
+        if (const std::string name = inside(include, "name"); !name.empty())
+            model.SetAttribute("name", name.c_str());
+        if (const std::string frame = inside(include, "placement_frame"); !frame.empty())
+            model.SetAttribute("placement_frame", frame.c_str());
+        for (const char* tag : {"pose", "static"})
+            if (const XmlElement* const given = include.FirstChildElement(tag)) {
+                if (XmlElement* const own = model.FirstChildElement(tag)) model.DeleteChild(own);
+                model.InsertFirstChild(given->DeepClone(model.GetDocument()));
+            }
+        for (const XmlElement* plugin = include.FirstChildElement("plugin"); plugin != nullptr;
+             plugin = plugin->NextSiblingElement("plugin"))
+            model.InsertEndChild(plugin->DeepClone(model.GetDocument()));
+    }
+
+    XmlFile& file_;
+    const OtherFiles& others_;
+    int count_ = 0;
+};
+
+}  // namespace
+
+void include_models(XmlFile& file, const std::string& name, const OtherFiles& others) {
+    Includer(file, others).expand(file.editable_root(), name, 0);
+}
+
+}  // namespace alembert
