@@ -194,6 +194,55 @@ TEST_CASE("import: a loop that a file of joints closes moves as in SDF, and as t
     CHECK(refused.err.find("l is no number") != std::string::npos);
 }
 
+// Two hinges on the ground with the moments J₁ = 0.3 and J₂ = 0.2, and a spring of 4 N m on the first: with
+// θ₂ = −n θ₁ the motion is (J₁ + n² J₂) θ₁'' = −4 θ₁, whichever way the axes of the hinges and of the gearbox
+// point.
+TEST_CASE("import: a gearbox of SDF couples two hinges, and a link without gravity does not fall") {
+    const auto model = [](const std::string& hinge_axis, const std::string& second, const std::string& more = "") {
+        const auto link = [](const char* name, double moment) {
+            return fmt::format(
+                "<link "
+                "name=\"{}\"><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>{}</izz></inertia>"
+                "</inertial></link>",
+                name, moment);
+        };
+        const auto hinge = [](const char* name, const char* link, const std::string& axis, const char* stiffness) {
+            return fmt::format(
+                "<joint name=\"{}\" "
+                "type=\"revolute\"><parent>world</parent><child>{}</child><axis><xyz>{}</xyz><dynamics>"
+                "<spring_stiffness>{}</spring_stiffness></dynamics></axis></joint>",
+                name, link, axis, stiffness);
+        };
+        return temporary(
+            "gears.sdf",
+            "<sdf version=\"1.9\"><model name=\"m\">" + link("a", 0.3) + link("b", 0.2) +
+                hinge("one", "a", "0 0 1", "4") + hinge("two", "b", hinge_axis, "0") +
+                "\n<joint name=\"gear\" type=\"gearbox\"><parent>a</parent><child>b</child><gearbox_ratio>3"
+                "</gearbox_ratio><gearbox_reference_body>world</gearbox_reference_body><axis><xyz>0 0 1</xyz>"
+                "</axis><axis2><xyz>" +
+                second + "</xyz></axis2></joint>" + more + "</model></sdf>");
+    };
+    const std::string scene = temporary("gears.toml", "");
+    for (const auto& [hinge, second, sign] :
+         {std::tuple("0 0 1", "0 0 1", -1), std::tuple("0 0 -1", "0 0 1", 1), std::tuple("0 0 1", "0 0 -1", 1),
+          std::tuple("0 0 -1", "0 0 -1", -1)}) {
+        CHECK(imported(model(hinge, second), scene)["couplings"] == Json({"gear"}));
+        const Json found = accelerations(scene, {"one=0.1", fmt::format("two={}", sign * 0.3)});
+        const double expected = -4 * 0.1 / (0.3 + 9 * 0.2);
+        CHECK(std::abs(found["one"].get<double>() - expected) < 1e-12);
+        CHECK(std::abs(found["two"].get<double>() - 3 * sign * expected) < 1e-12);
+    }
+    const auto refused = run({"import", model("0 0 1", "0 1 0"), "-o", scene});
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find("gears.sdf:2:1: the gearbox 'm::gear' needs a hinge between 'world' and 'm::b'") !=
+          std::string::npos);
+    const std::string weightless = "<link name=\"c\"><gravity>false</gravity></link><link name=\"d\"/>";
+    imported(model("0 0 1", "0 0 1", weightless), scene, {"--quaternion"});
+    const Json fall = accelerations(scene, {});
+    CHECK(std::abs(fall["c_z"].get<double>()) < 1e-12);
+    CHECK(std::abs(fall["d_z"].get<double>() + 9.81) < 1e-12);
+}
+
 TEST_CASE("import: mistakes in MJCF and SDF are refused with their line") {
     const auto told = [](const char* name, const std::string& text) {
         const auto result = run({"import", temporary(name, text), "-o", temporary("none.toml", "")});
@@ -210,14 +259,14 @@ TEST_CASE("import: mistakes in MJCF and SDF are refused with their line") {
           std::string::npos);
     CHECK(told("c.xml", body("<geom type=\"box\" size=\"1,2,3\"/>")).find("'1,2,3' is no finite number") !=
           std::string::npos);
-    CHECK(told("d.xml", body("<replicate count=\"3\"/>")).find("makes bodies by a rule") != std::string::npos);
+    CHECK(told("d.xml", body("<flexcomp count=\"3\"/>")).find("makes bodies by a rule") != std::string::npos);
     CHECK(told("e.xml", "<mujoco><worldbody></mujoco>").find("this is no XML") != std::string::npos);
     CHECK(told("f.sdf",
                "<sdf version=\"1.9\"><model name=\"m\">\n<link name=\"a\"><pose relative_to=\"b\"/></link>"
                "</model></sdf>")
               .find(":2:1: 'b' is no link, joint, frame or model here") != std::string::npos);
     CHECK(told("g.sdf",
-               "<sdf version=\"1.9\"><model name=\"m\"><link name=\"a\"/>\n<joint name=\"j\" type=\"gearbox\">"
+               "<sdf version=\"1.9\"><model name=\"m\"><link name=\"a\"/>\n<joint name=\"j\" type=\"geared\">"
                "<parent>world</parent><child>a</child></joint></model></sdf>")
               .find("expected revolute, continuous, prismatic") != std::string::npos);
 }

@@ -10,7 +10,7 @@
 #include "language/say.hpp"
 #include "scene/text.hpp"
 #include "urdf/mjcf_reader.hpp"
-#include "urdf/other_files.hpp"
+#include "urdf/mjcf_rules.hpp"
 
 namespace alembert {
 
@@ -63,9 +63,8 @@ MjcfReader::MjcfReader(const std::string& text, const std::string& file, const O
     if (std::strcmp(file_.root().Name(), "mujoco") != 0)
         file_.refuse(file_.root(), say("the outermost element is {}; expected <mujoco>", shown(file_.root())));
     const NamedFiles named(file, others);
-    file_.include([&](const XmlElement& e, const std::string& name) {
-        return named.text(name, [&](const std::string& why) { file_.refuse(e, why); });
-    });
+    include_parts(file_, named);
+    write_out_rules(file_, named);
     values_.emplace(file_);
 }
 
@@ -93,7 +92,8 @@ Robot MjcfReader::read() {
     each("actuator", [&](const XmlElement& e) { read_actuator(e); });
     each("equality", [&](const XmlElement& e) { read_equality(e); });
     switch_off();
-    robot_.dropped = file_.left_out(effect_of);
+    robot_.dropped = file_.left_out(
+        [](const XmlElement& e, const std::string& attribute) { return effect_of(e.Name(), attribute); });
     robot_.remarks = file_.remarks();
     return std::move(robot_);
 }
@@ -136,19 +136,24 @@ Robot::Joint& MjcfReader::connect(const XmlElement& e, const std::string& name, 
     return robot_.joints.back();
 }
 
-/// Bodies and sites inside a body, or inside a <frame> that stands at `offset` in it.
+/// Bodies and sites inside a body, or inside a <frame> that stands at `offset` in it; bodies in the order of the
+/// file.
 void MjcfReader::read_inside(const XmlElement& e, const std::string& body, const RobotPlace& offset) {
-    for (const XmlElement* frame : file_.children(e, "frame")) {
-        for (const char* no_motion : {"childclass", "name"}) file_.ignore(*frame, no_motion);
-        read_inside(*frame, body, composed(offset, values_->place(*frame)));
-    }
-    for (const char* tag : {"replicate", "composite", "flexcomp", "attach"})
+    for (const char* tag : {"composite", "flexcomp"})
         if (const XmlElement* const found = e.FirstChildElement(tag))
             file_.refuse(*found, say("<{}> makes bodies by a rule; expected them written out, as MuJoCo saves a "
                                      "compiled model (mj_saveLastXML)",
                                      tag));
     for (const XmlElement* site : file_.children(e, "site")) read_site(*site, body, offset);
-    for (const XmlElement* child : file_.children(e, "body")) read_body(*child, body, offset);
+    for (const XmlElement* child : file_.children(e)) {
+        const std::string tag = child->Name();
+        if (tag == "body" || tag == "frame") file_.children(e, child->Name());
+        if (tag == "body") read_body(*child, body, offset);
+        if (tag != "frame") continue;
+        for (const char* no_motion : {"childclass", "name", "attached-angle", "attached-eulerseq"})
+            file_.ignore(*child, no_motion);
+        read_inside(*child, body, composed(offset, values_->place(*child)));
+    }
     if (body == "world")
         for (const XmlElement* geom : file_.children(e, "geom")) file_.ignore(*geom);
 }
@@ -268,7 +273,7 @@ void MjcfReader::read_joint(const XmlElement& e, Robot::Joint& joint, const Robo
     joint.axis = frame.R * values_->three(e, "axis", Real3::UnitZ());
     if (joint.axis.norm() == 0)
         file_.refuse(e, say("the axis of joint {} is zero; expected a direction", in_quotes(joint.name)));
-    const auto of_joint = [&](double x) { return joint.type == Type::revolute ? values_->angle(x) : x; };
+    const auto of_joint = [&](double x) { return joint.type == Type::revolute ? values_->angle(e, x) : x; };
     const double reference = of_joint(values_->number(e, "ref").value_or(0));
     references_[joint.name] = reference;
     if (reference != 0)

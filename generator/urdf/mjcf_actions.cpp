@@ -244,7 +244,7 @@ void MjcfReader::read_actuator(const XmlElement& e) {
             return leave_out(say("<{}> on a tendon through sites", tag));
     }
     read_law(e, motor);
-    set_damping_ratio(motor);
+    set_damping_ratio(e, motor);
     tell_defaults(
         e, name, "general",
         {"gear", "kp", "kv", "dampratio", "gainprm", "biasprm", "gaintype", "biastype", "dyntype", "timeconst"});
@@ -257,7 +257,7 @@ void MjcfReader::read_actuator(const XmlElement& e) {
 /// A servo whose damping is positive has a damping ratio ζ there: d = 2 ζ √(k m), where m is the sum of the
 /// diagonal elements of the mass matrix in the reference pose, each divided by the square of its joint's share of
 /// the length.
-void MjcfReader::set_damping_ratio(Robot::Actuator& motor) const {
+void MjcfReader::set_damping_ratio(const XmlElement& e, Robot::Actuator& motor) {
     if (motor.rate <= 0 || motor.gain != -motor.along || motor.gain <= 0) return;
     const ReferenceMass reference = reference_mass(robot_);
     std::vector<Robot::Tendon::Term> terms{{motor.joint, 1}};
@@ -269,6 +269,11 @@ void MjcfReader::set_damping_ratio(Robot::Actuator& motor) const {
         if (share != 0) mass += reference.M(row, row) / (share * share);
     }
     motor.rate *= -2 * std::sqrt(motor.gain * mass);
+    file_.remark(
+        e,
+        say("the damping ratio of motor {} is {:.6g} as a damping, with the inertia of MuJoCo 3; MuJoCo 4 takes "
+            "the reciprocal of the mobility",
+            in_quotes(motor.name), -motor.rate));
 }
 
 /// force = gain u + constant + along·length + rate·velocity, with length = gear·(q + reference)

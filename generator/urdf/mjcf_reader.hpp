@@ -67,7 +67,7 @@ private:
     void finish_tendons();
     void read_actuator(const XmlElement& e);
     void read_law(const XmlElement& e, Robot::Actuator& motor);
-    void set_damping_ratio(Robot::Actuator& motor) const;
+    void set_damping_ratio(const XmlElement& e, Robot::Actuator& motor);
     void read_equality(const XmlElement& e);
     void read_loop(const XmlElement& e, const std::string& name);
     void read_coupling(const XmlElement& e, const std::string& name);

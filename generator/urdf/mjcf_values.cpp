@@ -8,6 +8,7 @@
 
 #include "language/say.hpp"
 #include "scene/text.hpp"
+#include "urdf/mjcf_rules.hpp"
 
 namespace alembert {
 
@@ -116,6 +117,12 @@ Real3 MjcfValues::three(const XmlElement& e, const char* attribute, const Real3&
     return list ? Real3((*list)[0], (*list)[1], (*list)[2]) : missing;
 }
 
+double MjcfValues::angle(const XmlElement& e, double written) const {
+    const char* const unit = of_attached_model(e, "angle");
+    const bool in_degrees = unit != nullptr ? std::strcmp(unit, "degree") == 0 : in_degrees_;
+    return in_degrees ? written * M_PI / 180 : written;
+}
+
 Real33 MjcfValues::rotation(const XmlElement& e) {
     const auto direction = [&](const Real3& v) -> Real3 {
         if (v.norm() == 0) file_.refuse(e, say("a direction of {} is zero; expected another", shown(e)));
@@ -128,14 +135,15 @@ Real33 MjcfValues::rotation(const XmlElement& e) {
         return e4.normalized().toRotationMatrix();
     }
     if (const auto a = numbers(e, "axisangle", 4))
-        return Eigen::AngleAxisd(angle((*a)[3]), direction({(*a)[0], (*a)[1], (*a)[2]})).toRotationMatrix();
+        return Eigen::AngleAxisd(angle(e, (*a)[3]), direction({(*a)[0], (*a)[1], (*a)[2]})).toRotationMatrix();
     if (const auto angles = numbers(e, "euler", 3)) {
         Real33 R = Real33::Identity();
+        const char* const sequence = of_attached_model(e, "eulerseq");
         for (std::size_t k = 0; k < 3; ++k) {
-            const char letter = euler_[k];
+            const char letter = sequence != nullptr && std::strlen(sequence) == 3 ? sequence[k] : euler_[k];
             const bool moves = letter >= 'a';  // about axes that turn with the body, or that do not
             Real3 rpy = Real3::Zero();
-            rpy[moves ? letter - 'x' : letter - 'X'] = angle((*angles)[k]);
+            rpy[moves ? letter - 'x' : letter - 'X'] = angle(e, (*angles)[k]);
             const Real33 turn = RobotPose{Real3::Zero(), rpy}.rotation();
             R = moves ? Real33(R * turn) : Real33(turn * R);
         }

@@ -44,8 +44,8 @@ public:
     Real3 three(const XmlElement& e, const char* attribute, const Real3& missing);
     Real33 rotation(const XmlElement& e);
     RobotPlace place(const XmlElement& e) { return {three(e, "pos", Real3::Zero()), rotation(e)}; }
-    /// An angle of the file in radians.
-    double angle(double written) const { return in_degrees_ ? written * M_PI / 180 : written; }
+    /// An angle of an element in radians.
+    double angle(const XmlElement& e, double written) const;
 
     /// <inertial>.
     MjcfInertia given(const XmlElement& inertial);

@@ -111,7 +111,8 @@ private:
         refuse(place, say("urdfdom refuses it: {}", escaped(said, 300)));
     }
     void drop_unknown(const TiXmlElement& e, const std::string& of) {
-        for (const std::string& what : elements_.unknown_attributes(e)) drop(what, of, Effect::motion);
+        const Effect effect = e.ValueStr() == "limit" ? Effect::driven : Effect::motion;
+        for (const std::string& what : elements_.unknown_attributes(e)) drop(what, of, effect);
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement())
             drop_unknown(*child, of);
@@ -120,9 +121,10 @@ private:
     /// The effect of an element that is not read. Of what Gazebo adds, it is that of a damping or of a link that
     /// does not fall; looks, contacts and the programs that it starts leave the motion as it is.
     static Effect effect_of(const TiXmlElement& e) {
-        static const std::set<std::string> known{
-            "visual",      "collision", "material", "transmission",           "sensor", "safety_controller",
-            "calibration", "verbose",   "contact",  "self_collision_checking"};
+        static const std::set<std::string> known{"visual",       "collision", "material",
+                                                 "transmission", "sensor",    "safety_controller",
+                                                 "calibration",  "frame",     "drake:collision_filter_group",
+                                                 "verbose",      "contact",   "self_collision_checking"};
         if (e.ValueStr() != "gazebo") return known.contains(e.ValueStr()) ? Effect::none : Effect::motion;
         for (const char* moves : {"dampingFactor", "turnGravityOff", "springStiffness", "static", "kinematic"})
             if (e.FirstChildElement(moves) != nullptr) return Effect::motion;

@@ -13,6 +13,7 @@
 #include "language/say.hpp"
 #include "scene/text.hpp"
 #include "urdf/sdf_include.hpp"
+#include "urdf/sdf_left_out.hpp"
 #include "urdf/sdf_poses.hpp"
 
 namespace alembert {
@@ -23,43 +24,6 @@ using Type = Robot::Type;
 using Kind = SdfPoses::Entry::Kind;
 
 constexpr double no_limit = 1e15;  // SDF writes 1e16 for a joint without limits
-
-/// The effect of what nobody asked for.
-Robot::Effect effect_in_sdf(const std::string& element, const std::string& attribute) {
-    using Effect = Robot::Effect;
-    static const std::set<std::string> elements{"actor",
-                                                "allow_auto_disable",
-                                                "atmosphere",
-                                                "audio",
-                                                "audio_sink",
-                                                "audio_source",
-                                                "battery",
-                                                "collision",
-                                                "drake:collision_filter_group",
-                                                "drake:proximity_properties",
-                                                "enable_wind",
-                                                "frame",
-                                                "gui",
-                                                "light",
-                                                "magnetic_field",
-                                                "material",
-                                                "must_be_base_link",
-                                                "particle_emitter",
-                                                "physics",
-                                                "projector",
-                                                "road",
-                                                "scene",
-                                                "self_collide",
-                                                "sensor",
-                                                "spherical_coordinates",
-                                                "visual",
-                                                "wind"};
-    static const std::set<std::string> of_drives{"effort", "velocity"};
-    if (!attribute.empty()) return Effect::none;
-    return elements.contains(element)    ? Effect::none
-           : of_drives.contains(element) ? Effect::driven
-                                         : Effect::motion;
-}
 
 class SdfReader {
 public:
@@ -161,9 +125,9 @@ private:
 
     void read_inertial(const XmlElement& e, const std::string& path, Robot::Link& link) {
         const XmlElement* const inertial = file_.only(e, "inertial");
-        if (file_.flag_in(e, "gravity") == false || file_.flag_in(e, "kinematic") == true)
-            file_.refuse(
-                e, say("link {} has no gravity or is kinematic, which a scene does not know", in_quotes(path)));
+        if (file_.flag_in(e, "kinematic") == true)
+            file_.refuse(e, say("link {} is kinematic, which a scene does not know", in_quotes(path)));
+        if (file_.flag_in(e, "gravity") == false) link.held = 1;
         double mass = 1, moments[] = {1, 1, 1}, products[] = {0, 0, 0};
         RobotPlace at;
         if (inertial == nullptr) {
@@ -213,7 +177,9 @@ private:
         std::vector<std::string> waiting;
         std::set<std::string> children;
         for (const std::string& path : poses_.order())
-            if (entry(path).kind == Kind::joint) {
+            if (entry(path).kind == Kind::joint && is_gearbox(path)) {
+                gearboxes_.push_back(path);
+            } else if (entry(path).kind == Kind::joint) {
                 waiting.push_back(path);
                 children.insert(sides(path).second);
             }
@@ -243,6 +209,47 @@ private:
             hold(root, Type::floating);
         }
         for (const std::string& path : waiting) close_by(path);
+        for (const std::string& path : gearboxes_) gear(path);
+    }
+
+    bool is_gearbox(const std::string& path) {
+        return file_.needed_text(*entry(path).element, "type") == "gearbox";
+    }
+
+    /// Couples the angles of two hinges on the reference body: θ₂ = −ratio·θ₁, where θ₁ is that of the gearbox's
+    /// parent about <axis> and θ₂ that of its child about <axis2>.
+    void gear(const std::string& path) {
+        const XmlElement& e = *entry(path).element;
+        const auto [parent, child] = sides(path);
+        const std::string body = file_.text_in(e, "gearbox_reference_body").value_or("");
+        if (body.empty()) file_.refuse(e, say("the gearbox {} has no <gearbox_reference_body>", in_quotes(path)));
+        const std::string reference = poses_.link(poses_.path(e, entry(path).scope, body));
+        const auto [one, along_one] = hinge_between(path, reference, parent, "axis");
+        const auto [two, along_two] = hinge_between(path, reference, child, "axis2");
+        const double ratio = file_.number_in(e, "gearbox_ratio").value_or(1);
+        robot_.couplings.push_back({.name = short_name(path),
+                                    .joint = two,
+                                    .other = one,
+                                    .polynomial = {0, -ratio * along_one * along_two}});
+    }
+
+    /// The joint that turns `link` against `reference`, and whether it counts along the axis (1) or against it
+    /// (−1).
+    std::pair<int, int> hinge_between(const std::string& path, const std::string& reference,
+                                      const std::string& link, const char* tag) {
+        const Real3 wanted = axis(path, tag).normalized();
+        for (std::size_t k = 0; k < robot_.joints.size(); ++k) {
+            const Robot::Joint& joint = robot_.joints[k];
+            const bool forth = joint.parent == frames_.at(reference).link && joint.child == frames_.at(link).link,
+                       back = joint.child == frames_.at(reference).link && joint.parent == frames_.at(link).link;
+            if ((!forth && !back) || (joint.type != Type::revolute && joint.type != Type::continuous)) continue;
+            const double along =
+                wanted.dot(frames_.at(forth ? link : reference).place.R * joint.axis.normalized());
+            if (std::abs(along) > 1 - 1e-9) return {static_cast<int>(k), (along > 0) == forth ? 1 : -1};
+        }
+        file_.refuse(*entry(path).element,
+                     say("the gearbox {} needs a hinge between {} and {}, about its own axis", in_quotes(path),
+                         in_quotes(reference), in_quotes(link)));
     }
 
     Type type_of(const std::string& path) {
@@ -250,7 +257,7 @@ private:
         const std::map<std::string, Type> types{{"revolute", Type::revolute},   {"continuous", Type::continuous},
                                                 {"prismatic", Type::prismatic}, {"ball", Type::spherical},
                                                 {"universal", Type::universal}, {"screw", Type::screw},
-                                                {"fixed", Type::fixed}};
+                                                {"fixed", Type::fixed},         {"revolute2", Type::universal}};
         const std::string name = file_.needed_text(e, "type");
         const auto found = types.find(name);
         if (found == types.end())
@@ -286,7 +293,8 @@ private:
 
     double pitch(const std::string& path) {
         const XmlElement& e = *entry(path).element;
-        const auto a_turn = file_.number_in(e, "screw_thread_pitch");
+        const auto a_turn = file_.number_in(e, "screw_thread_pitch"), radians = file_.number_in(e, "thread_pitch");
+        if (!a_turn && radians && *radians != 0) return -1 / *radians;  // of old, in radians a metre to the left
         if (!a_turn)
             file_.refuse(e,
                          say("the screw {} has no <screw_thread_pitch>; expected metres a turn", in_quotes(path)));
@@ -388,6 +396,7 @@ private:
     std::string one_model_;  // the path that all names share
     std::map<std::string, Frame> frames_;
     std::vector<Follower> followers_;
+    std::vector<std::string> gearboxes_;
     Robot robot_;
 };
 

@@ -203,10 +203,9 @@ void XmlFile::drop(const std::string& what, const std::string& of, Robot::Effect
 void XmlFile::look(const XmlElement& e, const std::string& owner, const EffectOf& effect) {
     const char* const name = e.Attribute("name");
     const std::string here = name != nullptr ? name : owner;
-    if (!seen_.contains(&e)) return drop(fmt::format("<{}>", e.Name()), here, effect(e.Name(), ""));
+    if (!seen_.contains(&e)) return drop(fmt::format("<{}>", e.Name()), here, effect(e, ""));
     for (const tinyxml2::XMLAttribute* a = e.FirstAttribute(); a != nullptr; a = a->Next())
-        if (!seen_.contains(a))
-            drop(fmt::format("<{} {}=…>", e.Name(), a->Name()), here, effect(e.Name(), a->Name()));
+        if (!seen_.contains(a)) drop(fmt::format("<{} {}=…>", e.Name(), a->Name()), here, effect(e, a->Name()));
     for (const XmlElement* child : children(e)) look(*child, here, effect);
 }
 

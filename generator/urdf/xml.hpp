@@ -75,7 +75,7 @@ public:
     void drop(const std::string& what, const std::string& of, Robot::Effect effect = Robot::Effect::none);
     /// All that was dropped, and all that nobody asked for, with the effect of an element, or of its attribute, on
     /// the motion. The attribute is empty if the element is meant.
-    using EffectOf = std::function<Robot::Effect(const std::string& element, const std::string& attribute)>;
+    using EffectOf = std::function<Robot::Effect(const XmlElement& element, const std::string& attribute)>;
     std::vector<Robot::Dropped> left_out(const EffectOf& effect);
 
 private:

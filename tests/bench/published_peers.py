@@ -67,6 +67,8 @@ def by_mujoco(path, told, dice):
     mujoco = found[0]
     if "loops" in told or "couplings" in told:
         return "has constraints"
+    if any("damping ratio" in warning["message"] for warning in told["warnings"]):
+        return "MuJoCo 4 takes damping ratios otherwise"
     if re.search(r'\b(align|alignfree)\s*=\s*"true"', path.read_text(errors="replace")):
         return "MuJoCo moves the frames of free bodies"
     with silence():
@@ -183,6 +185,8 @@ def by_drake(path, told, dice):
     drake, np = found[0].all, found[1]
     if "loops" in told or "couplings" in told or "<mimic" in path.read_text(errors="replace"):
         return "has constraints"
+    if re.search(r"<mass>\s*0(\.0*)?\s*</mass>", path.read_text(errors="replace")):
+        return "Drake takes no inertia without a mass"
     plant = drake.MultibodyPlant(0.0)
     parser = drake.Parser(plant)
     parser.SetAutoRenaming(True)
