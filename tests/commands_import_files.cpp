@@ -153,7 +153,11 @@ TEST_CASE("import: <replicate> of MJCF makes the bodies, motors and tendons that
     };
     for (const char* count : {"0", "-3", "1.5", "1e9"})
         CHECK(refusal(of(count)).find("wrong.xml:2:1: the count of <replicate> is ") != std::string::npos);
-    CHECK(refusal(of("9000")).find("more than 10000 things are made by rules") != std::string::npos);
+    // Nine to the thirtieth of a shape without a name.
+    std::string many = "<geom size=\"1\"/>";
+    for (int k = 0; k < 30; ++k) many = "<replicate count=\"9\">" + many + "</replicate>";
+    CHECK(refusal(folder.write("wrong.xml", whole(many, "", "")))
+              .find("more than 100000 elements are made by rules") != std::string::npos);
 }
 
 TEST_CASE("import: <attach> of MJCF takes a part of another model, with its classes, units and what acts on it") {
@@ -205,6 +209,12 @@ TEST_CASE("import: <attach> of MJCF takes a part of another model, with its clas
         std::string::npos);
     CHECK(attaching(R"(name="a" file="wrong.xml")", R"(model="a")").find("attached in each other") !=
           std::string::npos);
+    for (const char* twice : {"", R"(<attach body="b" prefix="q"/>)"})
+        CHECK(refusal(folder.write("self.xml",
+                                   fmt::format(R"(<mujoco><worldbody><body name="b"><joint/><geom size="1"/>
+                <attach body="b" prefix="p"/>{}</body></worldbody></mujoco>)",
+                                               twice)))
+                  .find("attached in each other") != std::string::npos);
     CHECK(attaching(R"(name="a" file="../leg.xml")", R"(model="a")").find("is outside the folder") !=
           std::string::npos);
 }

@@ -244,6 +244,20 @@ TEST_CASE("import: coordinates that a coupling moves at the start are guesses th
     CHECK(std::abs(start["coordinates"]["k"].get<double>() - 0.3) < tolerance);
 }
 
+// The second section adds to the class, and of two values the later one counts.
+TEST_CASE("import: several <default> sections of MJCF make one class, and a class inside itself is refused") {
+    const Imported one = imported(model(block(), R"(<default><joint stiffness="6" damping="9"/></default>
+        <default><joint damping="4"/></default>)"));
+    CHECK(std::abs(one.acceleration("x", {"x=0.5", "x'=0.25"}) + (6 * 0.5 + 4 * 0.25) / 2) < tolerance);
+    const auto refused = run({"import",
+                              model(block(),
+                                    "<default class=\"a\"><default class=\"b\"><default class=\"a\"/>"
+                                    "</default></default>"),
+                              "-o", temporary("none.toml", "")});
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find("the class 'a' stands inside itself") != std::string::npos);
+}
+
 TEST_CASE("import: joints, shapes and inertias inside a <frame> of a body count as those of the body") {
     const Imported framed = imported(model(
         R"(<body name="b"><frame pos="0.1 0 0.2" euler="0 0.4 0"><joint name="q" axis="0 1 0" pos="0 0 0.1"/>

@@ -14,7 +14,7 @@ namespace alembert {
 
 namespace {
 
-constexpr int most_copies = 10'000, deepest_attachment = 10;
+constexpr int most_copies = 10'000, most_made = 100'000, deepest_attachment = 10;
 constexpr const char* sections[] = {"tendon", "equality", "actuator"};
 
 using Names = std::map<std::string, std::set<std::string>>;  // by kind: "body", "joint" …
@@ -49,6 +49,13 @@ void collect(const XmlElement& e, Names& names) {
         names[kind_of_name(e)].insert(name);
     for (const XmlElement* child = e.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
         collect(*child, names);
+}
+
+int elements_of(const XmlElement& e) {
+    int count = 1;
+    for (const XmlElement* child = e.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+        count += elements_of(*child);
+    return count;
 }
 
 bool refers(const XmlElement& e, const Names& names) {
@@ -117,6 +124,11 @@ public:
     }
 
 private:
+    void count_made(const XmlElement& rule, double elements) {
+        made_ += elements;
+        if (made_ > most_made) file_.refuse(rule, say("more than {} elements are made by rules", most_made));
+    }
+
     /// Replaces the rule by frames and returns the last of them.
     XmlElement* replicate(XmlElement& around, XmlElement& rule) {
         const double wanted = file_.number(rule, "count").value_or(0);
@@ -126,9 +138,7 @@ private:
                                    wanted, most_copies));
         Names names;
         collect(rule, names);
-        for (const auto& [kind, all] : names) made_ += static_cast<int>(all.size()) * count;
-        made_ += count;
-        if (made_ > most_copies) file_.refuse(rule, say("more than {} things are made by rules", most_copies));
+        count_made(rule, static_cast<double>(elements_of(rule)) * count);
         const std::string separator = file_.text(rule, "sep").value_or("");
         const auto suffix = [&](int k) {
             const std::size_t digits = fmt::format("{}", count - 1).size();
@@ -252,14 +262,16 @@ private:
                     take(*part);
         Names names;
         collect(frame, names);
-        made_ += static_cast<int>(names["body"].size()) + 1;
-        if (made_ > most_copies) file_.refuse(rule, say("more than {} things are made by rules", most_copies));
+        count_made(rule, elements_of(frame));
         const Rename renamed = [&](const std::string& name) { return prefix + name; };
         for (XmlElement* part = frame.FirstChildElement(); part != nullptr; part = part->NextSiblingElement())
             rename(*part, names, renamed);
         take_what_refers(theirs, names, renamed, usual);
-        around.DeleteChild(&rule);
+        if (++nested_ > deepest_attachment)
+            file_.refuse(rule, say("models are attached in each other more than {} deep", deepest_attachment));
         write_out(frame);  // rules of this file in a part of it
+        --nested_;
+        around.DeleteChild(&rule);
         return &frame;
     }
 
@@ -290,7 +302,8 @@ private:
     MjcfValues values_;
     const NamedFiles& named_;
     const int depth_;
-    int made_ = 0;
+    double made_ = 0;
+    int nested_ = 0;  // attachments in each other
 };
 
 }  // namespace

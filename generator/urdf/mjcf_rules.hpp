@@ -18,7 +18,7 @@ namespace alembert {
 /// Replaces each <include>. `named` finds files.
 void include_parts(XmlFile& file, const NamedFiles& named);
 
-/// Throws SceneError at a rule that names what is not there, or that makes more than 10 000 bodies.
+/// Throws SceneError at a rule that names what is not there, or that makes more than 100 000 elements.
 void write_out_rules(XmlFile& file, const NamedFiles& named, int depth = 0);
 
 /// The unit of angles or the sequence of Euler's angles that an attached model has: the value of "angle" or

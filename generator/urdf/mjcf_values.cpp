@@ -44,7 +44,10 @@ void MjcfValues::read_compiler(const XmlElement& e) {
 
 void MjcfValues::read_class(const XmlElement& e, const std::string& parent) {
     const std::string name = file_.text(e, "class").value_or("main");
-    classes_[name] = {parent, &e};
+    for (std::string above = parent; !above.empty(); above = classes_.at(above).parent)
+        if (above == name) file_.refuse(e, say("the class {} stands inside itself", in_quotes(name)));
+    const auto known = classes_.try_emplace(name, Class{parent, {}}).first;
+    known->second.elements.insert(known->second.elements.begin(), &e);
     for (const XmlElement* child : file_.children(e)) {
         if (std::strcmp(child->Name(), "default") == 0) {
             read_class(*child, name);
@@ -66,31 +69,36 @@ const MjcfValues::Class& MjcfValues::class_of(const XmlElement& e) {
     return found == classes_.end() ? classes_["main"] : found->second;
 }
 
-std::optional<std::string> MjcfValues::text(const XmlElement& e, const char* attribute, const char* or_as) {
-    if (std::optional<std::string> own = file_.text(e, attribute)) return own;
-    for (const Class* c = &class_of(e); c->element != nullptr;) {
-        for (const char* tag : {e.Name(), or_as})
-            if (tag != nullptr)
-                for (const XmlElement* d = c->element->FirstChildElement(tag); d != nullptr;
-                     d = d->NextSiblingElement(tag))
-                    if (d->Attribute(attribute) != nullptr) return file_.text(*d, attribute);
-        if (c->parent.empty()) break;
-        c = &classes_.at(c->parent);
+void MjcfValues::each_default(const XmlElement& e, const char* or_as,
+                              const std::function<bool(const XmlElement&)>& give) {
+    for (const Class* c = &class_of(e);; c = &classes_.at(c->parent)) {
+        for (const XmlElement* all : c->elements)
+            for (const char* tag : {e.Name(), or_as})
+                if (tag != nullptr)
+                    for (const XmlElement* d = all->FirstChildElement(tag); d != nullptr;
+                         d = d->NextSiblingElement(tag))
+                        if (give(*d)) return;
+        if (c->parent.empty()) return;
     }
-    return std::nullopt;
+}
+
+std::optional<std::string> MjcfValues::text(const XmlElement& e, const char* attribute, const char* or_as) {
+    std::optional<std::string> result = file_.text(e, attribute);
+    if (result) return result;
+    each_default(e, or_as, [&](const XmlElement& d) {
+        result = file_.text(d, attribute);
+        return result.has_value();
+    });
+    return result;
 }
 
 std::set<std::string> MjcfValues::default_attributes(const XmlElement& e, const char* or_as) {
     std::set<std::string> result;
-    for (const Class* c = &class_of(e); c->element != nullptr; c = &classes_.at(c->parent)) {
-        for (const char* tag : {e.Name(), or_as})
-            if (tag != nullptr)
-                for (const XmlElement* d = c->element->FirstChildElement(tag); d != nullptr;
-                     d = d->NextSiblingElement(tag))
-                    for (const tinyxml2::XMLAttribute* a = d->FirstAttribute(); a != nullptr; a = a->Next())
-                        result.insert(a->Name());
-        if (c->parent.empty()) break;
-    }
+    each_default(e, or_as, [&](const XmlElement& d) {
+        for (const tinyxml2::XMLAttribute* a = d.FirstAttribute(); a != nullptr; a = a->Next())
+            result.insert(a->Name());
+        return false;
+    });
     return result;
 }
 

@@ -61,8 +61,10 @@ public:
 private:
     struct Class {
         std::string parent;
-        const XmlElement* element = nullptr;
+        std::vector<const XmlElement*> elements;  // the last one first, which counts before the others
     };
+    /// Gives each <default> that counts for an element to `give`, the nearest class first, until that is true.
+    void each_default(const XmlElement& e, const char* or_as, const std::function<bool(const XmlElement&)>& give);
     void read_compiler(const XmlElement& e);
     void read_class(const XmlElement& e, const std::string& parent);
     const Class& class_of(const XmlElement& e);

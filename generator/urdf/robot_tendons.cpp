@@ -25,6 +25,8 @@ void SceneWriter::held(const Group& group) {
         all &= link(i).held == link(group.top).held || link(i).mass == 0;
     }
     Real3 moment = centre - mass * group.centre;  // of the parts about the mass centre of the body
+    if (!(mass * robot_.gravity).allFinite() || !moment.allFinite())
+        throw ModelError(say("the weight of {} is not finite", in_quotes(link(group.top).name)));
     if (mass == 0 && moment.isZero(0)) return;
     std::string at = group.name;
     if (mass == 0) {

@@ -68,8 +68,14 @@ void XmlFile::include(const std::function<std::string(const XmlElement&, const s
     expand(expand, *document_.RootElement());
 }
 
+Place XmlFile::place_of(const XmlElement& e) {
+    const tinyxml2::XMLNode* at = &e;
+    while (at->GetLineNum() == 0 && at->Parent() != nullptr) at = at->Parent();
+    return {at->GetLineNum(), 1};
+}
+
 void XmlFile::refuse(const XmlElement& e, const std::string& why) const {
-    throw SceneError(fmt::format("{}:{}:1: {}", file_, e.GetLineNum(), why), {{place_of(e), why}});
+    throw SceneError(fmt::format("{}:{}:1: {}", file_, place_of(e).line, why), {{place_of(e), why}});
 }
 
 std::optional<std::string> XmlFile::text(const XmlElement& e, const char* attribute) {

@@ -38,7 +38,8 @@ public:
     const XmlElement& root() const { return *document_.RootElement(); }
     /// For rules that change the elements before anything is read.
     XmlElement& editable_root() { return *document_.RootElement(); }
-    static Place place_of(const XmlElement& e) { return {e.GetLineNum(), 1}; }
+    /// Its line; of an element from another file, or made by a rule, that of the element around it.
+    static Place place_of(const XmlElement& e);
     [[noreturn]] void refuse(const XmlElement& e, const std::string& why) const;
     void remark(const XmlElement& e, const std::string& what) { remarks_.push_back({place_of(e), what}); }
     const std::vector<Diagnostic>& remarks() const { return remarks_; }
