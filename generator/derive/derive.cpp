@@ -11,11 +11,11 @@ namespace alembert {
 
 namespace {
 
-/// The reactions F_x … M_z of each joint, if they are short.
-std::vector<Statement> borne(const Derived& d) {
+/// Adds the reactions F_x … M_z of each joint, and the normal reactions of what rolls, if they are short.
+void add_reactions(DerivedScene& d) {
     constexpr std::size_t most_terms = 20;
     constexpr const char* letters[] = {"F_x", "F_y", "F_z", "M_x", "M_y", "M_z"};
-    if (d.mechanism.joints.empty()) return {};
+    if (!has_reactions(d.mechanism)) return;
     const JointReactions reactions = joint_reactions(d.scene, d.mechanism);
     std::vector<GiNaC::symbol> multipliers;
     const auto find = [&](const std::string& name, const Mechanism::Constraint& c) {
@@ -28,21 +28,21 @@ std::vector<Statement> borne(const Derived& d) {
     }
     const std::vector<int> force = reactions.program.nodes_of(Group::force),
                            moment = reactions.program.nodes_of(Group::moment);
-    std::vector<Statement> result;
+    const auto state = [&](std::vector<Statement>& list, int node, const std::string& letter,
+                           const std::string& of) {
+        const auto e = expression_of(reactions.program, node, d.mechanism, multipliers);
+        if (!e) return;
+        const auto f = fourier(*e, *d.mechanism.symbols, 20 * most_terms);
+        if (!f || f->size() > most_terms) return;
+        list.push_back(
+            {.kind = Statement::Kind::energy, .letter = letter, .of = of, .by = {}, .value = readable(*f)});
+    };
     for (std::size_t k = 0; k < reactions.joints.size(); ++k)
-        for (std::size_t i = 0; i < 6; ++i) {
-            const auto e = expression_of(reactions.program, i < 3 ? force[3 * k + i] : moment[3 * k + i - 3],
-                                         d.mechanism, multipliers);
-            if (!e) continue;
-            const auto f = fourier(*e, *d.mechanism.symbols, 20 * most_terms);
-            if (!f || f->size() > most_terms) continue;
-            result.push_back({.kind = Statement::Kind::energy,
-                              .letter = letters[i],
-                              .of = reactions.joints[k],
-                              .by = {},
-                              .value = readable(*f)});
-        }
-    return result;
+        for (std::size_t i = 0; i < 6; ++i)
+            state(d.joint_loads, i < 3 ? force[3 * k + i] : moment[3 * k + i - 3], letters[i],
+                  reactions.joints[k]);
+    for (std::size_t k = 0; k < reactions.normals.size(); ++k)
+        state(d.normal_reactions, force[3 * reactions.joints.size() + k], "N", reactions.rollings[k]);
 }
 
 /// The equations while this friction sticks; none if they are not readable, or if its force has no name.
@@ -83,7 +83,7 @@ DerivedScene derive(Scene scene, const ShowOptions& options) {
         }
     if (!options.reactions) return d;
     show_reactions(d.shown, d.mechanism);
-    d.joint_loads = borne(d);
+    add_reactions(d);
     return d;
 }
 

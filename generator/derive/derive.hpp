@@ -21,7 +21,8 @@ struct ShowOptions {
 /// the formalism needs independent coordinates.
 struct DerivedScene : Derived {
     Derivation shown = {};
-    std::vector<Statement> joint_loads = {};  ///< F_x … M_z on the child of each joint, if they are short
+    std::vector<Statement> normal_reactions = {};  ///< N of each body that rolls, where it is determined and short
+    std::vector<Statement> joint_loads = {};       ///< F_x … M_z on the child of each joint, if they are short
     bool has_unilateral_reactions = false;
 };
 

@@ -13,6 +13,7 @@
 #include "lower/lower.hpp"
 #include "model/geometry.hpp"
 #include "program/without_rounding.hpp"
+#include "reaction/rolling_release.hpp"
 #include "state/redundancy.hpp"
 
 namespace alembert {
@@ -99,17 +100,42 @@ Scene released(Scene scene) {
     return scene;
 }
 
+/// Whether a row is one of the contact that the shift i cuts.
+bool is_of_own_contact(const Mechanism::Constraint& c, int i, const std::vector<ReleasedRolling>& rollings) {
+    return std::any_of(rollings.begin(), rollings.end(), [&](const ReleasedRolling& r) {
+        return c.rolling == r.rolling && i >= r.first && i < r.first + 3;
+    });
+}
+
 std::array<double, 3> three(const std::vector<double>& value, const std::vector<int>& nodes, std::size_t k) {
     return {value[nodes[3 * k]], value[nodes[3 * k + 1]], value[nodes[3 * k + 2]]};
 }
 
 }  // namespace
 
+bool has_reactions(const Mechanism& mechanism) {
+    return !mechanism.joints.empty() || (!mechanism.rollings.empty() && !mechanism.given_lagrangian);
+}
+
 JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     if (mechanism.given_lagrangian)
         throw ModelError(say(
             "reactions of joints need masses and loads; a given Lagrangian does not say which body bears what"));
-    Mechanism m = build(released(scene));
+    Scene cut = released(scene);
+    std::vector<ReleasedRolling> rollings;
+    for (std::size_t r = 0; r < scene.rolling.size(); ++r) {
+        if (!is_releasable(scene, scene.rolling[r])) continue;
+        rollings.push_back({.rolling = static_cast<int>(r),
+                            .scene = &scene,
+                            .coordinates = mechanism.size(),
+                            .first = static_cast<int>(cut.coordinates.size()),
+                            .contact = static_cast<int>(cut.particles.size())});
+        cut = with_rolling_released(std::move(cut), scene.rolling[r]);
+    }
+    cut.on_warning = [](const std::string&) {};  // they were told for the scene itself
+    Mechanism m = build(cut);
+    std::vector<std::optional<Vector3>> normals;
+    for (const ReleasedRolling& rolling : rollings) normals.push_back(normal_of(mechanism, m, rolling));
     for (std::size_t r = 0; r < mechanism.rollings.size(); ++r)
         if (mechanism.rollings[r].is_along) m = along_axes(std::move(m), static_cast<int>(r));
     const int n = mechanism.size();
@@ -145,7 +171,7 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
         const int lambda =
             program.variable({Variable::Kind::unknown, static_cast<int>(found - result.multipliers.begin())});
         for (int i = n; i < m.size(); ++i)
-            if (!c.row[i].is_zero())
+            if (!c.row[i].is_zero() && !is_of_own_contact(c, i, rollings))
                 terms[i].emplace_back(-1, program.product(1, {{lowering(c.row[i]), 1}, {lambda, 1}}));
     };
     for (const Mechanism::Constraint& c : m.constraints) take_off(c);
@@ -182,6 +208,22 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
                                                      {-1, program.product(1, {{d[a], 1}, {R[b], 1}})},
                                                      {1, program.product(1, {{d[b], 1}, {R[a], 1}})}})});
         }
+    }
+    for (std::size_t r = 0; r < rollings.size(); ++r) {
+        const ReleasedRolling& rolling = rollings[r];
+        const std::optional<Vector3>& normal = normals[r];
+        if (!normal) continue;
+        std::vector<Program::Term> along;
+        for (std::size_t k = 0; k < 3; ++k)
+            if (!(*normal)[k].is_zero())
+                along.emplace_back(
+                    1,
+                    program.product(1, {{lowering((*normal)[k]), 1},
+                                        {program.sum(0, terms[static_cast<std::size_t>(rolling.first) + k]), 1}}));
+        const RollingRule& rule = scene.rolling[static_cast<std::size_t>(rolling.rolling)];
+        result.rollings.push_back(rule.name.text);
+        result.normals.push_back(normal_reaction_of(rule));
+        program.roots.push_back({Group::force, result.normals.back(), program.sum(0, along)});
     }
     result.program = program.canonical();
     return result;
@@ -222,7 +264,24 @@ std::vector<JointLoad> loads_of(const JointReactions& r, const std::vector<doubl
     return result;
 }
 
+std::vector<double> normals_of(const JointReactions& r, const std::vector<double>& value) {
+    const std::vector<int> force = r.program.nodes_of(Group::force);
+    std::vector<double> result;
+    for (std::size_t k = 0; k < r.normals.size(); ++k) result.push_back(value[force[3 * r.joints.size() + k]]);
+    return result;
+}
+
 }  // namespace
+
+std::vector<double> JointReactions::normals_at(const Program& solved, const State<double>& state) const {
+    return normals_of(*this, values_at(*this, solved, state));
+}
+
+std::vector<double> JointReactions::normals_without_rounding(const Program& solved,
+                                                             const State<double>& state) const {
+    return normals_of(*this, alembert::without_rounding(values_at(*this, solved, state),
+                                                        values_at(*this, solved, in_long_double(state))));
+}
 
 std::vector<JointLoad> JointReactions::at(const Program& solved, const State<double>& state) const {
     return loads_of(*this, values_at(*this, solved, state));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Reactions of joints: the force and the moment that a joint exerts on its child, found by cutting the joint.
+/// Reactions of joints: the force and the moment that a joint exerts on its child, found by cutting the joint; and
+/// the normal reactions of bodies that roll (rolling_release.hpp).
 ///
 ///     const JointReactions reactions = joint_reactions(scene, mechanism);
 ///     // program: of any formalism, at q, q' (or q, u)
 ///     const std::vector<JointLoad> loads = reactions.at(program, state);
 ///     loads[0].force[2];
+///     reactions.normals_at(program, state);    // numbers in the order of reactions.normals
 ///
 /// Before each joint a massless link with six coordinates c (three shifts and three turns along the joint's axes)
 /// is inserted. To hold them at c = 0 takes the loads
@@ -41,18 +43,27 @@ struct JointLoad {
 
 struct JointReactions {
     std::vector<std::string> joints;       ///< in the order of the scene
+    std::vector<std::string> rollings;     ///< the rollings whose normal reactions are determined
+    std::vector<std::string> normals;      ///< and these: "lambda_wheel_normal" …
     std::vector<std::string> multipliers;  ///< the names of the variables of kind `unknown`
-    Program
-        program;  ///< roots "force" and "moment", three for each joint, as functions of q, q', q'' and multipliers
+    Program program;  ///< roots "force" and "moment", three for each joint, then a "force" for each normal
+                      ///< reaction, as functions of q, q', q'' and multipliers
 
     /// `program` gives q'' and the multipliers; `state` is in the order of that program.
     std::vector<JointLoad> at(const Program& program, const State<double>& state) const;
 
     /// The same, with 0 for values that are only rounding (program/without_rounding.hpp).
     std::vector<JointLoad> without_rounding(const Program& program, const State<double>& state) const;
+
+    std::vector<double> normals_at(const Program& program, const State<double>& state) const;
+    std::vector<double> normals_without_rounding(const Program& program, const State<double>& state) const;
 };
 
-/// Throws what `build` throws for the scene with released joints, and ModelError if a Lagrangian is given.
+/// Whether the scene has joints, or bodies that roll.
+bool has_reactions(const Mechanism& mechanism);
+
+/// Throws what `build` throws for the scene with released joints, and ModelError if a Lagrangian is given and
+/// there are joints.
 JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism);
 
 }  // namespace alembert

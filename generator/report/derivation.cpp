@@ -127,6 +127,8 @@ Json as_json(const DerivedScene& d) {
         for (const auto& [name, value] : *list)
             result["definitions"].push_back({{"name", text(name)}, {"text", text(value)}});
     for (const Statement& s : d.joint_loads) result["joint_reactions"][s.of][s.letter] = text(s.value);
+    for (const Statement& s : d.normal_reactions)
+        result["normal_reactions"]["lambda_" + s.of + "_normal"] = text(s.value);
     return result;
 }
 
@@ -202,6 +204,12 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
                               "in the parent:"),
                           {}});
         for (const Statement& s : d.joint_loads)
+            blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+    }
+    if (!d.normal_reactions.empty()) {
+        blocks.push_back(
+            {say("The ground presses bodies that roll with the normal reactions (lambda_NAME_normal):"), {}});
+        for (const Statement& s : d.normal_reactions)
             blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
     }
     if (!shown.gaps.empty()) {

@@ -58,6 +58,8 @@ Json as_json(const Evaluation& e, bool reactions) {
     result["joint_reactions"] = Json::object();
     for (const JointLoad& load : e.joint_loads)
         result["joint_reactions"][load.joint] = {{"force", load.force}, {"moment", load.moment}};
+    result["normal_reactions"] = Json::object();
+    for (const auto& [name, value] : e.normal_reactions) result["normal_reactions"][name] = value;
     return result;
 }
 
@@ -83,6 +85,9 @@ std::string as_text(const Evaluation& e) {
              {std::pair(say("force"), &load.force), std::pair(say("moment"), &load.moment)})
             put(page, "{:<{}}{:<8}{:>24.16g}{:>24.16g}{:>24.16g}\n", load.joint, width, what, (*v)[0], (*v)[1],
                 (*v)[2]);
+    if (!e.normal_reactions.empty())
+        page += say("\nThe ground presses bodies that roll with the normal reactions:\n");
+    for (const auto& [name, value] : e.normal_reactions) put(page, "{} = {:.16g}\n", name, value);
     return page;
 }
 

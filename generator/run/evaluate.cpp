@@ -135,7 +135,13 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
             e.outputs[r.output].second = plain[program.nodes_of(Group::output)[r.output]];
             e.reactions.push_back({r.constraint, r.coordinate, e.outputs[r.output].second});
         }
-        if (!m.joints.empty()) e.joint_loads = joint_reactions(e.scene, m).without_rounding(program, state);
+        if (has_reactions(m)) {
+            const JointReactions reactions = joint_reactions(e.scene, m);
+            if (!m.joints.empty()) e.joint_loads = reactions.without_rounding(program, state);
+            const std::vector<double> normals = reactions.normals_without_rounding(program, state);
+            for (std::size_t k = 0; k < normals.size(); ++k)
+                e.normal_reactions.emplace_back(reactions.normals[k], normals[k]);
+        }
     }
     return e;
 }

@@ -44,8 +44,9 @@ struct Evaluation : Derived {
         std::string constraint, coordinate;
         double force;
     };
-    std::vector<Reaction> reactions = {};     ///< set if they were requested
-    std::vector<JointLoad> joint_loads = {};  ///< likewise
+    std::vector<Reaction> reactions = {};                               ///< set if they were requested
+    std::vector<JointLoad> joint_loads = {};                            ///< likewise
+    std::vector<std::pair<std::string, double>> normal_reactions = {};  ///< likewise, of bodies that roll
 };
 
 /// Throws what `derived` throws; ModelError for a name in `at` that the scene does not have and for a gap that is

@@ -54,6 +54,7 @@ void add_rows(std::vector<double>& values, const Phase& phase, LoadedMode& mode,
             add(load.force);
             add(load.moment);
         }
+        add(reactions->normals_at(mode.program, at));
     }
 }
 
@@ -81,6 +82,7 @@ std::vector<std::string> row_columns(const Mechanism& m, const Program& program,
     for (std::size_t k = 0; reactions != nullptr && k < reactions->joints.size(); ++k)
         for (const char* part : {"fx", "fy", "fz", "mx", "my", "mz"})
             columns.push_back(fmt::format("{}.{}", reactions->joints[k], part));
+    if (reactions != nullptr) columns.insert(columns.end(), reactions->normals.begin(), reactions->normals.end());
     return columns;
 }
 

@@ -94,7 +94,7 @@ public:
                      {change.time, one.friction, one.direction * change.side, change.direction});
         };
         const LoadedMode& free = modes({});
-        if (wishes_.reactions && !run_.mechanism.joints.empty())
+        if (wishes_.reactions && has_reactions(run_.mechanism))
             reactions_ = joint_reactions(run_.scene, run_.mechanism);
         std::vector<std::string> columns = row_columns(run_.mechanism, free.program, reactions());
         columns.erase(columns.begin());  // t is the other axis of a picture
