@@ -117,6 +117,42 @@ regularize = true
     CHECK(simulated(polar, {"--method", "gauss", "--step", "0.01"})["completed"] == true);
 }
 
+// A pulse of 2e-6 about x = 0.3 is passed four times in two turns, and has two zeros each time; x' is 0 at the
+// four ends of the ellipse, one of which is the start.
+TEST_CASE("regularize: zeros that are narrower than the steps are found, of places and of rates") {
+    const std::string scene = temporary("narrow.toml", R"toml([coordinates]
+x = 1.9
+y = { initial = 0, rate = 0.22941573387056177 }
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", "y"]
+[energy]
+potential = "-1/norm(pos(P))"
+[[event]]
+name = "place"
+when = "exp(-((x - 0.3)/1e-6)^2) - 0.5"
+[[event]]
+name = "rate"
+when = "exp(-(x'/1e-6)^2) - 0.5"
+[simulation]
+duration = 12
+)toml");
+    for (const std::vector<std::string>& method : {std::vector<std::string>{"dop853"},
+                                                   {"verner98"},
+                                                   {"kahanli8", "--step", "0.05"},
+                                                   {"gauss", "--step", "0.1"}}) {
+        CAPTURE(method[0]);
+        std::vector<std::string> options{"--regularize", "--no-estimate", "--method"};
+        options.insert(options.end(), method.begin(), method.end());
+        int places = 0, rates = 0;
+        for (const Json& event : simulated(scene, options)["events"])
+            ++(event["name"] == "place" ? places : rates);
+        CHECK(places == 8);
+        CHECK(rates == 7);  // the first pulse is left from its height
+    }
+}
+
 TEST_CASE("regularize: where it does not apply it says why") {
     check_refused(comet, {"--method", "taylor"}, "does not run regularized");
     check_refused(comet, {"--max-step", "0.1"}, "no longest step");

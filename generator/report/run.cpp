@@ -148,6 +148,7 @@ Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
              "that unit move in the run")},
         {"scaled", number(e.scaled)},
         {"reasons", reasons}};
+    if (e.at_jump) result["at_jump"] = true;
     if (e.lyapunov) result["lyapunov_exponent"] = *e.lyapunov;
     if (e.horizon) result["no_digit_after"] = *e.horizon;
     return result;
@@ -265,6 +266,9 @@ void add_account(std::string& page, const Run& run) {
     if (run.estimate && run.estimate->value) {
         const ErrorEstimate& e = *run.estimate;
         say_on(page, "\nestimated error {:.1e} ({:.1e} of the motion's size), by {}\n", *e.value, *e.scaled, e.by);
+        if (e.at_jump)
+            say_on(page,
+                   "the run ends at the instant of an impact or impulse: its end may be on either side of it\n");
         if (e.lyapunov)
             say_on(page, "chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n",
                    *e.lyapunov, *e.horizon);

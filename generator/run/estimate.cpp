@@ -13,7 +13,7 @@ namespace alembert {
 
 namespace {
 
-constexpr double no_digit = 0.1, suspicious = 1000, saturated = 1e-2, beside = 1e-8;
+constexpr double no_digit = 0.1, suspicious = 1000, saturated = 1e-2, beside = 1e-8, least_jump = 1e-6;
 // The better of two runs has an error too: true error / difference is at most 2.5 in 95 % of runs (honesty.sh).
 constexpr double margin = 2.5;
 
@@ -128,22 +128,93 @@ std::optional<double> exponent(std::vector<Separation> list) {
     return slope * (list.back().time - middle) > 3 ? std::optional(slope) : std::nullopt;
 }
 
+/// An end of a motion.
+struct End {
+    double time;
+    std::span<const double> state;
+};
+
+/// The end of a motion, and the states before the jumps that are so close to it that they are the same instant for
+/// all that is known of times.
+std::vector<End> ends(const PhasedMotion& motion, double instant) {
+    std::vector<End> result{{motion.final_time(), motion.final_state()}};
+    for (std::size_t k = motion.phases.size(); k-- > 1;) {
+        const Trajectory& before = motion.phases[k - 1].motion;
+        if (!(motion.final_time() - before.times.back() <= instant)) break;
+        result.push_back({before.times.back(), before.final_state()});
+    }
+    return result;
+}
+
 /// q' at the end of a motion, if the state has speeds in place of rates.
-std::vector<double> rates_at_end(const PhasedMotion& motion, const Components& components) {
+std::vector<double> rates_at(const End& end, const Components& components) {
     std::vector<double> rates;
     if (components.rates) {
         rates.resize(components.coordinates);
-        components.rates(motion.final_time(), motion.final_state(), rates);
+        components.rates(end.time, end.state, rates);
     }
     return rates;
 }
 
-/// The difference of the end states, in the norm of ErrorEstimate::value.
-double difference(const PhasedMotion& a, const PhasedMotion& b, const Components& components) {
-    const std::vector<double> rates_a = rates_at_end(a, components), rates_b = rates_at_end(b, components);
-    return std::max({apart(a.final_state(), b.final_state(), components.kinds.size()),
-                     apart(rates_a, rates_b, rates_a.size()), later(a, b)});
-}
+/// How far two motions are apart at their ends.
+struct Gap {
+    double value = HUGE_VAL, scaled = HUGE_VAL;  ///< as in ErrorEstimate
+};
+
+/// Compares runs with the first, at their ends.
+class Comparing {
+public:
+    Comparing(const PhasedMotion& motion, const Options& given, const Components& components,
+              std::vector<double> extent)
+        : motion_(motion), components_(components), extent_(std::move(extent)) {
+        constexpr double times = 10, finest = 1e-12, fixed = 1e-9;
+        const double known = has_fixed_step(given.method) ? fixed : std::max(given.tolerance, finest);
+        elapsed_ = motion.final_time() - given.start;
+        instant_ = times * known * std::max(std::abs(motion.final_time()), elapsed_);
+    }
+
+    /// Adds the difference from a run. Where one of the two ends with an impact, or an impulse, and the other just
+    /// before it, the states on the same side are compared.
+    void operator()(const PhasedMotion& other) {
+        const std::vector<End> a = ends(motion_, instant_), b = ends(other, instant_);
+        Gap gap = between(a[0], b[0]);
+        for (std::size_t k = 1; k < a.size(); ++k) take_nearer(gap, between(a[k], b[0]));
+        for (std::size_t k = 1; k < b.size(); ++k) take_nearer(gap, between(a[0], b[k]));
+        is_at_jump_ = is_at_jump_ || jumps(a) || jumps(b);
+        largest_.value = std::max(largest_.value, gap.value);
+        largest_.scaled = std::max(largest_.scaled, gap.scaled);
+    }
+
+    const Gap& largest() const { return largest_; }
+    /// Whether a run ended at a jump.
+    bool is_at_jump() const { return is_at_jump_; }
+
+private:
+    bool jumps(const std::vector<End>& at) const {
+        return std::any_of(at.begin(), at.end(), [&](const End& one) {
+            return apart(one.state, at[0].state, components_.kinds.size()) > least_jump;
+        });
+    }
+    static void take_nearer(Gap& gap, const Gap& other) {
+        if (other.value < gap.value) gap = other;
+    }
+
+    Gap between(const End& a, const End& b) const {
+        const std::vector<double> rates_a = rates_at(a, components_), rates_b = rates_at(b, components_);
+        const double later = std::abs(a.time - b.time);
+        return {
+            .value = std::max({apart(a.state, b.state, components_.kinds.size()),
+                               apart(rates_a, rates_b, rates_a.size()), later / std::max(1.0, std::abs(b.time))}),
+            .scaled = std::max(apart_of(a.state, b.state, extent_), elapsed_ > 0 ? later / elapsed_ : 0)};
+    }
+
+    const PhasedMotion& motion_;
+    const Components& components_;
+    std::vector<double> extent_;
+    double elapsed_ = 0, instant_ = 0;
+    Gap largest_{0, 0};
+    bool is_at_jump_ = false;
+};
 
 /// The relative error of a number that is rounded in each step if nothing amplifies it: a random walk, after a few
 /// steps with several roundings each.
@@ -172,6 +243,14 @@ double rounding_of(const PhasedMotion& motion, const std::vector<double>& extent
     return size * rounding_of_steps(motion);
 }
 
+/// Whether the difference from a run with a tenth of the tolerance or half the step is so small, or so large, that
+/// it may be due to rounding.
+bool may_be_rounding(double difference, const Options& given) {
+    constexpr double least = 0.3, most = 10;  // usual differences, in units of the tolerance
+    if (has_fixed_step(given.method)) return difference < 1e-9;
+    return !(difference > least * given.tolerance && difference < most * given.tolerance);
+}
+
 /// The runs with which the first is compared.
 class Rerunning {
 public:
@@ -194,9 +273,20 @@ public:
                 options.tolerance = std::max(given_.tolerance * factor, 1e-15);
             options.first_share = length;
             if (!fixed && options.tolerance == given_.tolerance) continue;
-            if (auto second = at_same_end(options)) return second;
+            for (const std::uint64_t seed : {2, 0}) {
+                options.disturbed.seed = seed;
+                if (auto second = at_same_end(options)) return second;
+            }
         }
         return std::nullopt;
+    }
+
+    /// A run that differs in its rounding alone, which is several times as large.
+    std::optional<PhasedMotion> disturbed() const {
+        Options options = given_;
+        options.budget = std::min(given_.budget, 4 * motion_.statistics.work + 10'000);
+        options.disturbed.seed = 5;
+        return at_same_end(options);
     }
 
     /// A run with steps of at most half the mean length, for motions whose steps do not depend on the tolerance.
@@ -204,6 +294,7 @@ public:
         const double elapsed = motion_.final_time() - given_.start;
         options.longest_step = elapsed / (2 * static_cast<double>(motion_.statistics.steps));
         options.first_share = 0.5;
+        options.disturbed.seed = 3;
         if (!(options.longest_step > 0)) return std::nullopt;
         return at_same_end(options);
     }
@@ -242,20 +333,19 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     }
     estimate.by = fixed ? say("a second run with step {:g}", options.step)
                         : say("a second run at tolerance {:g}", options.tolerance);
-    double largest = difference(motion, *second, components);
-    if (!fixed && second->statistics.steps <= motion.statistics.steps)
-        if (const auto third = reruns.with_short_steps(options))
-            largest = std::max(largest, difference(motion, *third, components));
-    estimate.value = margin * largest + rounding_of(motion, components);
     std::vector<double> extent = extents(motion, components);
     const std::vector<double> other = extents(*second, components);
     for (std::size_t i = 0; i < extent.size(); ++i) extent[i] = std::min(extent[i], other[i]);
+    Comparing compare(motion, given, components, extent);
+    compare(*second);
+    if (!fixed && second->statistics.steps <= motion.statistics.steps)
+        if (const auto third = reruns.with_short_steps(options)) compare(*third);
+    if (may_be_rounding(compare.largest().value, given))
+        if (const auto third = reruns.disturbed()) compare(*third);
+    estimate.value = margin * compare.largest().value + rounding_of(motion, components);
+    estimate.scaled = margin * compare.largest().scaled + rounding_of(motion, extent);
+    estimate.at_jump = compare.is_at_jump();
     estimate.moved = largest_move(motion, components.coordinates);
-    const double elapsed = motion.final_time() - given.start;
-    estimate.scaled =
-        margin * std::max(apart_of(motion.final_state(), second->final_state(), extent),
-                          elapsed > 0 ? std::abs(motion.final_time() - second->final_time()) / elapsed : 0) +
-        rounding_of(motion, extent);
     if (fixed && motion.statistics.steps < few_steps) {
         options.step /= 2;
         const PhasedMotion finer = run(options, initial);

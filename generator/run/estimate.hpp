@@ -9,13 +9,15 @@
 ///     estimate.scaled;         // max |error| / (how far components of its kind move)
 ///
 /// Both are meant as bounds; tests/bench/honesty.py counts how often the true error is larger. With d the largest
-/// difference from a second run,
+/// difference from other runs,
 ///
 ///     value = 2.5 d + (4 + √steps) ε · max(1, |y(0)|/|y|)
 ///
 /// The factor 2.5 covers the second run's own error, which d does not contain, in 95 % of runs (honesty.py). The
-/// second term is the rounding of all steps, which adds up like a random walk; anything that amplifies it
-/// amplifies d as well.
+/// second term is the rounding of all steps, which adds up like a random walk. What amplifies rounding, such as a
+/// narrow pulse or a strong force that is switched on, amplifies d as well: all other runs are disturbed by a few
+/// roundings (alembert/disturbance.hpp). Where d is unusually small or large beside the tolerance, so that it may
+/// consist of rounding, d contains a run that differs from the first in such disturbances alone.
 ///
 /// The distance that components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the
 /// run, or the largest |u| of their speeds, in the run that moves less. It counts as at least the size of possible
@@ -28,7 +30,9 @@
 /// has an error, as those of abm in a free fall from rest, the same first step would leave the same error in both
 /// runs. If the second run takes no more steps than the first, its errors may be the same, and a third run has
 /// steps of at most half the mean length. Errors that all runs have in common (rounding of initial values and of
-/// the right-hand side, a wrong scene) remain unseen. If an event stops the runs, each has its own end, and the
+/// parameters, a wrong scene) remain unseen. If one of two runs ends with an impact, or an impulse, and the other
+/// just before it, both are the same instant for all that is known, and the states on the same side of it are
+/// compared (`at_jump`). If an event stops the runs, each has its own end, and the
 /// difference of these times counts like a difference of the state. A run of fewer than 16 fixed steps is also
 /// compared with one of a quarter of the step, because two such coarse runs may agree by chance.
 ///
@@ -50,7 +54,8 @@ struct ErrorEstimate {
     std::optional<double> value;  ///< nothing if no second run reached the end
     std::string by;
     std::optional<double> scaled;  ///< likewise
-    double moved = 0;  ///< the largest |y − y(0)| of a coordinate on the rows; 0 if that is only rounding
+    bool at_jump = false;  ///< whether the motion ends at the instant of an impact or impulse, on one side of it
+    double moved = 0;      ///< the largest |y − y(0)| of a coordinate on the rows; 0 if that is only rounding
     std::optional<double> lyapunov, horizon;  ///< only if errors grow exponentially
 };
 

@@ -154,6 +154,7 @@ void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Even
         rest.start = whole.times.back();
         rest.duration = end - rest.start;
         rest.step = 0;
+        rest.disturbed.late = {};
         rest.sample = interval;
         rest.grid = options.grid.value_or(options.start);
         rest.budget = std::max(1L, options.budget - whole.statistics.work);

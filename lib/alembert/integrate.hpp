@@ -40,6 +40,7 @@
 /// std::invalid_argument is thrown for invalid options; each message says which option is invalid. Nothing is
 /// allocated per step.
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -66,6 +67,12 @@ using OnStretch = std::function<bool(const Stretch&)>;
 /// The time in which steps are counted: t, or one of its own that makes steps short where the potential is deep,
 /// in the form for any system or in that for constant masses and forces of positions (regularized.hpp).
 enum class Regularization { none, rescaled, canonical };
+
+/// Changes of a run that are a few times as large as its rounding (disturbance.hpp).
+struct Disturbed {
+    std::uint64_t seed = 0;         ///< 0: nothing is changed
+    std::vector<double> late = {};  ///< is added with the first step; empty: nothing
+};
 
 struct Options;
 /// An integrator of another library for one system. It gets options that have been checked, and returns rows,
@@ -121,6 +128,7 @@ struct Options {
     Integrator by = {};         ///< takes the place of `method`; may be empty
     OnStretch on_stretch = {};  ///< may be empty
     Regularization regularization = Regularization::none;
+    Disturbed disturbed = {};  ///< for estimates of what rounding does
 };
 
 /// The check of options with which `integrate` begins.

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
+#include "alembert/disturbance.hpp"
 #include "alembert/run.hpp"
 #include "alembert/tolerances.hpp"
 
@@ -138,6 +140,7 @@ private:
 
     void settle_into(const std::vector<int>& touched, const std::optional<int>& released, const Halt& halt) {
         const std::vector<double> before = mode_ ? in_rates(contacts_.kicks, mode_->rhs, t_, state_) : state_;
+        const std::vector<double> integrated = state_;
         std::vector<double> rates = before;
         Settled settled = settle(contacts_,
                                  {.t = t_,
@@ -163,8 +166,23 @@ private:
         if (!settled.failure.empty())
             return fail(halt.kicks.empty() ? FailureKind::no_contact_mode : FailureKind::endless_kicks,
                         settled.failure);
+        if (options_.disturbed.seed != 0 && mode_) be_late_after(integrated);
         tell_gains(halt.kicks, before, settled.struck);
         go_from(halt, before, rates, settled.acceleration);
+    }
+
+    /// What the next phase is off by, because the time at which it begins is rounded (disturbance.hpp).
+    void be_late_after(const std::vector<double>& before) {
+        std::vector<double> rate_before(state_.size()), rate_after(state_.size());
+        mode_->rhs(t_, before.data(), rate_before.data());
+        modes_(closed_).rhs(t_, state_.data(), rate_after.data());
+        std::vector<bool> jumped;
+        for (std::size_t i = 0; i < state_.size(); ++i) jumped.push_back(before[i] != state_[i]);
+        late_ = late_by_rounding(options_.disturbed.seed, {.t = t_,
+                                                           .number = jumps_++,
+                                                           .before = rate_before,
+                                                           .after = rate_after,
+                                                           .jumped = std::move(jumped)});
     }
 
     /// Integrates until a contact changes or an event kicks.
@@ -186,6 +204,7 @@ private:
             }
             here.budget = std::max(1L, options_.budget - result_.statistics.work);
         }
+        here.disturbed.late = std::exchange(late_, {});
         here.project = mode.project;
         here.rhs_when_stiff = mode.rhs_when_stiff;
         if (!mode.rhs_when_cheaper) here.when_cheaper = {};
@@ -362,7 +381,8 @@ private:
     const ContactMode* mode_ = nullptr;  ///< the mode of the last phase
     std::vector<PassedZero> passed_;     ///< for the scene's events, at the start of the next phase
     std::map<int, KickSeries> series_;   ///< the kicks of each event
-    long kicks_ = 0;
+    std::vector<double> late_;           ///< of the next phase
+    long kicks_ = 0, jumps_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;
     PhasedMotion result_;

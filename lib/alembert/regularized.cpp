@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "alembert/disturbance.hpp"
 #include "alembert/run.hpp"
 
 namespace alembert {
@@ -88,6 +89,8 @@ OwnTime own_time_of(const Rhs& rhs, const std::vector<double>& initial, const Op
                                   -e.depth));
     own.unit = e.depth;
     own.binding = e.depth - e.kinetic;
+    if (options.disturbed.seed != 0)
+        own.binding += Flutter(options.disturbed.seed, options.start)() * std::max(e.depth, e.kinetic);
     return own;
 }
 
@@ -162,10 +165,20 @@ private:
 
     Events events_in_own_time() {
         if (events_.list.empty()) return {};
-        return make_events(events_.list, [this](double, const double* state, const double*, double* out) {
+        Events own = make_events(events_.list, [this](double, const double* state, const double*, double* out) {
             own_.rhs(time_of(state), state, rate_.data());
             events_(time_of(state), state, rate_.data(), out);
         });
+        if (!events_.bounds.exist) return own;
+        own.bounds = {.exist = events_.bounds.exist, .of = [this](int k, const MotionBounds& motion) {
+                          const auto t = static_cast<int>(size());
+                          const auto in_t = [&](int component) {  // y' = dy/ds / dt/ds
+                              return motion.rate(component) * inverse(motion.rate(t));
+                          };
+                          return events_.bounds.of(k,
+                                                   {.time = motion.state(t), .state = motion.state, .rate = in_t});
+                      }};
+        return own;
     }
 
     void tell(std::span<const double> state) {

@@ -23,6 +23,7 @@
 
 #include <fmt/format.h>
 
+#include "alembert/disturbance.hpp"
 #include "alembert/event_watch.hpp"
 #include "alembert/integrate.hpp"
 #include "alembert/pace.hpp"
@@ -68,6 +69,7 @@ public:
         result_.states.reserve(result_.times.capacity() * initial.size());
         if (options.when_cheaper && !AnyStep::has_fixed_step && !needs_series(options.method))
             series_.emplace(rhs, options.rhs_when_cheaper, options.effort_of_series, options.tolerance);
+        if (options.disturbed.seed != 0) disturbance_.emplace(options.disturbed, options.start);
         if (options.grid && options.duration > 0)
             rows_on_grid_ +=
                 static_cast<long>(std::floor((options.start - grid_) / sample_interval(options) + 1e-9));
@@ -96,7 +98,8 @@ private:
 
     long evaluations() const {
         return step_.evaluations() + watch_.evaluations() + stiffness_.evaluations() + rounding_.evaluations() +
-               further_evaluations_ + (series_ ? series_->evaluations() : 0);
+               further_evaluations_ + (series_ ? series_->evaluations() : 0) +
+               (disturbance_ ? disturbance_->evaluations() : 0);
     }
 
     /// What the budget bounds: a power series counts as the evaluations that take as long.
@@ -242,7 +245,19 @@ private:
     }
 
     bool finish() {
-        if (options_.project) step_.correct(options_.project);
+        if (disturbance_)
+            step_.correct([this](double t, double* state) {
+                (*disturbance_)(step_.rhs(),
+                                {.t = step_.time(),
+                                 .h = step_.length() * share_of_changes(),
+                                 .rounds_time = !needs_series(options_.method),
+                                 .state = step_.state(),
+                                 .rate = step_.rate()},
+                                state);
+                if (options_.project) options_.project(t, state);
+            });
+        else if (options_.project)
+            step_.correct(options_.project);
         return step_.finish();
     }
 
@@ -258,6 +273,7 @@ private:
     /// Records rows and events of the step that has just been finished; then its end becomes the new start.
     void accept() {
         ++result_.statistics.steps;
+        if (disturbance_) disturbance_->accept();
         const bool is_last = options_.on_stretch && options_.on_stretch(stretch());
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
         const auto reach = [this](const Crossing& crossing) -> const std::vector<double>& {
@@ -335,6 +351,9 @@ private:
                                              .effort_per_time = pace_.effort_per_time()};
         recorder_.last_row(step_.time(), step_.state());
     }
+
+    /// The part of a change of the rate, times h, that enters a step: implicit methods damp what is stiff.
+    double share_of_changes() const { return 1 / (1 + step_.length() * largest_eigenvalue()); }
 
     Stretch stretch() {
         return {.start = step_.time(),
@@ -443,6 +462,7 @@ private:
     Pace pace_;
     long mild_steps_ = 0;  ///< the last steps with which the other method would be stable
     std::optional<SeriesPace> series_ = {};
+    std::optional<Disturbance> disturbance_ = {};
     ShrinkingSteps shrinking_;   ///< of a power series
     double earlier_length_ = 0;  ///< of the step before the last that was looked at
     Trajectory result_;

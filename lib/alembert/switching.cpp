@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
+#include "alembert/disturbance.hpp"
 #include "alembert/run.hpp"
 #include "alembert/switch_choice.hpp"
 #include "alembert/switch_moment.hpp"
@@ -119,6 +121,7 @@ private:
         here.sample = sample_interval(options_);
         here.grid = options_.grid.value_or(options_.start);
         here.budget = std::max(1L, options_.budget - result_.statistics.work);
+        here.disturbed.late = std::exchange(late_, {});
         here.rhs_when_stiff = {};
         here.when_cheaper = {};  // the series of a piece is another one
         if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
@@ -155,7 +158,20 @@ private:
         std::vector<int> hit;
         for (const LastZero& zero : zeros)
             if (zero.event >= static_cast<int>(scene)) hit.push_back(zero.event - static_cast<int>(scene));
-        return pass(watched, hit);
+        if (options_.disturbed.seed == 0) return pass(watched, hit);
+        const std::vector<double> before = rate_here();
+        if (!pass(watched, hit)) return false;
+        const std::vector<double> after = rate_here();
+        late_ = late_by_rounding(options_.disturbed.seed,
+                                 {.t = t_, .number = jumps_++, .before = before, .after = after});
+        return true;
+    }
+
+    /// The rates with the sides of now.
+    std::vector<double> rate_here() const {
+        SwitchSides now(system_, sides_, dimension());
+        now.evaluate(t_, state_.data());
+        return {now.rate().begin(), now.rate().end()};
     }
 
     Rhs right_hand_side() const {
@@ -402,6 +418,9 @@ private:
     std::shared_ptr<std::vector<double>> normals_;                            ///< the largest normal forces
     std::shared_ptr<double> undefined_ = std::make_shared<double>(HUGE_VAL);  ///< when some g_k was NaN in a piece
     Swings swings_{sizes_->size()};
+    std::vector<double> late_ =
+        options_.disturbed.late;  ///< what the next piece begins too late by (disturbance.hpp)
+    long jumps_ = 0;              ///< in a disturbed run
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL,
            since_change_ = HUGE_VAL;  ///< the time of the last change; from it to that before
