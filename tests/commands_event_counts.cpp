@@ -173,6 +173,37 @@ TEST_CASE("events: all zeros of narrow pulses in the state are found, however mu
     check_counts(4302, 42, pulse);
 }
 
+// x = A cos t passes π k/20 once on each way from A to −A and back, for each |k| < 20 A/π.
+TEST_CASE("events: all zeros of sin(20*x) along an oscillation, by every method") {
+    for (const double A : {1.0, 1.7, 3.25})
+        for (const double end : {5.5, 20.0}) {
+            std::size_t zeros = 0;
+            for (int k = -static_cast<int>(20 * A / M_PI); k <= static_cast<int>(20 * A / M_PI); ++k)
+                for (double turn = 0; turn <= end; turn += 2 * M_PI)
+                    for (const double t :
+                         {std::acos(M_PI * k / (20 * A)), 2 * M_PI - std::acos(M_PI * k / (20 * A))})
+                        zeros += turn + t < end ? 1 : 0;
+            const std::string scene = temporary(
+                "oscillation.toml",
+                fmt::format("[coordinates]\nx = {}\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"
+                            "[forces]\nx = \"-x\"\n[[event]]\nname = \"e\"\nwhen = \"sin(20*x)\"\n[simulation]\n"
+                            "duration = {}\n",
+                            A, end));
+            for (const char* const method : {"auto", "taylor", "dop853", "dopri5", "verner76", "verner98", "abm",
+                                             "bdf", "radau", "rk4", "gauss", "verlet", "kahanli8", "euler"}) {
+                CAPTURE(A);
+                CAPTURE(end);
+                CAPTURE(method);
+                const std::string name = method;
+                std::vector<std::string> options{"--no-estimate", "--method", name};
+                if (name == "rk4" || name == "gauss" || name == "verlet" || name == "kahanli8" || name == "euler")
+                    options.insert(options.end(),
+                                   {"--step", name == "euler" || name == "verlet" ? "1e-4" : "0.05"});
+                CHECK(simulated(scene, options)["events"].size() == zeros);
+            }
+        }
+}
+
 // cos(4 x) rises through zero where 4 x = 3π/2 + 2π k; each kick leaves 0.99 of the speed.
 TEST_CASE("kicks: a free particle is kicked at each of eight zeros that one step holds, in sweep as in simulate") {
     const std::string scene = temporary("kicked.toml", R"toml(

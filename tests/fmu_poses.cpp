@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 #include "fmu_exports.hpp"
@@ -92,6 +93,28 @@ TEST_CASE("fmu: a parallelogram turns through its flat pose with all its energy,
 TEST_CASE("fmu: cranks without mass, and more loops than one, pass the pose too") {
     compare(temporary("massless.toml", cranks(2, 0, -3)), 3);
     compare(temporary("three.toml", cranks(3, 0.5, -5)), 2);
+}
+
+// The digits of two methods in 110 digits, as in "hard: Andrews' squeezer". The error at the end is about 50 times
+// the tolerance of a step, in rates beside 1425.
+TEST_CASE("fmu: Andrews' squeezer ends where it should, the nearer the smaller the tolerance") {
+    const std::map<std::string, double> end{
+        {"beta", 15.810771195153707097},      {"Theta", -15.756371058411839470},
+        {"gamma", 0.040822240119645804858},   {"delta", 0.52440996587995406937},
+        {"der(beta)", 1139.9203022591060642}, {"der(gamma)", 11.032911910618593745},
+        {"der(Phi)", 19.293374105032040832},  {"der(eps)", 0.32317914924913087499}};
+    const Unit unit = exported(ALEMBERT_SOURCE_DIR "/scenes/benchmark/andrews.toml", 2);
+    for (const double tolerance : {1e-6, 1e-8, 1e-10, 0.0}) {
+        Instance one(unit, true, tolerance);
+        one.begin();
+        for (int k = 0; k < 10; ++k) REQUIRE(one.step(0.003 * k, 0.003));
+        const double step = tolerance > 0 ? tolerance : 1e-12;  // the scene's
+        for (const auto& [name, value] : end) {
+            CAPTURE(name);
+            CAPTURE(tolerance);
+            CHECK(std::abs(one.get(name) - value) < 200 * step * std::max(1.0, std::abs(value)));
+        }
+    }
 }
 
 // A torque of 0.1 N m that the energies do not know, put into the emitted text.
