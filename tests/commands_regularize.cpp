@@ -146,8 +146,8 @@ duration = 12
         std::vector<std::string> options{"--regularize", "--no-estimate", "--method"};
         options.insert(options.end(), method.begin(), method.end());
         int places = 0, rates = 0;
-        for (const Json& event : simulated(scene, options)["events"])
-            ++(event["name"] == "place" ? places : rates);
+        const Json result = simulated(scene, options);
+        for (const Json& event : result["events"]) ++(event["name"] == "place" ? places : rates);
         CHECK(places == 8);
         CHECK(rates == 7);  // the first pulse is left from its height
     }

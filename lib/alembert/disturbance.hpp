@@ -14,12 +14,12 @@
 ///
 ///     h (f(t (1 + ξ₀), y_i (1 + ξ_i)) − f(t, y)) + h ξ' f
 ///
-/// t and y being those at the start of the step. Each ξ is ± a random number between ε and 3 ε, and
-/// ξ₀ = 0 for power series, which begin at a given time. (The sums y + h … of the methods are compensated.) A
-/// component that rests is exact and remains so. The time at which a jump of the motion was found is rounded too.
-/// If it is off by τ, the motion after the jump is off by τ (f before − f after), which is added with the first
-/// step after it
-/// (`late`).
+/// t and y being those at the start of the step. Each ξ is ± a random number between ε and 3 ε, and ξ₀ = 0 for
+/// power series, which begin at a given time. (The sums y + h … of the methods are compensated.) A component that
+/// rests is exact and remains so.
+///
+/// The time at which a jump of the motion was found is rounded too. If it is off by τ, the motion after the jump
+/// is off by τ (f before − f after), which is added with the first step after it (`late`).
 
 #include <bit>
 #include <cmath>
@@ -116,9 +116,10 @@ public:
     long evaluations() const { return evaluations_; }
 
 private:
-    /// Adds δ + h (∂f/∂y) δ.
+    /// Adds δ + h (∂f/∂y) δ, unless the run integrates other components than those that jumped (charts).
     void be_late(const Rhs& rhs, const Start& from, double* end) {
         const std::size_t size = late_.size();
+        if (size != rate_.size()) return;
         double largest = 0;
         for (std::size_t i = 0; i < size; ++i)
             largest = std::max(largest, std::abs(late_[i]) / std::max(1.0, std::abs(from.state[i])));
