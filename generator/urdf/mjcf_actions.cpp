@@ -3,13 +3,12 @@
 // "XML reference"). MuJoCo's coordinates q are those of the scene plus `ref`; lengths of tendons likewise.
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
+#include <cmath>
 #include <cstring>
 
 #include "language/say.hpp"
 #include "scene/text.hpp"
 #include "urdf/mjcf_reader.hpp"
-#include "urdf/robot_pose.hpp"
 
 namespace alembert {
 
@@ -170,15 +169,15 @@ void MjcfReader::set_spring_dampers() {
     for (const Robot::Tendon& tendon : robot_.tendons)
         for (const Robot::Tendon::Term& a : tendon.terms)
             for (const Robot::Tendon::Term& b : tendon.terms)
-                mass.M(row_of(a), row_of(b)) += tendon.armature * a.coefficient * b.coefficient;
-    const Eigen::LDLT<Eigen::MatrixXd> solver(mass.M);
+                if (tendon.armature != 0)
+                    mass.M.coeffRef(row_of(a), row_of(b)) += tendon.armature * a.coefficient * b.coefficient;
+    const std::vector<double> all = mass.mobilities();
     for (const auto& [k, wanted] : spring_dampers_) {
         Robot::Joint& joint = robot_.joints[k];
-        const int n = ReferenceMass::speeds(joint.type), row = mass.first[k];
+        const int count = ReferenceMass::speeds(joint.type);
         double mobility = 0;
-        for (int i = 0; i < n; ++i)
-            mobility += solver.solve(Eigen::VectorXd::Unit(mass.M.rows(), row + i))[row + i] / n;
-        if (!solver.isPositive() || !(mobility > 0))
+        for (int i = 0; i < count; ++i) mobility += all[static_cast<std::size_t>(mass.first[k] + i)] / count;
+        if (!(mobility > 0))
             throw SceneError(
                 say("springdamper of joint {}: the masses that it moves are zero", in_quotes(joint.name)),
                 {{joint.place, joint.name}});
@@ -259,14 +258,14 @@ void MjcfReader::read_actuator(const XmlElement& e) {
 /// the length.
 void MjcfReader::set_damping_ratio(const XmlElement& e, Robot::Actuator& motor) {
     if (motor.rate <= 0 || motor.gain != -motor.along || motor.gain <= 0) return;
-    const ReferenceMass reference = reference_mass(robot_);
+    if (!reference_) reference_ = reference_mass(robot_);
     std::vector<Robot::Tendon::Term> terms{{motor.joint, 1}};
     if (motor.tendon >= 0) terms = robot_.tendons[static_cast<std::size_t>(motor.tendon)].terms;
     double mass = 0;
     for (const Robot::Tendon::Term& term : terms) {
-        const int row = reference.first[static_cast<std::size_t>(term.joint)];
+        const int row = reference_->first[static_cast<std::size_t>(term.joint)];
         const double share = motor.gear * term.coefficient;
-        if (share != 0) mass += reference.M(row, row) / (share * share);
+        if (share != 0) mass += reference_->M.coeff(row, row) / (share * share);
     }
     motor.rate *= -2 * std::sqrt(motor.gain * mass);
     file_.remark(

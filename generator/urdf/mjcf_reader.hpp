@@ -8,6 +8,7 @@
 #include <set>
 
 #include "urdf/mjcf_values.hpp"
+#include "urdf/robot_pose.hpp"
 
 namespace alembert {
 
@@ -82,7 +83,8 @@ private:
     std::map<std::string, int> tendons_;        // in the robot, or −1 for one that cannot be had
     std::vector<std::size_t> rests_;            // tendons that are slack in the pose of the springs
     std::map<std::size_t, std::array<double, 2>> spring_dampers_;  // by joint: time constant, damping ratio
-    std::set<std::string> disabled_;                               // by <flag>
+    std::optional<ReferenceMass> reference_;
+    std::set<std::string> disabled_;  // by <flag>
 };
 
 }  // namespace alembert

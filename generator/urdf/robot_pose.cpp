@@ -3,6 +3,8 @@
 // centre and the angular velocity (Zhang & Qin, chapter 5).
 #include "urdf/robot_pose.hpp"
 
+#include <Eigen/Cholesky>
+
 #include "alembert/inertia.hpp"
 
 namespace alembert {
@@ -26,19 +28,24 @@ RobotPlace moved_by(const Robot::Joint& joint, double q) {
     return {};
 }
 
-/// Adds what the speeds of a joint above give to the velocity of a point and to the angular velocity.
+/// A speed, and what it gives to the velocity of a point and to the angular velocity.
+struct Column {
+    int row;
+    Real3 velocity, turn;
+};
+
 void add_columns(const Robot::Joint& joint, const RobotPlace& own, int first, const Real3& point,
-                 Eigen::MatrixXd& J, Eigen::MatrixXd& W) {
-    const auto turn = [&](int column, const Real3& axis) {
-        W.col(column) = axis;
-        J.col(column) = axis.cross(point - own.shift);
+                 std::vector<Column>& columns) {
+    const auto slide = [&](const Real3& axis) { columns.push_back({first++, axis, Real3::Zero()}); };
+    const auto turn = [&](const Real3& axis) {
+        columns.push_back({first++, axis.cross(point - own.shift), axis});
     };
-    if (joint.type == Type::prismatic) J.col(first) = own.R * joint.axis.normalized();
-    if (turns(joint.type)) turn(first, own.R * joint.axis.normalized());
+    if (joint.type == Type::prismatic) slide(own.R * joint.axis.normalized());
+    if (turns(joint.type)) turn(own.R * joint.axis.normalized());
     if (joint.type == Type::floating)
-        for (int k = 0; k < 3; ++k) J(k, first++) = 1;
+        for (int k = 0; k < 3; ++k) slide(Real3::Unit(k));
     if (joint.type == Type::floating || joint.type == Type::spherical)
-        for (int k = 0; k < 3; ++k) turn(first + k, own.R.col(k));
+        for (int k = 0; k < 3; ++k) turn(own.R.col(k));
 }
 
 }  // namespace
@@ -80,19 +87,54 @@ ReferenceMass reference_mass(const Robot& robot) {
         result.first.push_back(n);
         n += ReferenceMass::speeds(joint.type);
     }
-    result.M = Eigen::MatrixXd::Zero(n, n);
+    std::vector<Eigen::Triplet<double>> parts;
     for (std::size_t k = 0; k < robot.joints.size(); ++k)
         for (int i = 0; i < ReferenceMass::speeds(robot.joints[k].type); ++i)
-            result.M(result.first[k] + i, result.first[k] + i) = robot.joints[k].armature;
+            parts.emplace_back(result.first[k] + i, result.first[k] + i, robot.joints[k].armature);
     const std::vector<RobotPlace> places = link_places(robot, std::vector<double>(robot.joints.size()));
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
         const Robot::Link& link = robot.links[i];
         if (link.mass == 0 && link.inertia.isZero(0)) continue;
-        Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, n), W = J;
+        std::vector<Column> columns;
         for (int j = link.joint; j >= 0; j = robot.links[at(robot.joints[at(j)].parent)].joint)
             add_columns(robot.joints[at(j)], places[at(robot.joints[at(j)].child)], result.first[at(j)],
-                        places[i].shift + places[i].R * link.centre, J, W);
-        result.M += link.mass * J.transpose() * J + W.transpose() * turned<double>(link.inertia, places[i].R) * W;
+                        places[i].shift + places[i].R * link.centre, columns);
+        const Real33 I = turned<double>(link.inertia, places[i].R);
+        for (const Column& a : columns)
+            for (const Column& b : columns)
+                parts.emplace_back(a.row, b.row, link.mass * a.velocity.dot(b.velocity) + a.turn.dot(I * b.turn));
+    }
+    result.M.resize(n, n);
+    result.M.setFromTriplets(parts.begin(), parts.end());
+    return result;
+}
+
+std::vector<double> ReferenceMass::mobilities() const {
+    // M falls into blocks, of trees that nothing connects, each with an inverse of its own.
+    std::vector<double> result(static_cast<std::size_t>(M.rows()));
+    std::vector<int> place(result.size(), -1);  // in its block
+    for (int row = 0; row < M.rows(); ++row) {
+        if (place[at(row)] >= 0) continue;
+        std::vector<int> block;
+        const auto add = [&](int one) {
+            if (place[at(one)] >= 0) return;
+            place[at(one)] = static_cast<int>(block.size());
+            block.push_back(one);
+        };
+        add(row);
+        for (std::size_t k = 0; k < block.size(); ++k)
+            for (Eigen::SparseMatrix<double>::InnerIterator it(M, block[k]); it; ++it)
+                add(static_cast<int>(it.row()));
+        const auto size = static_cast<Eigen::Index>(block.size());
+        Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size, size);
+        for (std::size_t k = 0; k < block.size(); ++k)
+            for (Eigen::SparseMatrix<double>::InnerIterator it(M, block[k]); it; ++it)
+                whole(place[at(static_cast<int>(it.row()))], static_cast<Eigen::Index>(k)) = it.value();
+        const Eigen::LLT<Eigen::MatrixXd> solver(whole);
+        if (solver.info() != Eigen::Success) continue;
+        const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(size, size));
+        for (std::size_t k = 0; k < block.size(); ++k)
+            result[at(block[k])] = inverse(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k));
     }
     return result;
 }

@@ -6,11 +6,11 @@
 ///
 ///     const std::vector<RobotPlace> places = link_places(robot, q);       // in the ground
 ///     const ReferenceMass mass = reference_mass(robot);
-///     mass.M(mass.first[j], mass.first[j])                                // of the first speed of joint j
+///     mass.M.coeff(mass.first[j], mass.first[j])                          // of the first speed of joint j
 ///
 /// Metres, kilograms, radians. A joint stands in the list after that which holds its parent.
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "urdf/robot.hpp"
@@ -29,9 +29,11 @@ double tendon_length(const Robot::Tendon& tendon, const std::vector<RobotPlace>&
 /// its child; the velocity of the origin of a floating link along the axes of the ground, and then its angular
 /// velocity along its own. Armatures of joints are included.
 struct ReferenceMass {
-    Eigen::MatrixXd M;
+    Eigen::SparseMatrix<double> M;
     std::vector<int> first;  ///< for each joint the row of its first speed
     static int speeds(Robot::Type type);
+    /// The diagonal of M⁻¹; 0 where M is singular.
+    std::vector<double> mobilities() const;
 };
 ReferenceMass reference_mass(const Robot& robot);
 

@@ -8,7 +8,8 @@ FOLDER holds checkouts of repositories with robots; nothing in it is changed. Ev
 <mujoco>, <robot> or <sdf> is imported, and is one of these:
 
     read      a scene was written
-    refused   exit code 3 with a message
+    still     refused, because nothing moves: no joint, or masses by meshes alone
+    refused   for another reason: exit code 3 with a message
     crashed   any other end;  hung: no end within N seconds (60 when missing)
 
 Of those that are read, `told` counts those for which something that changes the motion is listed as left out. Scenes are
@@ -87,7 +88,9 @@ def judged(program, path, kind, seconds):
         except subprocess.TimeoutExpired:
             return kind, "hung", "", ""
         if code != 0:
-            return kind, "refused" if code == 3 and err else "crashed", "", err.strip().split("\n")[-1]
+            why = err.strip().split("\n")[-1]
+            still = "no joint that moves a mass" in why or "no link of this robot has a mass" in why
+            return kind, "crashed" if code != 3 or not why else "still" if still else "refused", "", why
         told = json.loads(out)
         changes = sorted(what for what in told.get("changes_motion", {})
                          if not any(word in what for word in SWITCHED_OFF))
@@ -112,7 +115,8 @@ def main():
         waiting = [pool.submit(judged, given.program, path, kind, given.seconds) for path, kind in files]
         for (path, kind), one in zip(files, waiting):
             _, state, verdict, about = one.result()
-            lines.append("\t".join([kind, state, verdict, str(path.relative_to(given.folder)), about]))
+            fields = [kind, state, verdict, str(path.relative_to(given.folder)), about]
+            lines.append("\t".join(" ".join(field.split()) for field in fields))
             count = counts[kind]
             count["files"] += 1
             count[state] += 1
@@ -123,7 +127,7 @@ def main():
                       "agree" if name == "agree" else "not compared"] += 1
     if given.list:
         given.list.write_text("\n".join(lines) + "\n")
-    columns = ["files", "read", "refused", "crashed", "hung", "told", "agree", "told, differ", "wrong", "not compared"]
+    columns = ["files", "read", "still", "refused", "crashed", "hung", "told", "agree", "told, differ", "wrong", "not compared"]
     print("| | " + " | ".join(columns) + " |\n| --- |" + " ---: |" * len(columns))
     for kind in ("MJCF", "URDF", "SDF"):
         if kind in counts:
