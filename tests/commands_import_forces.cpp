@@ -78,6 +78,20 @@ TEST_CASE("import: the spring of a tendon is slack between its two lengths") {
     CHECK(rope.acceleration("x", {"x=0.8"}) == 0);
 }
 
+// A rope of 1.2 m from a hook holds a ball that falls from 1 m below it: after 0.2 m of fall it is taut.
+TEST_CASE("import: the range of a tendon through sites holds it, and its least length of 0 needs no stop") {
+    const Imported rope = imported(model("<site name=\"hook\"/><body pos=\"0 0 -1\"><joint name=\"z\" "
+                                         "type=\"slide\"/><geom size=\"0.1\"/><site name=\"s\"/></body>",
+                                         "<tendon><spatial name=\"rope\" range=\"0 1.2\"><site "
+                                         "site=\"hook\"/><site site=\"s\"/></spatial></tendon>"),
+                                   {"--stops"});
+    CHECK(contents(rope.scene).find("rope_low") == std::string::npos);
+    const Json impact = json_of({"simulate", rope.scene, "--duration", "0.3", "--no-estimate"})["contacts"][0];
+    CHECK(impact["name"] == "rope_high");
+    CHECK(std::abs(impact["time"].get<double>() - std::sqrt(2 * 0.2 / 9.81)) < 1e-9);
+    CHECK(std::abs(impact["speed_before"].get<double>() + std::sqrt(2 * 0.2 * 9.81)) < 1e-9);
+}
+
 // T = m x'²/2 + J L'²/2. For L = √(x² + 1): (m + J x²/L²) x'' = −J x x'²/L⁴.
 TEST_CASE("import: a tendon has inertia along its length") {
     const Imported rod = imported(model(block("stiffness=\"6\""), fixed_tendon("armature=\"0.25\"")));

@@ -140,9 +140,11 @@ void SceneWriter::tendon_stops(const Robot::Tendon& tendon, const std::string& l
     std::string above = length, below = scene_number(high);
     add_term(above, -low, "");
     add_term(below, -1, fmt::format("({})", length));
+    const bool never_short = low <= 0 && tendon.terms.empty();  // a distance is not negative
     for (const auto& [end, gap] : {std::pair("low", above), std::pair("high", below)})
-        stops_ += fmt::format("\n[[unilateral]]\nname = \"{}\"\ngap = \"{}\"\n",
-                              values_.given(fmt::format("{}_{}", tendon.name, end)), gap);
+        if (end != std::string("low") || !never_short)
+            stops_ += fmt::format("\n[[unilateral]]\nname = \"{}\"\ngap = \"{}\"\n",
+                                  values_.given(fmt::format("{}_{}", tendon.name, end)), gap);
 }
 
 void SceneWriter::energies() {
