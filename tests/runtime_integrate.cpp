@@ -289,12 +289,13 @@ TEST_CASE("failure: a run ends close to where a rate stops being a number, and t
 }
 
 TEST_CASE("failure: a rate that is not a number at the start is reported at once") {
-    const Trajectory motion = integrate(decay(), {not_a_number}, {.duration = 1});
+    const Rhs nowhere = make_rhs(1, [](double, const double*, double* rate) { rate[0] = not_a_number; });
+    const Trajectory motion = integrate(nowhere, {1}, {.duration = 1});
     REQUIRE(motion.failure);
     CHECK(motion.failure->kind == FailureKind::not_a_number);
     CHECK(motion.rows() == 1);
     CHECK(motion.statistics.steps == 0);
-    CHECK(integrate(decay(), {not_a_number}, {.duration = 0}).failure);
+    CHECK(integrate(nowhere, {1}, {.duration = 0}).failure);
 }
 
 TEST_CASE("failure: a fixed step that overflows stops at the last good state") {
@@ -333,17 +334,18 @@ TEST_CASE("options: invalid ones are refused by name") {
         }
         return "";
     };
-    CHECK(contains(refusal({.duration = not_a_number}), "duration = nan"));
-    CHECK(contains(refusal({.duration = -1}), "duration = -1"));
-    CHECK(contains(refusal({.duration = HUGE_VAL}), "duration = inf"));
-    CHECK(contains(refusal({.start = not_a_number, .duration = 1}), "start = nan"));
-    CHECK(contains(refusal({.duration = 1, .tolerance = 0}), "tolerance = 0"));
-    CHECK(contains(refusal({.duration = 1, .tolerance = -1e-9}), "tolerance = -1e-09"));
-    CHECK(contains(refusal({.duration = 1, .sample = -1}), "sample = -1"));
+    CHECK(contains(refusal({.duration = not_a_number}), "duration=nan: expected a"));
+    CHECK(contains(refusal({.duration = -1}), "duration=-1: expected a"));
+    CHECK(contains(refusal({.duration = HUGE_VAL}), "duration=inf: expected a"));
+    CHECK(contains(refusal({.start = not_a_number, .duration = 1}), "start=nan: expected a"));
+    CHECK(contains(refusal({.duration = 1, .tolerance = 0}), "tolerance=0: expected a"));
+    CHECK(contains(refusal({.duration = 1, .tolerance = -1e-9}), "tolerance=-1e-09: expected a"));
+    CHECK(contains(refusal({.duration = 1, .sample = -1}), "sample=-1: expected a"));
     CHECK(contains(refusal({.duration = 1, .sample = 1e-12}), "more than 1e+08 rows"));
-    CHECK(contains(refusal({.duration = 1, .budget = 0}), "budget = 0"));
+    CHECK(contains(refusal({.duration = 1, .budget = 0}), "budget=0: expected a"));
     CHECK(contains(refusal({.method = Method::rk4, .duration = 1}), "rk4 has a fixed step"));
     CHECK(contains(refusal({.duration = 1}, {1.0, 2.0}), "1 components, 2 initial values"));
+    CHECK(refusal({.duration = 1}, {not_a_number}) == "initial[0]=nan: expected a finite number");
     CHECK(refusal({.method = Method::euler, .duration = 0}).empty());
 }
 

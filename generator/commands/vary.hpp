@@ -13,8 +13,6 @@ namespace alembert {
 /// count of at least 1, if a name is given twice, or if there are more than 10¹⁵ points.
 Grid grid_of(const std::vector<std::string>& vary);
 
-constexpr std::size_t most_points = 1'000'000'000'000'000;
-
 /// The ranges NAME=FROM:TO of --vary with --samples. Throws ModelError likewise, and for a range with a count.
 std::vector<Axis> ranges_of(const std::vector<std::string>& vary);
 

@@ -23,9 +23,10 @@ CLI::Validator number(bool zero) {
         [zero](const std::string& text) {
             const double x = std::strtod(text.c_str(), nullptr);
             const bool is_right = std::isfinite(x) && (x > 0 || (zero && x == 0));
-            return is_right ? std::string()
-                   : zero   ? say("{}: expected a number of zero or more", text)
-                            : say("{}: expected a number above zero", text);
+            return is_right            ? std::string()
+                   : !std::isfinite(x) ? say("{}: expected a finite number", text)
+                   : zero              ? say("{}: expected a number of zero or more", text)
+                                       : say("{}: expected a number above zero", text);
         },
         "");
 }

@@ -5,6 +5,7 @@
 
 #include <kainjow/mustache.hpp>
 
+#include "alembert/argument.hpp"
 #include "emit/numbers.hpp"
 #include "emit/projection_text.hpp"
 #include "emit/solver_functions.hpp"
@@ -41,6 +42,10 @@ SourceFile standalone(const Program& program, const StandaloneStart& start, Code
     file.set("start", shortest(start.t));
     file.set("duration", shortest(start.duration));
     file.set("tolerance", shortest(start.tolerance));
+    file.set("finite", argument::finite);
+    file.set("positive", argument::positive);
+    file.set("nonnegative", argument::nonnegative);
+    file.set("whole_positive", argument::whole_positive);
     return {name, kainjow::mustache::mustache{std::string(template_standalone)}.render(file)};
 }
 

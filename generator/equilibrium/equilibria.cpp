@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/argument.hpp"
 #include "alembert/error.hpp"
 #include "contact/contacts.hpp"
 #include "formalism/elements.hpp"
@@ -211,6 +212,7 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
 }  // namespace
 
 Equilibria equilibria(Scene scene, const EquilibriumOptions& options) {
+    argument::need_whole_nonnegative("starts", options.starts);
     Equilibria result{derived(std::move(scene), {.by = options.by, .at = options.at})};
     Start start = start_of(result.mechanism, options.at);
     assemble(start, result.mechanism, lower_constraints(result.mechanism), options.at, false);

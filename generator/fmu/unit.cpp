@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fmu/unit.hpp"
 
+#include <stdexcept>
+
 #include "alembert/compile.hpp"
 #include "alembert/fingerprint.hpp"
 #include "archive/zip.hpp"
 #include "emit/emit.hpp"
 #include "fmu/description.hpp"
 #include "fmu/unit_source.hpp"
+#include "language/say.hpp"
 
 namespace alembert {
 
@@ -31,6 +34,8 @@ std::string in_groups(const std::string& digits) {
 }  // namespace
 
 FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options) {
+    if (options.version != 2 && options.version != 3)
+        throw std::invalid_argument(say("fmi={}: there are the versions 2 and 3", options.version));
     FunctionalUnit unit{unit_model(std::move(scene), options.by)};
     unit.version = options.version;
     unit.platform = options.version == 2 ? folder_2 : folder_3;

@@ -27,7 +27,8 @@ struct FunctionalUnit : UnitModel {
     std::string archive = {};
 };
 
-/// Throws what `unit_model` throws, and CompileError if there is no compiler.
+/// Throws what `unit_model` throws, CompileError if there is no compiler, and std::invalid_argument for
+/// another version.
 FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options = {});
 
 }  // namespace alembert

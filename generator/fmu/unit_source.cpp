@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <kainjow/mustache.hpp>
 
+#include "alembert/argument.hpp"
 #include "emit/elementary.hpp"
 #include "emit/numbers.hpp"
 #include "emit/projection_text.hpp"
@@ -30,6 +31,12 @@ std::vector<std::string> rows_of(const std::vector<UnitVariable>& variables) {
     for (const UnitVariable& v : variables)
         rows.push_back(fmt::format("{}, {}", kind_names[static_cast<int>(v.kind)], v.place));
     return rows;
+}
+
+std::vector<std::string> quoted_names(const std::vector<UnitVariable>& variables) {
+    std::vector<std::string> result;
+    for (const UnitVariable& v : variables) result.push_back("\"" + v.name + "\"");
+    return result;
 }
 
 std::vector<std::string> actions_of(const Mechanism& m) {
@@ -84,6 +91,7 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     number("multipliers", multipliers_of(p));
     number("variables", variables.size());
     file.set("table", list_of(rows_of(variables)));
+    file.set("names", list_of(quoted_names(variables)));
     file.set("actions", list_of(actions_of(model.mechanism)));
     file.set("shown_inputs", shown_inputs(model));
     std::string initial;
@@ -92,6 +100,9 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     file.set("initial", initial);
     file.set("start", shortest(model.start.t));
     file.set("tolerance", shortest(model.tolerance));
+    file.set("finite", argument::finite);
+    file.set("positive", argument::positive);
+    file.set("nonnegative", argument::nonnegative);
     const auto has = [&file](const char* name, const FunctionTask& task) {
         file.set(std::string("has_") + name, !task.results.empty());
     };

@@ -94,6 +94,11 @@ constexpr std::array patterns{
     to_say("{} has a fixed step: give it, for example step = {}"),
     to_say("step = {}: more than {} steps"),
     to_say("longest_step (max_step of a scene) = {}: more than {} steps"),
+    to_say("{}={}: expected a finite number"),
+    to_say("{}={}: expected a number above zero"),
+    to_say("{}={}: expected a number of zero or more"),
+    to_say("{}={}: expected a whole number above zero"),
+    to_say("{}={}: expected a whole number of zero or more"),
     to_say("sample = {}: more than {} rows"),
     // CLI11.
     to_say("The following argument was not expected: {}"),

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "alembert/argument.hpp"
+#include "language/libraries.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 
@@ -78,7 +80,8 @@ double& Starts::place(const Spot& spot, Start& start) {
 Possible<Start> Starts::possible(const std::vector<double>& values) const {
     for (std::size_t k = 0; k < spots_.size(); ++k)
         if (!std::isfinite(values[k]))
-            return Obstacle{say("{}={}: expected a finite number", spots_[k].name, values[k])};
+            return Obstacle{
+                translated_from_library(argument::mistake(spots_[k].name, values[k], argument::finite))};
     Start start = plain_;
     const auto replace = [&](bool parameters) {
         for (std::size_t k = 0; k < spots_.size(); ++k)

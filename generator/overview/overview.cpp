@@ -108,8 +108,8 @@ void pose(WatchedMotion& motion, const Drawing& drawing, const State<double>& st
 WatchedMotion watched(const Overview& all, const OverviewOptions& options) {
     RunOptions wishes = options.wishes;
     wishes.by = options.by;
-    if (wishes.sample <= 0) {
-        const double duration = wishes.duration >= 0 ? wishes.duration : start_of(all.mechanism).duration;
+    if (!wishes.sample) {
+        const double duration = wishes.duration.value_or(start_of(all.mechanism).duration);
         const int rows =
             std::clamp(static_cast<int>(numbers_shown) / (2 * std::max(1, all.mechanism.size())), 120, rows_shown);
         if (duration > 0) wishes.sample = duration / rows;
@@ -201,7 +201,7 @@ Overview overview(Scene scene, const OverviewOptions& options) {
     if (options.measures) {
         BenchOptions wishes{.wishes = options.wishes};
         wishes.wishes.by = options.by;
-        wishes.wishes.sample = 0;
+        wishes.wishes.sample = {};
         all.bench = attempted([&] { return bench(s, wishes); });
     } else {
         all.bench = left_out<Bench>(say("No methods were measured."));

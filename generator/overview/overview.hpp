@@ -36,7 +36,7 @@ struct PartOfOverview {
 
 struct OverviewOptions {
     std::string by = {};  ///< a formalism; if empty, the program chooses
-    RunOptions wishes{.sample = -1, .budget = 3'000'000};
+    RunOptions wishes{.budget = 3'000'000};
     bool moves = true;         ///< whether the scene is simulated
     std::string section = {};  ///< of Poincaré: "a = b", expressions of the state
     bool measures = false;     ///< whether every method is measured (run/bench.hpp)

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "alembert/argument.hpp"
 #include "alembert/compile.hpp"
 #include "emit/emit.hpp"
 #include "language/say.hpp"
@@ -146,7 +147,7 @@ public:
         assemble(start_, m, lower_constraints(m), {});
         const State<double> first = state_of(start_, m, result_.equations);
         need_accelerations(result_, program, first, FirstPose::may_be_singular);
-        const double duration = wishes_.duration >= 0 ? wishes_.duration : start_.duration;
+        const double duration = wishes_.duration.value_or(start_.duration);
         if (has_jumps(m) || !m.frictions.empty() || switched(program)) return measure_jumps(program, first);
 
         const Compilation c = compilation_of(result_, program, start_, energy.conserved, wishes_);
@@ -204,8 +205,7 @@ private:
 
     void find_reference(const Program& program, Workbench& workbench, const Options& options,
                         const State<double>& first) {
-        const std::optional<double> duration =
-            wishes_.duration >= 0 ? std::optional(options.duration) : std::nullopt;
+        const std::optional<double> duration = wishes_.duration ? std::optional(options.duration) : std::nullopt;
         result_.exact = reference(program, quad_start(result_.mechanism, result_.equations, start_, duration),
                                   {.seconds = options_.reference_seconds,
                                    .progress = [&](double part) { tell(say("computing the reference"), part); }});
@@ -261,10 +261,11 @@ private:
     void measure_automatic(Workbench& workbench, Options options, const Program& program) {
         RunOptions wishes = wishes_;
         wishes.method = automatic_method;
-        wishes.step = 0;
+        wishes.step = 0;  // none, whatever the scene says
         for (int decade = first_decade; decade <= last_decade; ++decade) {
             tell(say("measuring"), 1);
-            options.tolerance = wishes.tolerance = std::pow(10.0, -decade);
+            options.tolerance = std::pow(10.0, -decade);
+            wishes.tolerance = options.tolerance;
             const MethodChoice choice = method_for(wishes, result_, program, start_);
             options.method = choice.method;
             options.when_stiff = choice.when_stiff;
@@ -309,6 +310,9 @@ private:
 }  // namespace
 
 Bench bench(Scene scene, const BenchOptions& options) {
+    check_numbers(options.wishes);
+    argument::need_positive("most_seconds", options.most_seconds);
+    argument::need_positive("reference_seconds", options.reference_seconds);
     const std::string& method = options.wishes.method;
     if (!method.empty() && method != automatic_method && !method_named(method))
         throw ModelError(

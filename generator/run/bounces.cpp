@@ -68,7 +68,7 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     std::vector<double> initial = start.q;
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
     Options options{.start = start.t,
-                    .duration = request.duration >= 0 ? request.duration : start.duration,
+                    .duration = request.duration.value_or(start.duration),
                     .longest_step = longest_step(request, start),
                     .budget = request.budget};
     options.sample = options.duration > 0 ? options.duration : 1;

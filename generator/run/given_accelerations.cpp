@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "alembert/argument.hpp"
 #include "language/say.hpp"
 
 namespace alembert {
@@ -30,7 +30,7 @@ std::vector<std::optional<double>> given_accelerations(const Overrides& at, cons
             throw ModelError(say("no coordinate has the acceleration {}{}", name,
                                  meant.empty() ? "" : say("; did you mean '{}'?", meant)));
         }
-        if (!std::isfinite(value)) throw ModelError(say("{} = {}: expected a finite number", name, value));
+        argument::need_finite(name, value);
         given[static_cast<std::size_t>(found - known.begin())] = value;
     }
     return given;

@@ -10,8 +10,8 @@
 
 namespace alembert {
 
-/// By coordinate; nothing where none is given. Throws ModelError for a name that is none, and for a value that is
-/// not finite.
+/// By coordinate; nothing where none is given. Throws ModelError for a name that is none, and
+/// std::invalid_argument for a value that is not finite.
 std::vector<std::optional<double>> given_accelerations(const Overrides& at, const Mechanism& mechanism);
 
 /// All other values: what `start_of` and `prepared` take.

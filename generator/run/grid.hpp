@@ -36,4 +36,11 @@ struct Grid {
     bool is_listed() const { return !listed.empty() || samples; }  ///< whether it is no grid
 };
 
+/// The most motions of a sweep.
+inline constexpr std::size_t most_points = 1'000'000'000'000'000;
+
+/// Throws std::invalid_argument for a grid without names or points, with a name twice, with a number that is not
+/// finite, and with a list that is not as long as its counts say.
+void check_grid(const Grid& grid);
+
 }  // namespace alembert

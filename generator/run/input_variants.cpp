@@ -7,7 +7,8 @@
 
 namespace alembert {
 
-InputVariants::InputVariants(const Program& program, const Starts& starts, const Grid& grid, double duration)
+InputVariants::InputVariants(const Program& program, const Starts& starts, const Grid& grid,
+                             std::optional<double> duration)
     : program_(program), duration_(duration) {
     const Possible<Start> any = starts.possible(grid.point(0));
     if (any.exists()) used_ = parameters_of_inputs(program, any.value().parameters.size());

@@ -24,8 +24,8 @@ class InputVariants {
 public:
     static constexpr std::size_t most = 2000;
 
-    /// `duration` is in s; if negative, that of each start counts. `program` must outlive this.
-    InputVariants(const Program& program, const Starts& starts, const Grid& grid, double duration);
+    /// `duration` is in s; if missing, that of each start counts. `program` must outlive this.
+    InputVariants(const Program& program, const Starts& starts, const Grid& grid, std::optional<double> duration);
 
     /// Null for a variant that is not searched; else valid as long as this is. One thread at a time.
     const std::vector<QuickTime>* quick_times(const Start& start);
@@ -35,13 +35,13 @@ public:
 private:
     using Key = std::vector<double>;
     Key key_of(const Start& start) const;
-    double duration_of(const Start& start) const { return duration_ >= 0 ? duration_ : start.duration; }
+    double duration_of(const Start& start) const { return duration_.value_or(start.duration); }
     bool matters(const Starts& starts, const Grid& grid, std::size_t axis) const;
     /// Collects the variants of the points; false if there are too many.
     bool collect(const Starts& starts, const Grid& grid);
 
     const Program& program_;
-    double duration_;
+    std::optional<double> duration_;
     std::vector<bool> used_;
     std::set<Key> first_;  ///< if there are too many, those that are searched
     std::map<Key, std::vector<QuickTime>> known_;

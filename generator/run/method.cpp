@@ -93,9 +93,8 @@ bool is_series_faster(const Program& program, double tolerance, const SeriesCost
 }
 
 MethodChoice automatic(const RunOptions& request, const Derived& d, const Program& program, const Start& start) {
-    const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
-    const double step = wish(request.step, start.step), duration = wish(request.duration, start.duration);
-    const double tolerance = wish(request.tolerance, start.tolerance);
+    const double step = request.step.value_or(start.step), duration = request.duration.value_or(start.duration);
+    const double tolerance = request.tolerance.value_or(start.tolerance);
     if (asks_regularization(request, d.mechanism)) {
         if (step > 0)
             return {.method = inseparable(d) ? Method::gauss : Method::kahanli8,
@@ -181,36 +180,35 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
         return {.method = Method::bdf, .sundials = name};  // for which the Jacobian is emitted
     }
     if (const auto given = given_method(request, d)) {
-        if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))
+        if (request.step && !request.method.empty() && !has_fixed_step(*given))
             throw ModelError(
                 say("a step of {:g} s was asked for, but {} chooses its own steps; give a tolerance, or a "
                     "method with fixed steps (rk4, gauss, kahanli8 …)",
-                    request.step, name));
+                    *request.step, name));
         return {.method = *given};
     }
     return automatic(request, d, program, start);
 }
 
 double longest_step(const RunOptions& wishes, const Start& start) {
-    return wishes.max_step >= 0 ? wishes.max_step : start.max_step;
+    return wishes.max_step.value_or(start.max_step);
 }
 
 Options options_of(const RunOptions& wishes, const MethodChoice& choice, const Start& start) {
     const bool fixed = has_fixed_step(choice.method) && choice.sundials.empty();
-    if (fixed && wishes.max_step >= 0)
+    if (fixed && wishes.max_step)
         throw ModelError(
             say("a longest step of {:g} s was asked for, but {} has a fixed step; methods that choose "
                 "their steps (dop853, radau …) "
                 "take a longest one",
-                wishes.max_step, name(choice.method)));
-    const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
+                *wishes.max_step, name(choice.method)));
     return {.method = choice.method,
             .start = start.t,
-            .duration = wish(wishes.duration, start.duration),
-            .tolerance = wish(wishes.tolerance, start.tolerance),
-            .step = wish(wishes.step, start.step),
+            .duration = wishes.duration.value_or(start.duration),
+            .tolerance = wishes.tolerance.value_or(start.tolerance),
+            .step = wishes.step.value_or(start.step),
             .longest_step = longest_step(wishes, start),
-            .sample = wish(wishes.sample, start.sample),
+            .sample = wishes.sample.value_or(start.sample),
             .budget = wishes.budget,
             .when_stiff = choice.when_stiff,
             .when_stuck = choice.when_stuck,

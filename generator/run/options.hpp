@@ -6,6 +6,7 @@
 ///     RunOptions wishes{.method = "taylor", .tolerance = 1e-12};
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,13 +19,13 @@ struct RunOptions {
     /// "memory", "compiled" or "auto" (solver_code.hpp); if empty, that of the environment's ALEMBERT_CODE, or
     /// auto.
     std::string code = {};
-    double duration = -1, tolerance = -1, step = -1, sample = -1,
-           max_step = -1;      ///< in s, except the tolerance; if negative, the scene's
-    long budget = 10'000'000;  ///< the most right-hand sides
-    bool fast_math = false;    ///< whether the compiler may reorder sums
-    bool estimate = true;      ///< whether to estimate the error by a second run
-    bool regularize = false;   ///< whether steps are short where the potential is deep (regularization.hpp)
-    bool reactions = false;    ///< whether to add the reactions of joints to every row
+    std::optional<double> duration = {}, tolerance = {}, step = {}, sample = {},
+                          max_step = {};  ///< in s, except the tolerance; if missing, the scene's
+    long budget = 10'000'000;             ///< the most right-hand sides
+    bool fast_math = false;               ///< whether the compiler may reorder sums
+    bool estimate = true;                 ///< whether to estimate the error by a second run
+    bool regularize = false;  ///< whether steps are short where the potential is deep (regularization.hpp)
+    bool reactions = false;   ///< whether to add the reactions of joints to every row
     /// Columns that the table of rows must have. A missing one is reported before the motion is integrated.
     std::vector<std::string> columns = {};
 
@@ -37,5 +38,8 @@ struct RunOptions {
     /// Called now and then with the current task and the part of it that is done, from 0 to 1.
     std::function<void(std::string_view what, double part)> progress = {};
 };
+
+/// Throws std::invalid_argument for a number that none of these can be (alembert/argument.hpp).
+void check_numbers(const RunOptions& wishes);
 
 }  // namespace alembert

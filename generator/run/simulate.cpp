@@ -326,6 +326,7 @@ private:
 }  // namespace
 
 Run simulate(Scene scene, const RunOptions& wishes) {
+    check_numbers(wishes);
     Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
         result.warn(

@@ -89,9 +89,9 @@ struct Run : Derived {
     bool is_constrained() const { return !mechanism.constraints.empty() || !contacts.empty(); }
 };
 
-/// Throws what `derived` throws; ModelError for a method that the scene does not allow; IntegrationError if there
-/// are no finite accelerations at the start; CompileError if a compiler is needed and there is none. A motion that
-/// ends early later on is a Run with a `failure`.
+/// Throws what `derived` throws; std::invalid_argument for numbers that no option can be; ModelError for a method
+/// that the scene does not allow; IntegrationError if there are no finite accelerations at the start; CompileError
+/// if a compiler is needed and there is none. A motion that ends early later on is a Run with a `failure`.
 Run simulate(Scene scene, const RunOptions& wishes = {});
 
 }  // namespace alembert

@@ -4,25 +4,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <utility>
 
+#include "alembert/argument.hpp"
+#include "language/say.hpp"
 #include "run/sweeper.hpp"
 
 namespace alembert {
 
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads) {
+    argument::need_whole_nonnegative("threads", threads);
     Sweeper sweeper(std::move(scene), grid, wishes);
     sweeper.check();
     sweeper.compile();
-    std::vector<SweptMotion> all;
-    bool given = false;
+    constexpr std::size_t longest_part = 4096;
+    std::vector<SweptMotion> all(grid.size());
+    std::size_t given = 0;
+    std::atomic<std::size_t> done = 0;
     sweeper.run({.next = [&]() -> std::optional<SweepPart> {
-                     if (std::exchange(given, true)) return std::nullopt;
-                     return SweepPart{0, grid.size()};
+                     const SweepPart part{given, std::min(longest_part, grid.size() - given)};
+                     given += part.count;
+                     return part.count > 0 ? std::optional(part) : std::nullopt;
                  },
-                 .done = [&](SweepPart, std::vector<SweptMotion> motions) { all = std::move(motions); },
-                 .breathe = {},
+                 .done =
+                     [&](SweepPart part, std::vector<SweptMotion> motions) {
+                         std::move(motions.begin(), motions.end(),
+                                   all.begin() + static_cast<std::ptrdiff_t>(part.first));
+                         done += part.count;
+                     },
+                 .breathe =
+                     [&] {
+                         if (wishes.progress)
+                             wishes.progress(say("sweeping"),
+                                             static_cast<double>(done) / static_cast<double>(grid.size()));
+                     },
                  .most = grid.size()},
                 threads);
     Sweep s = std::move(sweeper.sweep());

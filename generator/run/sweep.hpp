@@ -46,7 +46,7 @@ struct SweepPart {
 };
 
 /// The whole sweep in memory (run/sweeper.hpp for more than fit there). `threads` is 0 for as many as there are
-/// cores. Throws what Sweeper throws.
+/// cores. Throws what Sweeper throws; std::invalid_argument if it is negative.
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int threads = 0);
 
 /// The names of the values at the end of each motion: t, coordinates, rates (theta1'), the scene's own speeds, and

@@ -39,8 +39,8 @@ MethodChoice method_for_sweep(const RunOptions& wishes, const Derived& derived, 
             say("sweep does not run '{}', which needs more than the right-hand side; take dop853 or gauss",
                 name(*given)));
     if (given) return {.method = *given};
-    const double tolerance = wishes.tolerance >= 0 ? wishes.tolerance : start.tolerance;
-    if (wishes.step > 0 || start.step > 0) return {.method = Method::rk4};
+    const double tolerance = wishes.tolerance.value_or(start.tolerance);
+    if (wishes.step.value_or(start.step) > 0) return {.method = Method::rk4};
     MethodChoice choice = method_for(wishes, derived, program, start);
     if (along)
         choice.method = Method::dop853;

@@ -29,6 +29,13 @@ namespace {
 
 constexpr std::size_t most_checked = 1'000'000;  // bodies, before the first motion
 
+/// After a check of the numbers.
+Derived derived_for(Scene scene, const Grid& grid, const RunOptions& wishes) {
+    check_numbers(wishes);
+    check_grid(grid);
+    return derived(std::move(scene), {.by = wishes.by, .use = Use::run});
+}
+
 /// Whether masses may change from motion to motion.
 bool varies_parameters(const Mechanism& m, const std::vector<std::string>& names) {
     return std::any_of(m.parameters.begin(), m.parameters.end(), [&](const Mechanism::Parameter& p) {
@@ -53,7 +60,7 @@ std::vector<double> rates_at(const Program& program, const Module& module, const
 }  // namespace
 
 Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<std::string> along)
-    : s_{derived(std::move(scene), {.by = wishes.by, .use = Use::run})}, wishes_(wishes) {
+    : s_{derived_for(std::move(scene), grid, wishes)}, wishes_(wishes) {
     s_.grid = std::move(grid);
     s_.along = std::move(along);
     const Mechanism& m = s_.mechanism;
@@ -109,8 +116,9 @@ void Sweeper::make_key() {
     for (const std::string& text :
          {std::string(ALEMBERT_VERSION), s_.scene.text, source_, wishes_.by, s_.method, wished_code(wishes_)})
         print.add(text);
-    print.add(fmt::format("{} {} {} {} {} {} {}", wishes_.duration, wishes_.tolerance, wishes_.step,
-                          wishes_.max_step, wishes_.budget, wishes_.fast_math, s_.grid.size()));
+    for (const std::optional<double>& wish : {wishes_.duration, wishes_.tolerance, wishes_.step, wishes_.max_step})
+        print.add(wish ? fmt::format("{}", *wish) : std::string("-"));
+    print.add(fmt::format("{} {} {}", wishes_.budget, wishes_.fast_math, s_.grid.size()));
     for (const std::string& statistic : s_.along) print.add(statistic);
     for (const Axis& axis : s_.grid.axes)
         print.add(fmt::format("{} {} {} {}", axis.name, axis.from, axis.to, axis.count));
@@ -246,7 +254,7 @@ std::optional<Member> Sweeper::member(std::size_t k, const SweepDesk& desk) {
                       .state = first.q,
                       .parameters = start.parameters,
                       .start = start.t,
-                      .duration = wishes_.duration >= 0 ? wishes_.duration : start.duration};
+                      .duration = wishes_.duration.value_or(start.duration)};
         if (!std::isfinite(member.duration) || member.duration < 0)
             throw ModelError(
                 say("the motion would take {} s; expected a finite number, zero or more", member.duration));

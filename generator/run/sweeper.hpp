@@ -38,8 +38,9 @@ struct SweepDesk {
 
 class Sweeper {
 public:
-    /// Derives and emits. Throws what `derived` throws; ModelError for methods that do not run in
-    /// sweeps. `along` is a list of min, max, mean.
+    /// Derives and emits. Throws what `derived` throws; std::invalid_argument for numbers that no option can
+    /// be and for a wrong grid (check_grid); ModelError for methods that do not run in sweeps. `along` is a list
+    /// of min, max, mean.
     Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<std::string> along = {});
     Sweeper(const Sweeper&) = delete;
     Sweeper& operator=(const Sweeper&) = delete;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "alembert/argument.hpp"
 #include "alembert/error.hpp"
 #include "language/say.hpp"
 
@@ -239,6 +240,7 @@ private:
 }  // namespace
 
 StabilityChart stability_chart(Scene scene, const Axis& x, const Axis& y, const ChartOptions& options) {
+    argument::need_positive_if_given("period", options.stability.period);
     check_axis(x);
     check_axis(y);
     if (x.name == y.name) throw ModelError(say("{} is varied twice; expected two parameters", x.name));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "alembert/argument.hpp"
 #include "alembert/compile.hpp"
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
@@ -236,6 +237,9 @@ private:
 }  // namespace
 
 LyapunovExponents lyapunov_exponents(Scene scene, const ExponentOptions& options) {
+    argument::need_whole_nonnegative("count", options.count);
+    argument::need_positive("duration", options.duration);
+    argument::need_positive("tolerance", options.tolerance);
     LyapunovExponents result{.title = scene.title};
     const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at});
     result.warnings = d.warnings;

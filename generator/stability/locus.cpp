@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/argument.hpp"
 #include "alembert/error.hpp"
 #include "language/say.hpp"
 
@@ -152,6 +153,7 @@ private:
 }  // namespace
 
 RootLocus root_locus(Scene scene, const Axis& axis, const ChartOptions& options) {
+    argument::need_positive_if_given("period", options.stability.period);
     if (!(std::isfinite(axis.from) && std::isfinite(axis.to)) || axis.from == axis.to || axis.count < 2)
         throw ModelError(say("{}: expected a range of two different numbers, and at least two values", axis.name));
     const Spectra spectra(std::move(scene), options.stability, {axis.name},

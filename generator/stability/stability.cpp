@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "alembert/argument.hpp"
 #include "alembert/error.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
@@ -277,6 +278,7 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
 }  // namespace
 
 Stability stability(Scene scene, const StabilityOptions& options) {
+    argument::need_positive_if_given("period", options.period);
     const bool periodic = options.period > 0 || scene.simulation.period;
     if (!options.lyapunov.empty() && (scene.polynomial || periodic))
         throw ModelError(say(

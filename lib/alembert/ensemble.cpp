@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "alembert/along.hpp"
+#include "alembert/argument.hpp"
 #include "alembert/dop853.hpp"
 #include "alembert/pack_run.hpp"
 #include "alembert/pack_step.hpp"
@@ -92,7 +93,7 @@ void check_events(const Ensemble& e) {
          fmt::format("{} flags for {} events", e.stops.size(), table.events));
     need(e.directions.empty() || e.directions.size() == e.stops.size(),
          fmt::format("{} directions for {} events", e.directions.size(), e.stops.size()));
-    need(e.threads >= 0, fmt::format("threads = {}: zero or more are needed", e.threads));
+    argument::need_whole_nonnegative("threads", e.threads);
 }
 
 void check(const Ensemble& e, const Options& options) {
@@ -111,12 +112,12 @@ void check(const Ensemble& e, const Options& options) {
     need(e.quick_times.empty() || e.quick_times.size() == count,
          fmt::format("{} lists of quick times for {} members", e.quick_times.size(), count));
     if (count == 0) return;
-    for (const double start : e.starts)
-        need(std::isfinite(start), fmt::format("start = {}: a finite number is needed", start));
+    for (const double start : e.starts) argument::need_finite("start", start);
+    for (std::size_t k = 0; k < e.states.size(); ++k)
+        if (!std::isfinite(e.states[k])) argument::need_finite(fmt::format("states[{}]", k), e.states[k]);
     Options longest = options;
     for (const double duration : e.durations) {
-        need(std::isfinite(duration) && duration >= 0,
-             fmt::format("duration = {}: a finite number, zero or more, is needed", duration));
+        argument::need_nonnegative("duration", duration);
         longest.duration = std::max(longest.duration, duration);
     }
     check_options(rhs_of(e, {}),
@@ -208,9 +209,8 @@ private:
     }
 
     void check(const Member& member) {
-        need(std::isfinite(member.start), fmt::format("start = {}: a finite number is needed", member.start));
-        need(std::isfinite(member.duration) && member.duration >= 0,
-             fmt::format("duration = {}: a finite number, zero or more, is needed", member.duration));
+        argument::need_finite("start", member.start);
+        argument::need_nonnegative("duration", member.duration);
         if (e_.by || member.duration <= longest_.load(std::memory_order_relaxed)) return;
         Options options = options_;
         options.duration = member.duration;

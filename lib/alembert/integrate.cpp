@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "alembert/abm.hpp"
+#include "alembert/argument.hpp"
 #include "alembert/bdf.hpp"
 #include "alembert/canonical.hpp"
 #include "alembert/dop853.hpp"
@@ -39,19 +40,21 @@ void check(bool good, const std::string& message) {
 }  // namespace
 
 void check_options(const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
-    const auto number = [](const char* key, double value, bool good, const char* wanted) {
-        check(std::isfinite(value) && good, fmt::format("{} = {}: {}", key, value, wanted));
-    };
+    using namespace argument;
+    check(rhs.call != nullptr, "the right-hand side has no function");
     check(initial.size() == static_cast<std::size_t>(rhs.dimension),
           fmt::format("the state has {} components, {} initial values were given", rhs.dimension, initial.size()));
-    number("start", options.start, true, "a finite number is needed");
-    number("duration", options.duration, options.duration >= 0, "a finite number, zero or more, is needed");
-    number("end", options.start + options.duration, true, "start + duration must be finite");
-    number("tolerance", options.tolerance, options.tolerance > 0, "a finite positive number is needed");
-    number("step", options.step, options.step >= 0, "a finite number, zero or more, is needed");
-    number("longest_step (max_step of a scene)", options.longest_step, options.longest_step >= 0,
-           "a finite number, zero or more, is needed");
-    number("sample", options.sample, options.sample >= 0, "a finite number, zero or more, is needed");
+    for (std::size_t k = 0; k < initial.size(); ++k)
+        if (!std::isfinite(initial[k]))
+            need_finite(k < rhs.names.size() ? rhs.names[k] : fmt::format("initial[{}]", k), initial[k]);
+    need_finite("start", options.start);
+    need_nonnegative("duration", options.duration);
+    need_finite("start + duration", options.start + options.duration);
+    need_positive("tolerance", options.tolerance);
+    need_positive_if_given("step", options.step);
+    need_positive_if_given("max_step", options.longest_step);
+    need_positive_if_given("sample", options.sample);
+    need_positive("budget", static_cast<double>(options.budget));
     check(!needs_series(options.method) || rhs.series.width == rhs.dimension,
           fmt::format("{} needs the Taylor series of the system (emit_taylor, make_series), which this right-hand "
                       "side does not have",
@@ -60,7 +63,6 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
           fmt::format("{} needs the momenta and constraints of the system (canonical.hpp), which this right-hand "
                       "side does not have",
                       name(options.method)));
-    check(options.budget > 0, fmt::format("budget = {}: at least one right-hand side is needed", options.budget));
     check(!has_fixed_step(options.method) || options.step > 0 || options.duration == 0,
           fmt::format("{} has a fixed step: give it, for example step = {:g}", name(options.method),
                       options.duration / 1000));

@@ -37,8 +37,8 @@
 /// for dop853 somewhat more than the tolerance; the last row of a run that completes is the end of a step.
 ///
 /// If something fails during the run, Trajectory::failure says what, and the rows until then are kept.
-/// std::invalid_argument is thrown for invalid options; each message says which option is invalid. Nothing is
-/// allocated per step.
+/// std::invalid_argument is thrown for invalid options and for initial values that are not finite; each message
+/// says which one is wrong (argument.hpp). Nothing is allocated per step.
 
 #include <cstdint>
 #include <functional>

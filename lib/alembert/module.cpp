@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "alembert/argument.hpp"
 #include "alembert/error.hpp"
 #include "alembert/own_file.hpp"
 
@@ -74,6 +75,7 @@ std::vector<double> prepared(const Module& module, const std::vector<double>& va
     if (!values.empty() && values.size() != count)
         throw std::invalid_argument(
             fmt::format("{} takes {} parameters, {} were given", solver.scene, count, values.size()));
+    for (std::size_t k = 0; k < values.size(); ++k) argument::need_finite(solver.parameter_names[k], values[k]);
     std::vector<double> par(count + static_cast<std::size_t>(solver.constants));
     if (values.empty())
         std::copy_n(solver.parameter_values, count, par.begin());

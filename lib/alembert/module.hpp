@@ -75,7 +75,8 @@ private:
 Module load(const std::filesystem::path& object);
 
 /// The array `par` of the ABI: `values` (the scene's own if empty) followed by the constants that `prepare`
-/// computes from them. Throws std::invalid_argument if there are too many or too few values.
+/// computes from them. Throws std::invalid_argument if there are too many or too few values, and for one
+/// that is not finite.
 std::vector<double> prepared(const Module& module, const std::vector<double>& values = {});
 
 }  // namespace alembert
