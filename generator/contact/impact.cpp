@@ -92,9 +92,10 @@ private:
     }
 
     void find_contacts(Impact& result) const {
+        const std::vector<double> sizes = sizes_of_terms(program_, result.start.state());
         for (std::size_t u = 0; u < m_.unilateral.size(); ++u) {
             const Eigen::Index at = first_of(u);
-            double size = size_of_terms(program_, nodes_[at], value_);
+            double size = sizes[nodes_[at]];
             for (int i = 0; i < m_.size(); ++i) size += std::abs(wanted(at + 3 + i) * result.start.q[i]);
             const double gap = wanted(at);
             if (gap < -tolerance::closed_gap * size)
@@ -108,10 +109,10 @@ private:
 
     void find_broken(Impact& result) const {
         const std::vector<int> velocity = program_.nodes_of(Group::velocity);
-        const std::vector<double> rounded = rounding_errors(program_, result.start.state());
+        const std::vector<double> rounded = rounding_errors(program_, result.start.state()),
+                                  sizes = sizes_of_terms(program_, result.start.state());
         for (std::size_t k = 0; k < velocity.size(); ++k)
-            if (std::abs(value_[velocity[k]]) >
-                tolerance::closed_gap * size_of_terms(program_, velocity[k], value_) + rounded[velocity[k]])
+            if (std::abs(value_[velocity[k]]) > tolerance::closed_gap * sizes[velocity[k]] + rounded[velocity[k]])
                 result.imposed.push_back(m_.constraints[k].name);
     }
 

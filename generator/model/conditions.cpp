@@ -162,12 +162,18 @@ void add_constraint(Building& here, const ConstraintRule& rule, int index) {
     here.translator.know(multiplier, here.m.constraints.back().multiplier);
 }
 
-// Checks a direction in which no coordinate moves the bodies relative to each other.
-void need_closed(Building& here, const Joint& joint, const ex& value, int k) {
-    const bool moves = here.m.z->depends(value, {here.m.t}) &&
-                       !is_identically_zero(here.m.explicit_time_derivative({value})[0], here.m);
-    const double gap = moves ? std::nan("") : here.places.number(value);
-    if (std::abs(gap) <= tolerance::initial_values) return;
+// Checks a direction in which no coordinate moves the bodies relative to each other: its value is that at the
+// start.
+void need_closed(Building& here, const Joint& joint, const ClosingRow& row, int k) {
+    const bool moves = here.m.z->depends(row.value, {here.m.t}) &&
+                       !is_identically_zero(here.m.explicit_time_derivative({row.value})[0], here.m);
+    std::vector<ex> wanted{row.value};
+    wanted.insert(wanted.end(), row.lengths.begin(), row.lengths.end());
+    const std::vector<double> numbers = here.places.numbers_at_start(wanted);
+    const double gap = moves ? std::nan("") : numbers[0];
+    double size = 0;
+    for (std::size_t i = 1; i < numbers.size(); ++i) size += std::abs(numbers[i]);
+    if (std::abs(gap) <= tolerance::initial_values * std::max(1.0, size)) return;
     throw SceneMistake{
         {joint.name.place,
          say("joint '{}' cannot close: in its locked direction {} (translations x, y, z, then rotations, "
@@ -184,7 +190,7 @@ void close(Building& here, const Joint& joint, int index) {
             here.m.z->pull_back({{row.value, 1}}, row.holonomic ? here.m.q : here.m.qdot);
         if (std::all_of(slopes.begin(), slopes.end(),
                         [&](const ex& e) { return is_identically_zero(e, here.m); })) {
-            if (row.holonomic) need_closed(here, joint, row.value, k);
+            if (row.holonomic) need_closed(here, joint, row, k);
             here.m.identities.push_back(name);
             here.translator.know(multiplier, 0);
             continue;

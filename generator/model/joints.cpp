@@ -185,10 +185,13 @@ int point_by(const Joint& joint, Places& places) {
 std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places) {
     Intermediates& z = places.z();
     const Orientation J = axes_of(joint.parent, places), K = axes_of(joint.child, places);
-    const Vector3 d = minus(point_of(joint.child, places), point_of(joint.parent, places), z);
+    const Vector3 here = point_of(joint.child, places), there = point_of(joint.parent, places);
+    const Vector3 d = minus(here, there, z);
+    std::vector<ex> lengths(here.begin(), here.end());
+    lengths.insert(lengths.end(), there.begin(), there.end());
     const auto in_J = [&](const Vector3& v) { return J.to_inertial(v, z); };
     std::vector<ClosingRow> rows;
-    const auto shift = [&](const Vector3& e) { rows.push_back({true, dot(d, in_J(e), z)}); };
+    const auto shift = [&](const Vector3& e) { rows.push_back({true, dot(d, in_J(e), z), lengths}); };
     const auto turn = [&](const Vector3& e, const Vector3& a) {
         rows.push_back({true, dot(K.to_inertial(a, z), in_J(cross(e, a, z)), z)});
     };

@@ -37,6 +37,7 @@ JointArc arc_of(const Joint& joint, Places& places);
 struct ClosingRow {
     bool holonomic;
     GiNaC::ex value;
+    std::vector<GiNaC::ex> lengths = {};  ///< whose sizes a distance comes from; none for the cosine of an angle
 };
 
 /// The rows that close the loop, as many as locked_directions(joint.type).

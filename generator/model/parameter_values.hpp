@@ -22,6 +22,17 @@ public:
                         known_[p.symbol] = value;
     }
 
+    /// Adds the state at the start, and what intermediate symbols are there; expressions in these are numbers
+    /// then.
+    void add_start(const Mechanism& m) {
+        for (int i = 0; i < m.size(); ++i) {
+            add(m.q[i], m.q_start[i]);
+            add(m.qdot[i], m.qdot_start[i]);
+        }
+        add(m.t, m.run.start.value_or(0));
+        for (const Intermediates::Entry& entry : m.z->entries()) add(entry.symbol, entry.definition);
+    }
+
     /// NaN if `e` is not a real number or depends on more than parameters.
     double number(const GiNaC::ex& e) const {
         const GiNaC::ex value = in_numbers(e);
@@ -31,6 +42,10 @@ public:
     }
 
 private:
+    void add(const GiNaC::symbol& symbol, const GiNaC::ex& e) {
+        if (const GiNaC::ex value = in_numbers(e); GiNaC::is_a<GiNaC::numeric>(value)) known_[symbol] = value;
+    }
+
     GiNaC::ex in_numbers(const GiNaC::ex& e) const {
         return e.subs(known_, GiNaC::subs_options::no_pattern).evalf();
     }

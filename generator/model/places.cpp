@@ -77,6 +77,14 @@ double Places::number(const ex& e) const {
     return ParameterValues(m_).number(m_.z->expand(e));
 }
 
+std::vector<double> Places::numbers_at_start(const std::vector<ex>& values) const {
+    ParameterValues at_start(m_);
+    at_start.add_start(m_);
+    std::vector<double> numbers;
+    for (const ex& value : values) numbers.push_back(at_start.number(value));
+    return numbers;
+}
+
 const Joint* Places::joint_of(const std::string& name) const {
     for (const Body& body : scene_.bodies)
         if (body.name.text == name) return body.joint ? &scene_.joints[*body.joint] : nullptr;

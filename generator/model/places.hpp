@@ -52,6 +52,8 @@ public:
     GiNaC::ex rate(const GiNaC::ex& value) { return m_.time_derivative({value})[0]; }
     /// The value of an expression at the scene's parameters.
     double number(const GiNaC::ex& e) const;
+    /// The values at the scene's parameters and its initial state.
+    std::vector<double> numbers_at_start(const std::vector<GiNaC::ex>& values) const;
     Intermediates& z() { return *m_.z; }
 
     /// The frames and points that have been asked for so far, as steps; `point` finds one by its name.

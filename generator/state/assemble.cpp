@@ -99,7 +99,7 @@ private:
             const Eigen::VectorXd step = change.x;
             for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
         }
-        const std::vector<double> value = interpret(p_, start_.state());
+        const std::vector<double> value = interpret(p_, start_.state()), size = sizes_of_terms(p_, start_.state());
         for (std::size_t k = 0; k < speeds.size(); ++k) {
             const double misfit = std::abs(value[speeds[k]] - start_.speeds[k]);
             double row = 0,
@@ -109,9 +109,7 @@ private:
                 largest = std::max(largest, std::abs(start_.qdot[j]));
             }
             const double rounding = 64 * std::numeric_limits<double>::epsilon() * row * largest;
-            if (!(misfit <=
-                  tolerance::initial_values * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k])) +
-                      rounding))
+            if (!(misfit <= tolerance::initial_values * (size[speeds[k]] + std::abs(start_.speeds[k])) + rounding))
                 throw ModelError(
                     say("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
                         "constraints leave it off by {:.6g} at these coordinates",
@@ -182,12 +180,17 @@ private:
     }
 
     void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed) const {
-        const std::vector<double> value = interpret(p_, start_.state()),
-                                  rounded = rounding_errors(p_, start_.state());
+        const State<double> state = start_.state();
+        const std::vector<double> value = interpret(p_, state);
+        std::vector<double> size, rounded;  // computed when the terms that are left do not suffice
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= tolerance::initial_values * size_of_terms(p_, nodes[k], value) + rounding(k, x, value) +
-                              rounded[nodes[k]])
+            if (misfit <= tolerance::initial_values * size_of_terms(p_, nodes[k], value)) continue;
+            if (size.empty()) {
+                size = sizes_of_terms(p_, state);
+                rounded = rounding_errors(p_, state);
+            }
+            if (misfit <= tolerance::initial_values * size[nodes[k]] + rounding(k, x, value) + rounded[nodes[k]])
                 continue;
             if (!std::isfinite(misfit))
                 throw ModelError(

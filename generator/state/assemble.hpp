@@ -37,7 +37,8 @@ std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, cons
 /// stand.
 Start admissible_start(const Mechanism& mechanism);
 
-/// The sum of the sizes of the terms of a node, relative to which its value is judged.
+/// The sum of the sizes of the terms of a node as they are after what is within them has cancelled; constraints
+/// are judged by those before (program/rounding.hpp).
 double size_of_terms(const Program& program, int node, const std::vector<double>& value);
 
 }  // namespace alembert

@@ -12,6 +12,7 @@
 #include "alembert/tolerances.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
+#include "program/rounding.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -111,7 +112,7 @@ bool LeftOut::has_other_parameters(const Start& start) const {
 
 void LeftOut::check_position(const State<double>& state) const {
     const Program& p = both_->program;
-    const std::vector<double> value = interpret(p, state);
+    const std::vector<double> value = interpret(p, state), size = sizes_of_terms(p, state);
     const std::vector<int> nodes = p.nodes_of(Group::position), rows = p.nodes_of(Group::row);
     for (int k = both_->count_kept; k < both_->count; ++k) {
         const int node = nodes[static_cast<std::size_t>(k)];
@@ -120,14 +121,15 @@ void LeftOut::check_position(const State<double>& state) const {
             row +=
                 std::abs(value[static_cast<std::size_t>(rows[static_cast<std::size_t>(k) * state.q.size() + i])]);
         const double misfit = std::abs(value[static_cast<std::size_t>(node)]);
-        if (misfit > looser * tolerance::initial_values * (size_of_terms(p, node, value) + row * size_of(state.q)))
+        if (misfit >
+            looser * tolerance::initial_values * (size[static_cast<std::size_t>(node)] + row * size_of(state.q)))
             refuse(k, misfit);
     }
 }
 
 void LeftOut::check_row(const State<double>& state) const {
     const Program& p = both_->program;
-    const std::vector<double> value = interpret(p, state);
+    const std::vector<double> value = interpret(p, state), sizes = sizes_of_terms(p, state);
     const std::vector<int> rows = p.nodes_of(Group::row), rates = p.nodes_of(Group::velocity);
     const auto n = static_cast<Eigen::Index>(state.q.size());
     Eigen::MatrixXd A(both_->count, n);
@@ -140,7 +142,7 @@ void LeftOut::check_row(const State<double>& state) const {
             carried += A(k, i) * state.qdot[static_cast<std::size_t>(i)];
         }
         drift[k] = value[static_cast<std::size_t>(node)] - carried;
-        size[k] = size_of_terms(p, node, value);
+        size[k] = sizes[static_cast<std::size_t>(node)];
     }
     if (!A.allFinite() || !drift.allFinite()) return;  // a pole, of which others tell
     const Eigen::MatrixXd kept = A.topRows(both_->count_kept);
