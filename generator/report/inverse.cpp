@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/inverse.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "language/say.hpp"
@@ -14,7 +16,14 @@ Json as_json(const InverseLoads& needed) {
     result["coordinates"] = by_name(needed.coordinates, needed.q);
     result["rates"] = by_name(needed.coordinates, needed.rates);
     result["accelerations"] = by_name(needed.coordinates, needed.accelerations);
-    result["loads"] = by_name(needed.coordinates, needed.loads);
+    result["loads"] = needed.given_in_speeds ? by_name(needed.speeds, needed.speed_loads)
+                                             : by_name(needed.coordinates, needed.loads);
+    if (!needed.speeds.empty()) {
+        result["speeds"] = by_name(needed.speeds, needed.speed_values);
+        result["speed_rates"] = by_name(needed.speeds, needed.speed_rates);
+        result["coordinate_loads"] = by_name(needed.coordinates, needed.loads);
+        if (!needed.speed_loads.empty()) result["speed_loads"] = by_name(needed.speeds, needed.speed_loads);
+    }
     result["multipliers"] = Json::object();
     for (const auto& [name, value] : needed.multipliers) result["multipliers"][name] = value;
     return result;
@@ -22,13 +31,20 @@ Json as_json(const InverseLoads& needed) {
 
 std::string as_text(const InverseLoads& needed) {
     std::size_t width = 16;
-    for (const std::string& name : needed.coordinates) width = std::max(width, name.size() + 1);
+    for (const auto* names : {&needed.coordinates, &needed.speeds})
+        for (const std::string& name : *names) width = std::max(width, name.size() + 1);
     std::string page;
     put(page, "t = {:.6g}\n\n{:<{}}{:>24}{:>24}{:>24}{:>24}\n", needed.time, "", width, say("value"), say("rate"),
         say("acceleration"), say("load"));
     for (std::size_t i = 0; i < needed.coordinates.size(); ++i)
         put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", needed.coordinates[i], width, needed.q[i],
             needed.rates[i], needed.accelerations[i], needed.loads[i]);
+    if (!needed.speeds.empty())
+        put(page, "\n{:<{}}{:>24}{:>24}{:>24}\n", "", width, say("value"), say("rate"), say("load"));
+    for (std::size_t k = 0; k < needed.speeds.size(); ++k)
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24}\n", needed.speeds[k], width, needed.speed_values[k],
+            needed.speed_rates[k],
+            needed.speed_loads.empty() ? std::string("-") : fmt::format("{:.16g}", needed.speed_loads[k]));
     for (std::size_t k = 0; k < needed.multipliers.size(); ++k)
         put(page, "{}{} = {:.16g}\n", k == 0 ? "\n" : "", needed.multipliers[k].first,
             needed.multipliers[k].second);

@@ -14,6 +14,7 @@
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
 #include "run/given_accelerations.hpp"
+#include "run/inverse_speeds.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -88,7 +89,7 @@ Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& gi
 
 /// The case in which all accelerations are known: the loads of least norm that produce them together with the
 /// constraint forces.
-Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
+Loads all_given(const Affine& s, const Eigen::VectorXd& a, const std::vector<std::string>& constraints) {
     for (Eigen::Index k = 0; k < s.A.rows(); ++k) {
         const double size = std::abs(s.gamma[k]) + s.A.row(k).cwiseAbs().dot(a.cwiseAbs()),
                      off = s.A.row(k).dot(a) - s.gamma[k];
@@ -96,8 +97,7 @@ Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
             throw ModelError(
                 say("the accelerations given break constraint '{}', by {:.3g}; give those of as many "
                     "coordinates as there are degrees of freedom, {}, and the others follow",
-                    m.constraints[static_cast<std::size_t>(k)].name, off,
-                    m.size() - static_cast<int>(m.constraints.size())));
+                    constraints[static_cast<std::size_t>(k)], off, s.M.rows() - s.A.rows()));
     }
     const Eigen::VectorXd whole = s.M * a + s.minus_f;
     const Eigen::VectorXd lambda =
@@ -105,36 +105,92 @@ Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
     return {a, s.A.rows() > 0 ? Eigen::VectorXd(whole - s.A.transpose() * lambda) : whole, lambda};
 }
 
-Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given, const Mechanism& m,
-                const Start& start) {
+Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given,
+                const std::vector<std::string>& constraints, const Start& start) {
     const auto n = given.size(), count = static_cast<std::size_t>(std::count_if(
                                      given.begin(), given.end(), [](const auto&a) { return a.has_value(); }));
-    const std::size_t freedom = n - m.constraints.size();
-    if (!m.constraints.empty() && count > 0 && count <= freedom && count < n)
+    const std::size_t freedom = n - constraints.size();
+    if (!constraints.empty() && count > 0 && count <= freedom && count < n)
         return partly_given(s, given, start.t, start.q);
-    if (!m.constraints.empty() && count > 0 && count < n)
+    if (!constraints.empty() && count > 0 && count < n)
         throw ModelError(
             say("the accelerations of {} coordinates are given; expected those of {} or fewer, the "
                 "degrees of freedom, or of all {}",
                 count, freedom, n));
     Eigen::VectorXd a = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
-    if (count == 0 && !m.constraints.empty())
+    if (count == 0 && !constraints.empty())
         a = least_norm(s.A, s.gamma).x;  // the accelerations of least norm that the constraints allow
     for (std::size_t j = 0; j < n; ++j)
         if (given[j]) a[static_cast<Eigen::Index>(j)] = *given[j];
-    return all_given(s, a, m);
+    return all_given(s, a, constraints);
+}
+
+std::vector<std::string> names_of_constraints(const Mechanism& m) {
+    std::vector<std::string> names;
+    for (const Mechanism::Constraint& c : m.constraints) names.push_back(c.name);
+    return names;
+}
+
+bool is_any_given(const std::vector<std::optional<double>>& given) {
+    return std::any_of(given.begin(), given.end(), [](const auto& a) { return a.has_value(); });
+}
+
+/// The rates of speeds and the loads along them, then both along coordinates: q'' = H u' + h, Q = Hᵀ τ, τ = Wᵀ Q.
+Loads loads_in_speeds(const Affine& s, const SpeedsAt& speeds, const std::vector<std::optional<double>>& given,
+                      const Mechanism& m, const Start& start) {
+    const auto kept = static_cast<Eigen::Index>(speeds.kept.size());
+    Affine own{.M = speeds.H.transpose() * s.M * speeds.H,
+               .A = Eigen::MatrixXd(kept, speeds.H.cols()),
+               .minus_f = speeds.H.transpose() * (s.M * speeds.h + s.minus_f),
+               .gamma = Eigen::VectorXd(kept)};
+    std::vector<std::string> names;
+    for (Eigen::Index k = 0; k < kept; ++k) {
+        const Eigen::Index constraint = speeds.kept[static_cast<std::size_t>(k)];
+        own.A.row(k) = s.A.row(constraint) * speeds.H;
+        own.gamma[k] = s.gamma[constraint] - s.A.row(constraint).dot(speeds.h);
+        names.push_back(m.constraints[static_cast<std::size_t>(constraint)].name);
+    }
+    const Loads along = loads_for(own, given, names, start);
+    Loads result{speeds.H * along.acceleration + speeds.h, speeds.W.transpose() * along.load, {}};
+    if (s.A.rows() > 0)
+        result.multiplier = least_norm(s.A.transpose(), s.M * result.acceleration + s.minus_f - result.load).x;
+    return result;
+}
+
+void add_speeds(InverseLoads& result, const SpeedsAt& speeds, const Loads& loads, const Mechanism& m) {
+    for (const Mechanism::Speed& speed : m.speeds) result.speeds.push_back(speed.u.get_name());
+    const Eigen::VectorXd rates = speeds.W * loads.acceleration + speeds.rest;
+    result.speed_values.assign(speeds.value.begin(), speeds.value.end());
+    result.speed_rates.assign(rates.begin(), rates.end());
+    if (!speeds.determine()) return;
+    const Eigen::VectorXd along = speeds.H.transpose() * loads.load;
+    result.speed_loads.assign(along.begin(), along.end());
 }
 
 }  // namespace
 
 InverseLoads inverse(Scene scene, const InverseOptions& options) {
-    const Overrides at = without_accelerations(options.at);
+    Overrides at = options.at;
+    const std::vector<std::optional<double>> given_speeds = take_speed_rates(at, scene);
+    const bool in_speeds = is_any_given(given_speeds);
+    at = without_accelerations(std::move(at));
     InverseLoads result{derived(std::move(scene), {.by = options.by, .use = Use::asked, .at = at})};
     const Mechanism& m = result.mechanism;
     const std::vector<std::optional<double>> given = given_accelerations(options.at, m);
     Start start = start_of(m, at);
     assemble(start, m, lower_constraints(m), at);
-    const Loads loads = loads_for(affine(lower_inverse(m), start.state()), given, m, start);
+    const Affine s = affine(lower_inverse(m), start.state());
+    std::optional<SpeedsAt> speeds;
+    if (!m.speeds.empty()) speeds = speeds_at(m, start.state(), s.A, s.gamma);
+    if (in_speeds && is_any_given(given))
+        throw ModelError(
+            say("accelerations of coordinates and rates of speeds are given; expected those of one kind"));
+    if (in_speeds && !speeds->determine())
+        throw IntegrationError(say("the speeds do not determine the rates at these coordinates; give the "
+                                   "accelerations of coordinates"),
+                               start.t, start.q);
+    const Loads loads = in_speeds ? loads_in_speeds(s, *speeds, given_speeds, m, start)
+                                  : loads_for(s, given, names_of_constraints(m), start);
     if (!loads.load.allFinite() || !loads.acceleration.allFinite())
         throw IntegrationError(say("there are no finite loads at t = {:.6g}", start.t), start.t, start.q);
     result.time = start.t;
@@ -146,6 +202,8 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
     for (std::size_t k = 0; k < m.constraints.size(); ++k)
         result.multipliers.emplace_back(m.constraints[k].multiplier.get_name(),
                                         loads.multiplier[static_cast<Eigen::Index>(k)]);
+    result.given_in_speeds = in_speeds;
+    if (speeds) add_speeds(result, *speeds, loads, m);
     return result;
 }
 
