@@ -66,7 +66,8 @@ std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const
 }  // namespace
 
 DerivedScene derive(Scene scene, const ShowOptions& options) {
-    DerivedScene d{derived(std::move(scene), {.by = options.by, .on_sheets = true})};
+    DerivedScene d{
+        derived(std::move(scene), {.by = options.by, .on_sheets = true, .coordinates = Coordinates::optional})};
     const bool independent = !options.by.empty() && formalism(options.by).independent;
     d.has_unilateral_reactions = !d.mechanism.unilateral.empty() && !independent;
     if (d.has_unilateral_reactions)

@@ -30,6 +30,7 @@ namespace {
 /// The equations by the formalism of that name; without a name, by the one that a teacher would choose.
 Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     if (!name.empty()) return formalism(name).derive(mechanism);
+    if (mechanism.q.empty()) return equations_without_terms("lagrange", with_own_intermediates(mechanism));
     if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism))
         return formalism("kane").derive(mechanism);
     return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
@@ -107,7 +108,7 @@ std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechan
 
 Derived derived(Scene scene, const DeriveOptions& options) {
     const double start = process_seconds();
-    Derived d{prepared(std::move(scene), options.at, options.on_sheets)};
+    Derived d{prepared(std::move(scene), options.at, options.on_sheets, options.coordinates)};
     d.by = options.by;
     refuse_touching(d.mechanism);
     const std::vector<int> redundant = redundant_constraints(d.mechanism);

@@ -24,6 +24,7 @@ struct DeriveOptions {
     bool reactions = false;  ///< whether the reaction of each constraint along each coordinate becomes an output
     Overrides at = {};       ///< the values at which the bodies are checked
     bool on_sheets = false;  ///< whether roots of squares are on the sheet of the initial state
+    Coordinates coordinates = Coordinates::needed;
 };
 
 /// The output of the mechanism that is the reaction of a constraint along a coordinate.

@@ -183,7 +183,7 @@ void find_jacobians(SceneKinematics& s, const State<double>& state) {
 
 SceneKinematics kinematics(Scene scene, const KinematicsOptions& options) {
     const Overrides at = without_accelerations(options.at);
-    SceneKinematics s{prepared(std::move(scene), at)};
+    SceneKinematics s{prepared(std::move(scene), at, false, Coordinates::optional)};
     check_names(options.of, s.scene);
     const auto is_wanted = [&](const std::string& name) {
         return options.of.empty() || std::find(options.of.begin(), options.of.end(), name) != options.of.end();

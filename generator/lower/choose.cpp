@@ -210,7 +210,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
                 // rates these are.
             }
         }
-    if (programs.size() == before && !has_matrix)
+    if (programs.size() == before && !has_matrix && equations.size() > 0)
         throw ModelError(
             say("no inertia resists some motion of the joints; give every body a mass and moments of inertia"));
     if (programs.size() == before) programs.push_back({lower(m, equations, energy, options)});

@@ -285,7 +285,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
                                  constraint.position ? lowering(*constraint.position) : program.number(0)});
         program.roots.push_back({Group::velocity, constraint.name, program.sum(0, velocity)});
     }
-    if (!has_matrix && !by_tree.acceleration)
+    if (n > 0 && !has_matrix && !by_tree.acceleration)
         throw ModelError(say(
             "the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'"));
     const Witness witness = has_matrix ? witness_of(program, m, equations, mass, options.admissible) : Witness();
@@ -300,7 +300,9 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     const std::optional<NormalForces::Solution> rubbing =
         normal_forces.any() ? normal_forces.solve(lowering, program, mass, forcing) : std::nullopt;
     std::optional<std::vector<int>> solution;
-    if (alone)
+    if (n == 0)
+        solution.emplace();
+    else if (alone)
         solution = by_tree.acceleration;
     else if (rubbing)
         solution = rubbing->unknowns;

@@ -132,6 +132,19 @@ Json as_json(const DerivedScene& d) {
     return result;
 }
 
+std::string words_before_equations(const DerivedScene& d) {
+    if (d.mechanism.q.empty()) return say("The scene has no coordinates: nothing in it moves.");
+    const bool free =
+        d.mechanism.constraints.size() == (d.has_unilateral_reactions ? d.mechanism.unilateral.size() : 0);
+    return say("Equations of motion ({}{}):", d.shown.title,
+               !d.by.empty()                     ? ""
+               : !d.equations.speeds_are_rates() ? say("; the scene has generalized speeds")
+               : free && d.has_unilateral_reactions
+                   ? say("; the coordinates are independent while all gaps are open")
+               : free ? say("; the coordinates are independent")
+                      : say("; the coordinates are not independent"));
+}
+
 std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with_steps) {
     const Derivation& shown = d.shown;
     std::vector<Block> blocks;
@@ -148,19 +161,10 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
     } else if (with_steps) {
         for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
     }
-    const bool free =
-        d.mechanism.constraints.size() == (d.has_unilateral_reactions ? d.mechanism.unilateral.size() : 0);
     if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
     for (const auto& [speed, form] : shown.speeds)
         blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
-    blocks.push_back({say("Equations of motion ({}{}):", shown.title,
-                          !d.by.empty()                     ? ""
-                          : !d.equations.speeds_are_rates() ? say("; the scene has generalized speeds")
-                          : free && d.has_unilateral_reactions
-                              ? say("; the coordinates are independent while all gaps are open")
-                          : free ? say("; the coordinates are independent")
-                                 : say("; the coordinates are not independent")),
-                      {}});
+    blocks.push_back({words_before_equations(d), {}});
     for (const ReadableEquation& e : shown.equations)
         blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
     if (!shown.abbreviations.empty()) {

@@ -137,16 +137,11 @@ std::vector<double> values_of(const Regressor& y, const Mechanism& mechanism, co
     return values;
 }
 
-void refuse_unsuitable(const Mechanism& m) {
-    if (m.q.empty()) throw ModelError(say("the scene has no coordinates, so that no motion shows its masses"));
-}
-
 }  // namespace
 
 Identification identify(Scene scene) {
     Identification result{prepared(std::move(scene))};
     const Mechanism& m = result.mechanism;
-    refuse_unsuitable(m);
     const Regressor y = regressor(result.scene, m, false);
     const std::vector<std::size_t> order = order_of(y.columns);
     const RegressorColumns columns(y, order, m);

@@ -179,7 +179,7 @@ std::optional<std::string> text_of(const Mechanism& m, const Entry& entry, const
 }  // namespace
 
 SceneInertia inertia(Scene scene, const InertiaOptions& options) {
-    SceneInertia result{prepared(std::move(scene), options.at)};
+    SceneInertia result{prepared(std::move(scene), options.at, false, Coordinates::optional)};
     const std::vector<const MassElement*> elements = chosen(result, options.of);
     for (const MassElement* e : elements) result.of.push_back(name_of(result.scene, e->origin));
     result.about = options.about;

@@ -38,7 +38,7 @@ std::vector<double> values_of(const Program& program, const std::vector<double>&
 /// The accelerations at a state, or the reason why there are none.
 std::vector<double> accelerations_at(const Derived& d, const Program& program, const State<double>& state) {
     std::vector<double> result = values_of(program, interpret(program, state), Group::acceleration);
-    if (massless_combination(program, state) ||
+    if ((!state.q.empty() && massless_combination(program, state)) ||
         !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
         throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", state.t,
                                    failure_at(d, state).value_or(say("the numbers overflow"))),
@@ -70,8 +70,11 @@ std::vector<double> reactions_without_rounding(const Program& program, const Sta
 }  // namespace
 
 Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
-    Evaluation e{derived(std::move(scene),
-                         {.by = options.by, .use = Use::asked, .reactions = options.reactions, .at = options.at})};
+    Evaluation e{derived(std::move(scene), {.by = options.by,
+                                            .use = Use::asked,
+                                            .reactions = options.reactions,
+                                            .at = options.at,
+                                            .coordinates = Coordinates::optional})};
     Start start = start_of(e.mechanism, options.at);
     e.adjusted = assemble(start, e.mechanism, lower_constraints(e.mechanism), options.at);
     State<double> state = state_of(start, e.mechanism, e.equations);

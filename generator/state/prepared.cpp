@@ -74,10 +74,14 @@ std::optional<std::string> warning_of_moving_places(const Prepared& p) {
 
 }  // namespace
 
-Prepared prepared(Scene scene, const Overrides& at, bool on_sheets) {
+Prepared prepared(Scene scene, const Overrides& at, bool on_sheets, Coordinates coordinates) {
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
     if (!result.scene.warnings.empty()) result.warn(describe(result.scene, result.scene.warnings));
     OnSheets built = on_sheets ? build_on_sheets(result.scene) : OnSheets{build(result.scene), nullptr};
+    if (built.mechanism.q.empty() && coordinates == Coordinates::needed)
+        throw ModelError(
+            say("the scene has no coordinates, so that nothing in it moves; eval --reactions and derive "
+                "--reactions give what its joints bear"));
     result.mechanism = with_regular_constraints(with_regular_rows(std::move(built.mechanism)));
     if (auto warning = warning_of_squares(result)) result.warn(*std::move(warning));
     if (auto warning = warning_of_moving_places(result)) result.warn(*std::move(warning));

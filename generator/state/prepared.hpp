@@ -30,12 +30,17 @@ struct Prepared {
     void warn(std::string warning);
 };
 
+/// Whether a scene without coordinates, bodies that are welded, will do.
+enum class Coordinates { needed, optional };
+
 /// Builds the mechanism and checks the bodies at the scene's values, some of which `at` replaces. A moment of
 /// inertia that breaks the triangle inequality is a warning. Throws SceneError for a mistake in the scene, and for
 /// a mass or a principal moment that is negative at these values; ModelError for a name in `at` that the scene
 /// does not have. With `on_sheets`, roots of squares are on the sheet of the initial state
-/// (model/root_sheets.hpp).
-Prepared prepared(Scene scene, const Overrides& at = {}, bool on_sheets = false);
+/// (model/root_sheets.hpp). Throws ModelError for a scene without coordinates where they are
+/// needed.
+Prepared prepared(Scene scene, const Overrides& at = {}, bool on_sheets = false,
+                  Coordinates coordinates = Coordinates::needed);
 
 /// Only the check of the bodies, at other values. Returns the warnings; throws like `prepared`.
 std::vector<std::string> check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& at);
