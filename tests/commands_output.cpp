@@ -184,4 +184,58 @@ TEST_CASE(
     CHECK(contains(missing.err, "there is no folder"));
 }
 
+TEST_CASE(
+    "output: a name that promises another format is refused before the work begins, by every verb that writes") {
+    const Place place;
+    const std::string scene = place.scene.string(), hoop = source_path("scenes/textbook/rotating_hoop.toml");
+    struct Case {
+        std::vector<std::string> words;
+        std::vector<std::string> right, wrong;
+    };
+    const std::vector<std::string> pictures{"x.svg", "x.SVG", "x"},
+        no_pictures{"x.png", "x.pdf", "x.jpg", "x.csv"}, tables{"x.csv", "x.txt", "x.dat", "x.npz", "x"},
+        no_tables{"x.svg", "x.json", "x.xlsx", "x.mat", "x.npy", "x.html"}, plain{"x.csv", "x.txt"},
+        no_plain{"x.npz", "x.h5", "x.png"}, pages{"x.html", "x.htm"}, no_pages{"x.pdf", "x.md"};
+    const std::vector<std::string> follow{"equilibrium", hoop, "--follow", "Omega=1:5"},
+        locus{"stability", hoop, "--at", "theta=0", "--locus", "Omega=1:5:4"};
+    const auto with = [](std::vector<std::string> words, const char* option) {
+        words.emplace_back(option);
+        return words;
+    };
+    const Case cases[] = {
+        {{"simulate", scene, "--plot"}, pictures, no_pictures},
+        {{"simulate", scene, "-o"}, tables, no_tables},
+        {{"sweep", scene, "--vary", "x=1:2:2", "--svg"}, pictures, no_pictures},
+        {{"sweep", scene, "--vary", "x=1:2:2", "-o"}, tables, no_tables},
+        {{"derive", scene, "--draw"}, pictures, no_pictures},
+        {with(follow, "--svg"), {"x.svg"}, no_pictures},
+        {with(follow, "-o"), plain, no_plain},
+        {with(locus, "--svg"), {"x.svg"}, no_pictures},
+        {with(locus, "-o"), plain, no_plain},
+        {{"bench", scene, "--method", "rk4", "--csv"}, {}, no_plain},
+        {{"bench", scene, "--method", "rk4", "--svg"}, {}, no_pictures},
+        {{"linearize", hoop, "--along", "--duration", "0.1", "-o"}, plain, no_plain},
+        {{"report", scene, "--no-motion", "-o"}, pages, no_pages},
+        {{"fmu", scene, "-o"}, {"x.fmu"}, {"x.zip", "x"}},
+        {{"import", source_path("tests/robots/torso.urdf"), "-o"}, {"x.toml"}, {"x.json", "x.xml"}},
+    };
+    for (const Case& one : cases) {
+        CAPTURE(one.words[0]);
+        CAPTURE(one.words.back());
+        for (const auto& [names, is_right] : {std::pair{one.right, true}, std::pair{one.wrong, false}})
+            for (const std::string& name : names) {
+                CAPTURE(name);
+                const fs::path file = place.folder / name;
+                fs::remove(file);
+                const Run result = run(with(one.words, file.c_str()));
+                CAPTURE(result.err);
+                CHECK(result.exit == (is_right ? 0 : 3));
+                CHECK(fs::exists(file) == is_right);
+                if (is_right) continue;
+                CHECK(contains(result.err, name));
+                CHECK(result.out.empty());
+            }
+    }
+}
+
 }  // namespace commands_output

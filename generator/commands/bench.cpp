@@ -18,7 +18,8 @@ struct BenchVerb : SceneOptions {
 };
 
 int run(const BenchVerb& verb) {
-    for (const std::string& file : {verb.csv, verb.svg}) check_output(file, {verb.scene});
+    check_output(verb.csv, FileForm::csv, {verb.scene});
+    check_output(verb.svg, FileForm::picture, {verb.scene});
     BenchOptions options = verb.options;
     options.wishes.by = verb.by;
     Progress progress;

@@ -18,7 +18,7 @@ struct DeriveVerb : SceneOptions {
 };
 
 int run(const DeriveVerb& options) {
-    check_output(options.draw, {options.scene});
+    check_output(options.draw, FileForm::picture, {options.scene});
     const DerivedScene d = derive(scene_of(options.scene), {.by = options.by, .reactions = options.reactions});
     warn(d.warnings);
     if (!options.draw.empty()) write_file(options.draw, figure_of(d.scene), {options.scene});

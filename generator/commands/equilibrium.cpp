@@ -66,8 +66,8 @@ int follow(const EquilibriumVerb& verb) {
 }
 
 int run(const EquilibriumVerb& verb) {
-    check_output(verb.output, {verb.scene});
-    check_output(verb.svg, {verb.scene});
+    check_output(verb.output, FileForm::csv, {verb.scene});
+    check_output(verb.svg, FileForm::picture, {verb.scene});
     if (!verb.follow.empty()) return follow(verb);
     if (!verb.output.empty() || !verb.svg.empty())
         throw ModelError(say("-o and --svg show branches; expected --follow NAME=FROM:TO with them"));

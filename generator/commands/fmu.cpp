@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/fmu.hpp"
 
-#include <filesystem>
-
 #include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
@@ -19,10 +17,7 @@ struct FmuVerb : SceneOptions {
 };
 
 int run(const FmuVerb& options) {
-    check_output(options.file, {options.scene});
-    if (std::filesystem::path(options.file).extension() != ".fmu")
-        throw ModelError(
-            say("--output {}: other tools know a unit by its ending; call it NAME.fmu", options.file));
+    check_output(options.file, FileForm::unit, {options.scene});
     const FunctionalUnit unit =
         functional_unit(scene_of(options.scene), {.by = options.by, .version = options.version == "3" ? 3 : 2});
     warn(unit.warnings);

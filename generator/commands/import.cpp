@@ -52,6 +52,7 @@ void refuse_changes(const std::string& robot, const std::vector<Robot::Dropped>&
 }
 
 int run(const ImportVerb& verb) {
+    check_output(verb.output, FileForm::scene, {verb.robot});
     const ImportedRobot imported = imported_robot(verb.robot, {.scene = verb.scene,
                                                                .others = verb.others,
                                                                .right_angles = verb.right_angles,

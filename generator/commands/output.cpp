@@ -176,6 +176,11 @@ void check_output(const std::string& path, const std::vector<std::string>& input
     if (!path.empty()) check(path, target_of(path), inputs);
 }
 
+void check_output(const std::string& path, FileForm form, const std::vector<std::string>& inputs) {
+    check_output(path, inputs);
+    need_form(path, form);
+}
+
 void write_file(const std::string& path, const std::string& text, const std::vector<std::string>& inputs) {
     write_file(
         path, [&](const PieceTaker& put) { put(text); }, inputs);

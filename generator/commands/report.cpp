@@ -35,7 +35,7 @@ std::string usual_page(const std::string& scene) {
 int run(const ReportVerb& given) {
     ReportVerb verb = given;
     if (verb.output.empty()) verb.output = usual_page(verb.scene);
-    check_output(verb.output, {verb.scene});
+    check_output(verb.output, FileForm::page, {verb.scene});
     Progress progress;
     OverviewOptions options{.by = verb.by, .wishes = verb.wishes, .moves = verb.moves};
     options.section = verb.section;

@@ -27,7 +27,8 @@ struct SimulateVerb : RunVerb {
 };
 
 int run(const SimulateVerb& verb) {
-    for (const std::string& file : {verb.output, verb.plot}) check_output(file, {verb.scene});
+    check_output(verb.output, FileForm::table, {verb.scene});
+    check_output(verb.plot, FileForm::picture, {verb.scene});
     need_table_form(verb.output);
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;

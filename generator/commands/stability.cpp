@@ -104,8 +104,8 @@ int find_exponents(const StabilityVerb& verb) {
 }
 
 int run(const StabilityVerb& verb) {
-    check_output(verb.output, {verb.scene});
-    check_output(verb.svg, {verb.scene});
+    check_output(verb.output, FileForm::csv, {verb.scene});
+    check_output(verb.svg, FileForm::picture, {verb.scene});
     need_alone(verb);
     if (!verb.exponents.empty()) return find_exponents(verb);
     if (!verb.over.empty() || !verb.locus.empty()) return draw_over(verb);

@@ -109,7 +109,8 @@ int help_first(const SweepVerb& verb, const Ranks& ranks) {
 
 /// Before the work begins: what could only fail at its end.
 void check_options(const SweepVerb& verb) {
-    for (const std::string& file : {verb.output, verb.svg}) check_output(file, {verb.scene, verb.vary_from});
+    check_output(verb.output, FileForm::table, {verb.scene, verb.vary_from});
+    check_output(verb.svg, FileForm::picture, {verb.scene, verb.vary_from});
     need_table_form(verb.output);
     asked_statistics(verb);
     if (!verb.reduce.empty() && !verb.svg.empty())

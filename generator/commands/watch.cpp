@@ -62,7 +62,7 @@ std::string page_of(const WatchVerb& verb) {
 }
 
 int run(const WatchVerb& verb) {
-    check_output(verb.output, {verb.scene});
+    check_output(verb.output, FileForm::page, {verb.scene});
     Stamp seen = stamp_of(verb.scene);
     if (!seen) read_scene(verb.scene);  // throws the reason why it cannot be read
     PageServer server(verb.port);

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/table_file.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
+#include "archive/file_form.hpp"
 #include "archive/hdf5.hpp"
 #include "report/motion_plot.hpp"
 #include "report/run.hpp"
@@ -17,8 +14,7 @@ namespace {
 enum class Form { csv, npz, hdf5 };
 
 Form form_of(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string ending = ending_of(path);
     return ending == ".npz" ? Form::npz : ending == ".h5" || ending == ".hdf5" ? Form::hdf5 : Form::csv;
 }
 
@@ -94,6 +90,7 @@ bool is_csv(const std::string& path) {
 }
 
 void need_table_form(const std::string& path) {
+    need_form(path, FileForm::table);
     if (form_of(path) == Form::hdf5) need_hdf5();
 }
 

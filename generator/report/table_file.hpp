@@ -16,7 +16,8 @@
 
 namespace alembert {
 
-/// Throws CompileError if the form is HDF5 and the program was built without it.
+/// Throws CompileError if the form is HDF5 and the program was built without it, ModelError if the name promises a
+/// form in which no table is written (archive/file_form.hpp).
 void need_table_form(const std::string& path);
 
 /// Is the form CSV, which can be written row by row?
