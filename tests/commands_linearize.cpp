@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // `linearize` as a user runs it, and the bicycle in motion against its first approximation.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <fstream>
@@ -10,14 +12,18 @@
 
 #include <Eigen/Dense>
 
+#include "files.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 
 namespace commands_linearize {
 
+using alembert::test::contents;
 using alembert::test::Json;
 using alembert::test::json_of;
+using alembert::test::number;
+using alembert::test::Run;
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -324,6 +330,157 @@ normal = "N"
     CHECK(matrix(near["matrices"]["output_state"])(0, 0) == doctest::Approx(-2.5).epsilon(1e-14));
     CHECK(matrix(near["matrices"]["output_input"])(0, 0) == doctest::Approx(0.5).epsilon(1e-14));
     CHECK(matrix(near["matrices"]["B"])(1, 0) == doctest::Approx(0.25).epsilon(1e-14));
+}
+
+namespace {
+
+/// theta'' = -g/l sin theta - d theta' + F/(m l^2)
+const std::string driven = R"toml(
+gravity = [0, "-g"]
+[parameters]
+m = 2
+l = 1.5
+g = 9.81
+d = 0.3
+[inputs]
+F = { value = "0.7*sin(2*t)" }
+[coordinates]
+theta = { initial = 0.5, rate = 0.3 }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["l*sin(theta)", "-l*cos(theta)"]
+[forces]
+theta = "F - d*m*l^2*theta'"
+[outputs]
+height = "-l*cos(theta)"
+[simulation]
+duration = 2
+)toml";
+
+}  // namespace
+
+TEST_CASE("linearize: about any state, A, B and the rest are the derivatives and the rates there") {
+    const std::string scene = temporary("driven.toml", driven);
+    const Run refused = run({"linearize", scene});
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find("--affine") != std::string::npos);
+    const Json json = json_of({"linearize", scene, "--affine", "--at", "t=0.4", "--at", "theta=0.8"});
+    const double k = 9.81 / 1.5, inertia = 2 * 1.5 * 1.5;
+    CHECK(json["motion"] == "any");
+    CHECK(json["form"] == "x' = A dx + B du + c");
+    CHECK(json["states"] == Json({"theta", "theta'"}));
+    CHECK(json["inputs"] == Json({"F"}));
+    CHECK(
+        (matrix(json["matrices"]["A"]) - (Eigen::Matrix2d() << 0, 1, -k * std::cos(0.8), -0.3).finished()).norm() <
+        1e-13);
+    CHECK((matrix(json["matrices"]["B"]) - Eigen::Vector2d(0, 1 / inertia)).norm() < 1e-14);
+    CHECK(json["x0"] == Json({0.8, 0.3}));
+    CHECK(json["c"][0].get<double>() == 0.3);
+    CHECK(json["c"][1].get<double>() ==
+          doctest::Approx(-k * std::sin(0.8) - 0.3 * 0.3 + 0.7 * std::sin(0.8) / inertia).epsilon(1e-13));
+    CHECK(matrix(json["matrices"]["output_state"])(0, 0) == doctest::Approx(1.5 * std::sin(0.8)).epsilon(1e-13));
+    CHECK(run({"linearize", scene, "--affine"}).out.find("x' = A dx + B du + c") != std::string::npos);
+    CHECK(run({"linearize", scene, "--duration", "3"}).exit == 3);  // without --along
+}
+
+TEST_CASE("linearize: a steady state is the same without and with a rest, which is zero there") {
+    const std::string hoop = source_path("scenes/textbook/rotating_hoop.toml");
+    const Json steady = json_of({"linearize", hoop, "--at", "theta=0", "--at", "theta'=0"}),
+               any = json_of({"linearize", hoop, "--affine", "--at", "theta=0", "--at", "theta'=0"});
+    CHECK(steady["matrices"]["A"] == any["matrices"]["A"]);
+    CHECK(steady["eigenvalues"] == any["eigenvalues"]);
+    CHECK(!steady.contains("c"));
+    for (const Json& rest : any["c"]) CHECK(std::abs(rest.get<double>()) < 1e-15);
+}
+
+// The derivative Φ of the end by the start obeys Φ' = A(t) Φ, here by the method of Runge and Kutta over two rows.
+TEST_CASE("linearize: A along a motion carries deviations from its start to its end") {
+    for (const char* const name : {"double_pendulum", "spherical_pendulum", "elastic_pendulum"}) {
+        CAPTURE(name);
+        const std::string scene = source_path(std::string("scenes/textbook/") + name + ".toml");
+        const Json near = json_of({"linearize", scene, "--along", "--duration", "1", "--sample", "0.0025"});
+        const Json& rows = near["along"];
+        REQUIRE(rows.size() == 401);
+        const auto size = static_cast<Eigen::Index>(near["states"].size());
+        const double h = 0.005;
+        Eigen::MatrixXd phi = Eigen::MatrixXd::Identity(size, size);
+        for (std::size_t row = 0; row + 2 < rows.size(); row += 2) {
+            const Eigen::MatrixXd A = matrix(rows[row]["A"]), B = matrix(rows[row + 1]["A"]),
+                                  C = matrix(rows[row + 2]["A"]);
+            const Eigen::MatrixXd k1 = A * phi, k2 = B * (phi + h / 2 * k1), k3 = B * (phi + h / 2 * k2),
+                                  k4 = C * (phi + h * k3);
+            phi += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+        }
+        std::string names;
+        for (const Json& state : near["states"]) names += (names.empty() ? "" : ",") + state.get<std::string>();
+        const Json told = json_of(
+            {"simulate", scene, "--duration", "1", "--tolerance", "1e-12", "--sensitivity", names})["sensitivity"];
+        REQUIRE(told["of"] == near["states"]);
+        const Eigen::MatrixXd expected = matrix(told["values"]);
+        CHECK((phi - expected).norm() < 1e-6 * expected.norm());
+        const Json last = json_of({"simulate", scene, "--duration", "1", "--tolerance", "1e-12"})["final"];
+        for (std::size_t k = 0; k < near["states"].size(); ++k) {
+            const std::string state = near["states"][k];
+            const bool is_rate = state.back() == '\'';
+            const double there = is_rate ? number(last, "rates", state.substr(0, state.size() - 1))
+                                         : number(last, "coordinates", state);
+            CHECK(rows.back()["x"][k].get<double>() == doctest::Approx(there).epsilon(1e-8));
+            if (!is_rate)
+                CHECK(rows.back()["c"][k].get<double>() ==
+                      doctest::Approx(number(last, "rates", state)).epsilon(1e-8));
+        }
+    }
+}
+
+TEST_CASE("linearize: along a linkage, A is the derivative along its constraints") {
+    const std::string scene = source_path("scenes/textbook/slider_crank.toml");
+    const Json near = json_of({"linearize", scene, "--along", "--duration", "0.2", "--sample", "0.05"});
+    REQUIRE(near["states"] == Json({"alpha", "alpha'"}));
+    for (const Json& row : near["along"]) {
+        const auto acceleration = [&](double alpha, double rate) {
+            return number(json_of({"eval", scene, "--at", fmt::format("alpha={:.17g}", alpha), "--at",
+                                   fmt::format("alpha'={:.17g}", rate), "--at",
+                                   fmt::format("t={:.17g}", row["time"].get<double>())}),
+                          "accelerations", "alpha");
+        };
+        const double alpha = row["x"][0], rate = row["x"][1], h = 1e-4, size = 1 + rate * rate;
+        CHECK(row["c"][1].get<double>() == doctest::Approx(acceleration(alpha, rate)).epsilon(1e-7));
+        const double by_alpha = (acceleration(alpha + h, rate) - acceleration(alpha - h, rate)) / (2 * h),
+                     by_rate = (acceleration(alpha, rate + h) - acceleration(alpha, rate - h)) / (2 * h);
+        CHECK(std::abs(row["A"][1][0].get<double>() - by_alpha) < 1e-5 * size);
+        CHECK(std::abs(row["A"][1][1].get<double>() - by_rate) < 1e-5 * size);
+    }
+}
+
+TEST_CASE("linearize: the table along a motion has the numbers of the JSON, under names of rows and columns") {
+    const std::string scene = temporary("driven.toml", driven), table = temporary("along.csv", "");
+    const Json near = json_of({"linearize", scene, "--along", "--duration", "1", "--sample", "0.5", "-o", table});
+    std::istringstream lines(contents(table));
+    std::string header, line;
+    std::getline(lines, header);
+    CHECK(header ==
+          "t,theta,theta',c(theta),c(theta'),A(theta;theta),A(theta;theta'),A(theta';theta),A(theta';theta'),"
+          "B(theta;F),B(theta';F)");
+    std::size_t row = 0;
+    for (; std::getline(lines, line); ++row) {
+        std::replace(line.begin(), line.end(), ',', ' ');
+        std::istringstream numbers(line);
+        std::vector<double> found, expected;
+        for (double x = 0; numbers >> x;) found.push_back(x);
+        const Json& here = near["along"][row];
+        expected.push_back(here["time"]);
+        for (const char* const column : {"x", "c"})
+            for (const Json& x : here[column]) expected.push_back(x);
+        for (const char* const letter : {"A", "B"})
+            for (const Json& values : here[letter])
+                for (const Json& x : values) expected.push_back(x);
+        CHECK(found == expected);
+    }
+    CHECK(row == 3);
+    const Run ball = run({"linearize", source_path("scenes/textbook/bouncing_ball.toml"), "--along"});
+    CHECK(ball.exit == 3);
+    CHECK(ball.err.find("deviations jump") != std::string::npos);
 }
 
 }  // namespace commands_linearize

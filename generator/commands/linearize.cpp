@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/output.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "language/say.hpp"
 #include "report/linearization.hpp"
@@ -10,15 +12,21 @@ namespace {
 
 struct LinearizeVerb : SceneOptions {
     std::vector<std::string> at;
-    bool modes = false;
+    bool modes = false, affine = false, along = false;
+    AlongOptions motion;
+    std::string output;  ///< a CSV file of the matrices along a motion; empty for none
 };
 
 int run(const LinearizeVerb& verb) {
+    check_output(verb.output, FileForm::csv, {verb.scene});
     LinearizeOptions options{.by = verb.by, .at = overrides_of(verb.at)};
+    if (verb.affine) options.about = About::any;
+    if (verb.along) options.along = verb.motion;
     for (const std::string& item : verb.at)
         options.exact_at.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
     const LinearizedScene near = linearize(scene_of(verb.scene), options);
     warn(near.warnings);
+    if (!verb.output.empty()) write_file(verb.output, as_csv(near), {verb.scene});
     if (verb.json)
         show(as_json(near));
     else
@@ -38,6 +46,24 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
             add_at_option(verb, options.at);
             add_by_option(verb, options.by);
             verb.add_flag("--modes", options.modes, say("eigenvectors too"));
+            verb.add_flag("--affine", options.affine, say("about any state: x' = A dx + B du + c"));
+            verb.add_flag("--along", options.along, say("the same along the motion from the state"));
+            verb.add_option("--duration", options.motion.duration, say("seconds from the start"))
+                .type_name(values::seconds)
+                .nonnegative()
+                .needs("--along");
+            verb.add_option("--tolerance", options.motion.tolerance,
+                            say("local error of a component, relative to max(1, |y|)"))
+                .type_name(values::number)
+                .positive()
+                .needs("--along");
+            verb.add_option("--sample", options.motion.sample, say("time between rows of the table"))
+                .type_name(values::seconds)
+                .positive()
+                .needs("--along");
+            verb.add_option("-o,--output", options.output, say("CSV file of A, B and c along the motion"))
+                .type_name(values::file)
+                .needs("--along");
         });
 }
 

@@ -102,6 +102,19 @@ LinearizedScene linearize(Scene scene, const LinearizeOptions& options) {
     result.start = start_of(result.mechanism, options.at);
     assemble(result.start, result.mechanism, lower_constraints(result.mechanism), options.at);
     if (!result.mechanism.unilateral.empty()) close_contacts(result, result.start);
+    if (options.along) {
+        result.about = About::any;
+        const std::vector<Start> states = states_along(result, result.start, *options.along);
+        result.along = linearize_along(result.mechanism, result.equations, states);
+        for (const Start& state : states) result.times.push_back(state.t);
+        result.matrices = result.along.front();
+        return result;
+    }
+    result.about = options.about;
+    if (result.about == About::any) {
+        result.matrices = linearize(result.mechanism, result.equations, result.start, About::any);
+        return result;
+    }
     choose_speeds(result, options, result.start);
     result.matrices = linearize(result.mechanism, result.equations, result.start);
     result.symbols = in_symbols(result.matrices, result, options);

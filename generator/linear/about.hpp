@@ -8,6 +8,7 @@
 ///     near.matrices.A, near.matrices.eigenvalues;
 
 #include "derive/derived.hpp"
+#include "linear/along.hpp"
 #include "linear/linearize.hpp"
 
 namespace alembert {
@@ -17,18 +18,24 @@ struct LinearizeOptions {
     Overrides at = {};
     std::vector<std::pair<std::string, std::string>> exact_at =
         {};  ///< the same as typed; for symbols, decimals are exact
+    About about = About::steady;
+    std::optional<AlongOptions> along =
+        {};  ///< if given, about each row of the motion from the state, `about` any
 };
 
 struct LinearizedScene : Derived {
     Start start = {};  ///< the state, which obeys the constraints
+    About about = About::steady;
     Linearization matrices = {};
+    std::vector<double> times = {};         ///< of the rows of the motion, if that was asked for
+    std::vector<Linearization> along = {};  ///< about each; the first is `matrices`
     /// M, C, G, K, N in the parameters, by name, row by row in the order of the numbers; empty if they are not
     /// short.
     std::vector<std::pair<std::string, std::vector<std::vector<std::string>>>> symbols = {};
 };
 
 /// Contacts that are closed at the state and stay closed count as constraints. Throws like the function of
-/// linearize.hpp, and ModelError for a contact that touches without a force.
+/// linearize.hpp and those of along.hpp, and ModelError for a contact that touches without a force.
 LinearizedScene linearize(Scene scene, const LinearizeOptions& options = {});
 
 }  // namespace alembert

@@ -86,19 +86,25 @@ std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A)
 
 class Linearizing {
 public:
-    Linearizing(const Mechanism& m, const Equations& e, const Start& start)
-        : m_(m),
-          e_(e),
-          start_(start),
-          residuals_(m, e),
-          state_(state_of(start, m, e)),
-          at_(instant_of<long double>(residuals_, state_)) {}
+    Linearizing(const Mechanism& m, const Equations& e, About about)
+        : m_(m), e_(e), about_(about), residuals_(m, e) {}
+
+    /// About another state; which coordinates and speeds are independent is decided at the first.
+    void move_to(const Start& start) {
+        start_ = &start;
+        state_ = state_of(start, m_, e_);
+        at_ = instant_of<long double>(residuals_, state_);
+        result_ = {};
+        kept_.clear();
+        if (split_.u.empty() && split_.q.empty()) {
+            std::vector<bool> guessed(residuals_.s, false);
+            if (residuals_.rates_are_speeds) guessed = m_.qdot_is_guess;
+            split_ = split_of(residuals_, at_, m_.q_is_guess, guessed);
+        }
+    }
 
     /// What is not zero at this state and would be in a steady motion; empty where it is one.
     std::string unsteadiness() {
-        std::vector<bool> guessed(residuals_.s, false);
-        if (residuals_.rates_are_speeds) guessed = m_.qdot_is_guess;
-        split_ = split_of(residuals_, at_, m_.q_is_guess, guessed);
         if (!settle(residuals_, split_, at_))
             throw IntegrationError(
                 say("the constraints cannot be solved for the dependent coordinates at this state"), state_.t,
@@ -112,6 +118,10 @@ public:
             throw IntegrationError(
                 say("the mass matrix, constraints eliminated, is singular or not finite at this state"), state_.t,
                 state_.q);
+        if (about_ == About::any) {
+            for (Index j = 0; j < nr_; ++j) kept_.push_back(j);
+            return "";
+        }
         depends_ = dependences(residuals_, split_, at_);
         const std::vector<bool> essential = essential_coordinates(depends_, residuals_, split_, at_);
         check_time();
@@ -138,9 +148,11 @@ private:
     }
 
     [[noreturn]] void refuse(const std::string& residual) const {
-        const std::string nearby = steady_nearby(m_, e_, start_);
+        const std::string nearby = steady_nearby(m_, e_, *start_);
         throw ModelError(
-            say("this state is no equilibrium and no steady motion: {}; expected zeros. {}", residual,
+            say("this state is no equilibrium and no steady motion: {}; expected zeros, or `linearize` with "
+                "--affine, about any state, or with --along, about a motion. {}",
+                residual,
                 nearby.empty()
                     ? say("Ask at a state where they are, or give it as initial values; `equilibrium` finds them")
                     : say("One that is, reached from here by Newton's method: {}; `equilibrium` finds "
@@ -257,12 +269,21 @@ private:
         };
         r.A = both(A);
         r.B = both([&](const auto& t) { return rows(t).rightCols(inputs).eval(); });
+        if (about_ == About::any) fill_rest();
         fill_outputs(near, rough, inputs);
         MatrixOf<long double> exact = A(here_);
         for (Index i = 0; i < size; ++i)
             for (Index j = 0; j < size; ++j)
                 if (r.A(i, j) == 0) exact(i, j) = 0;
         r.eigenvalues = eigenvalues_of(exact);
+    }
+
+    void fill_rest() {
+        Linearization& r = result_;
+        r.rest.resize(nr_ + p_), r.at.resize(nr_ + p_);
+        r.rest << here_.rates.template cast<double>(), here_.speed_rates.template cast<double>();
+        for (Index j = 0; j < nr_; ++j) r.at[j] = static_cast<double>(at_.q[split_.q[j]]);
+        for (Index i = 0; i < p_; ++i) r.at[nr_ + i] = static_cast<double>(at_.u[split_.u[i]]);
     }
 
     void fill_outputs(const Instant<double>& near, const Tangent<double>& rough, Index inputs) {
@@ -279,7 +300,8 @@ private:
 
     const Mechanism& m_;
     const Equations& e_;
-    const Start& start_;
+    const Start* start_ = nullptr;
+    About about_;
     Residuals residuals_;
     State<double> state_;
     Instant<long double> at_;
@@ -294,14 +316,30 @@ private:
 
 }  // namespace
 
-Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start) {
+Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start, About about) {
     const Mechanism m = in_terms_of(equations, mechanism);
-    return Linearizing(m, equations, start).go();
+    Linearizing here(m, equations, about);
+    here.move_to(start);
+    return here.go();
+}
+
+std::vector<Linearization> linearize_along(const Mechanism& mechanism, const Equations& equations,
+                                           const std::vector<Start>& starts) {
+    const Mechanism m = in_terms_of(equations, mechanism);
+    Linearizing here(m, equations, About::any);
+    std::vector<Linearization> result;
+    for (const Start& start : starts) {
+        here.move_to(start);
+        result.push_back(here.go());
+    }
+    return result;
 }
 
 bool is_steady(const Mechanism& mechanism, const Equations& equations, const Start& start) {
     const Mechanism m = in_terms_of(equations, mechanism);
-    return Linearizing(m, equations, start).unsteadiness().empty();
+    Linearizing here(m, equations, About::steady);
+    here.move_to(start);
+    return here.unsteadiness().empty();
 }
 
 }  // namespace alembert

@@ -41,12 +41,15 @@ struct Linearization {
     std::vector<std::string> coordinates;  ///< independent coordinates r: columns of P
     std::vector<std::string> dependent;    ///< coordinates and speeds that have been eliminated
     Eigen::MatrixXd M, D, P;
-    Eigen::MatrixXd C, G;              ///< D = C + G, symmetric and skew
-    bool paired = false;               ///< whether each column of P that is not zero has a speed that is its rate
-    Eigen::MatrixXd K, N;              ///< in that case P = K + N over the speeds' coordinates, symmetric and skew
-    std::vector<std::string> states;   ///< r and w, without cyclic coordinates if these move others
-    std::vector<std::string> inputs;   ///< the inputs that occur, including derivatives ("F''")
-    Eigen::MatrixXd A, B;              ///< δx' = A δx + B δinputs
+    Eigen::MatrixXd C, G;             ///< D = C + G, symmetric and skew
+    bool paired = false;              ///< whether each column of P that is not zero has a speed that is its rate
+    Eigen::MatrixXd K, N;             ///< in that case P = K + N over the speeds' coordinates, symmetric and skew
+    std::vector<std::string> states;  ///< r and w, without cyclic coordinates if these move others
+    std::vector<std::string> inputs;  ///< the inputs that occur, including derivatives ("F''")
+    Eigen::MatrixXd A, B;             ///< δx' = A δx + B δinputs
+    /// About::any alone: x' at the state, so that x' = A (x − x₀) + B (inputs − inputs₀) + rest near it.
+    Eigen::VectorXd rest;
+    Eigen::VectorXd at;                ///< x₀, likewise
     std::vector<std::string> outputs;  ///< outputs of the scene, except those that are not known at this state
     Eigen::MatrixXd output_state, output_input;  ///< δy = output_state δx + output_input δinputs
     std::vector<std::string>
@@ -56,11 +59,21 @@ struct Linearization {
     std::vector<std::complex<double>> eigenvalues;  ///< of A; by real part, then imaginary part
 };
 
+/// `steady`: about an equilibrium or a steady motion. `any`: about any state, with all independent coordinates as
+/// states; x₀ stays where it is, so that the rates at it are a constant part of x'. Deviations from the motion
+/// through the state obey δx' = A δx + B δinputs.
+enum class About { steady, any };
+
 /// Linearizes about the state of `start`, which obeys the constraints. Coordinates and rates that are only guesses
 /// in the scene are eliminated before others. Throws ModelError if the state is neither an equilibrium nor a
-/// steady motion, with the residual, or if the equations change with time; IntegrationError if constraints or
-/// inertia are singular at this state.
-Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start);
+/// steady motion where it has to be one, with the residual, or if the equations change with time; IntegrationError
+/// if constraints or inertia are singular at this state.
+Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start,
+                        About about = About::steady);
+
+/// The same about each of these states, with the independent coordinates and speeds of the first.
+std::vector<Linearization> linearize_along(const Mechanism& mechanism, const Equations& equations,
+                                           const std::vector<Start>& starts);
 
 /// Whether it is an equilibrium or a steady motion in the speeds of these equations. Throws as `linearize` does
 /// for every other reason.

@@ -24,6 +24,12 @@ Json json_of(const Matrix& matrix) {
     return rows;
 }
 
+Json json_of(const Eigen::VectorXd& column) {
+    Json values = Json::array();
+    for (const double x : column) values.push_back(x + 0.0);
+    return values;
+}
+
 /// Adds columns of equal width, under their names if these are given.
 void add(std::string& page, const char* letter, const Matrix& matrix, const std::vector<std::string>& rows,
          const std::vector<std::string>& columns) {
@@ -44,6 +50,29 @@ void add(std::string& page, const char* letter, const Matrix& matrix, const std:
         put(page, "\n");
     }
     put(page, "\n");
+}
+
+/// A, B and c.
+void add_state_space(std::string& page, const Linearization& near) {
+    add(page, "A", near.A, near.states, near.states);
+    if (!near.inputs.empty()) add(page, "B", near.B, near.states, near.inputs);
+    if (near.rest.size() > 0) add(page, "c", near.rest, near.states, {});
+}
+
+/// About the rows of a motion: the first and the last.
+void add_along(std::string& page, const LinearizedScene& d) {
+    say_on(page,
+           "Along the motion from t = {:.6g} to t = {:.6g}, at {} rows: x' = A dx{} + c, where dx is the distance "
+           "from "
+           "the motion, whose own rates are c. --json and -o FILE.csv give all rows\n\n",
+           d.times.front(), d.times.back(), d.times.size(), d.matrices.inputs.empty() ? "" : say(" + B du"));
+    for (const std::size_t row : {std::size_t{0}, d.times.size() - 1}) {
+        const Linearization& near = d.along[row];
+        put(page, "t = {:.10g}\n\n", d.times[row]);
+        add(page, "x", near.at, near.states, {});
+        add_state_space(page, near);
+        if (d.times.size() == 1) return;
+    }
 }
 
 void add_matrices(std::string& page, const Linearization& near) {
@@ -74,9 +103,12 @@ void add_matrices(std::string& page, const Linearization& near) {
         show("P", near.P, near.coordinates);
     }
     if (!zeros.empty()) put(page, "  {} = 0\n\n", fmt::join(zeros, " = "));
-    say_on(page, "x' = A x{}, with\n\n", near.inputs.empty() ? "" : say(" + B (inputs)"));
-    add(page, "A", near.A, near.states, near.states);
-    if (!near.inputs.empty()) add(page, "B", near.B, near.states, near.inputs);
+    if (near.rest.size() == 0)
+        say_on(page, "x' = A x{}, with\n\n", near.inputs.empty() ? "" : say(" + B (inputs)"));
+    else
+        say_on(page, "x' = A dx{} + c, where dx is the distance from the state, with\n\n",
+               near.inputs.empty() ? "" : say(" + B du"));
+    add_state_space(page, near);
     if (near.outputs.empty()) return;
     say_on(page, "the outputs change by output_state x{}, with\n\n",
            near.inputs.empty() ? "" : say(" + output_input (inputs)"));
@@ -121,7 +153,45 @@ void add(std::string& page, const decltype(LinearizedScene::symbols)& symbols) {
     if (!zeros.empty()) put(page, "  {} = 0\n\n", fmt::join(zeros, " = "));
 }
 
+/// A row of a motion.
+Json json_of(double time, const Linearization& near) {
+    return {{"time", time},
+            {"x", json_of(near.at)},
+            {"c", json_of(near.rest)},
+            {"A", json_of(near.A)},
+            {"B", json_of(near.B)},
+            {"output_state", json_of(near.output_state)},
+            {"output_input", json_of(near.output_input)}};
+}
+
 }  // namespace
+
+std::string as_csv(const LinearizedScene& d) {
+    const Linearization& first = d.along.front();
+    std::string table = "t";
+    for (const std::string& state : first.states) table += "," + state;
+    for (const std::string& state : first.states) table += fmt::format(",c({})", state);
+    const auto name = [&](const char* letter, const std::vector<std::string>& rows,
+                          const std::vector<std::string>& columns) {
+        for (const std::string& row : rows)
+            for (const std::string& column : columns) table += fmt::format(",{}({};{})", letter, row, column);
+    };
+    name("A", first.states, first.states);
+    name("B", first.states, first.inputs);
+    table += "\n";
+    for (std::size_t row = 0; row < d.times.size(); ++row) {
+        const Linearization& near = d.along[row];
+        table += fmt::format("{:.17g}", d.times[row]);
+        for (const Eigen::VectorXd* column : {&near.at, &near.rest})
+            for (const double x : *column) table += fmt::format(",{:.17g}", x + 0.0);
+        for (const Matrix* matrix : {&near.A, &near.B})
+            for (Eigen::Index i = 0; i < matrix->rows(); ++i)
+                for (Eigen::Index j = 0; j < matrix->cols(); ++j)
+                    table += fmt::format(",{:.17g}", (*matrix)(i, j) + 0.0);
+        table += "\n";
+    }
+    return table;
+}
 
 Json as_json(const LinearizedScene& d) {
     const Linearization& near = d.matrices;
@@ -129,7 +199,7 @@ Json as_json(const LinearizedScene& d) {
     Json result;
     result["formalism"] = d.equations.formalism;
     result["time"] = start.t;
-    result["motion"] = near.moving.empty() ? "equilibrium" : "steady";
+    result["motion"] = d.about == About::any ? "any" : near.moving.empty() ? "equilibrium" : "steady";
     result["moving"] = near.moving;
     result["coordinates"] = Json::object();
     result["rates"] = Json::object();
@@ -154,6 +224,13 @@ Json as_json(const LinearizedScene& d) {
     matrices["output_state"] = json_of(near.output_state);
     matrices["output_input"] = json_of(near.output_input);
     result["outputs"] = near.outputs;
+    if (d.about == About::any) {
+        result["form"] = "x' = A dx + B du + c";
+        result["x0"] = json_of(near.at);
+        result["c"] = json_of(near.rest);
+    }
+    for (std::size_t row = 0; row < d.times.size(); ++row)
+        result["along"].push_back(json_of(d.times[row], d.along[row]));
     result["eigenvalues"] = Json::array();
     for (const std::complex<double>& value : near.eigenvalues)
         result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});
@@ -167,7 +244,13 @@ std::string as_text(const LinearizedScene& d, bool with_modes) {
     const Start& start = d.start;
     std::string page;
     if (!d.scene.title.empty()) put(page, "{}\n\n", d.scene.title);
-    if (near.moving.empty())
+    if (!d.times.empty()) {
+        add_along(page, d);
+        return page;
+    }
+    if (d.about == About::any)
+        say_on(page, "About the state at t = {:.6g}\n", start.t);
+    else if (near.moving.empty())
         say_on(page, "About the equilibrium\n");
     else
         say_on(page, "About the steady motion in which {} {}\n", fmt::join(near.moving, ", "),

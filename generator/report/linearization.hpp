@@ -8,5 +8,7 @@ namespace alembert {
 
 Json as_json(const LinearizedScene& near);
 std::string as_text(const LinearizedScene& near, bool with_modes = false);
+/// Of a motion: a row for each of its rows, t, x, c, A and B; "A(theta';theta)" is an element by its names.
+std::string as_csv(const LinearizedScene& near);
 
 }  // namespace alembert
