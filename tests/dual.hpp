@@ -39,7 +39,7 @@ inline Dual asin(const Dual& x) {
     return {std::asin(x.v), x.d / std::sqrt((1 - x.v) * (1 + x.v))};
 }
 inline Dual acos(const Dual& x) {
-    return {std::acos(x.v), -x.d / std::sqrt((1 - x.v) * (1 + x.v))};
+    return {std::acos(x.v), x.d == 0 ? 0 : -x.d / std::sqrt((1 - x.v) * (1 + x.v))};  // pi is acos(-1)
 }
 inline Dual atan(const Dual& x) {
     return {std::atan(x.v), x.d / (1 + x.v * x.v)};

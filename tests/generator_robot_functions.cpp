@@ -409,7 +409,7 @@ TEST_CASE("functions: those in the compiled file are those of the verb inverse, 
         for (std::size_t j = 0; j < n; ++j) sum += mass[i * n + j] * state.qddot[j];
         CHECK(std::abs(sum - tau[i]) < 1e-10 * std::max(1., std::abs(tau[i])));
     }
-    CHECK_THROWS_AS(emission(scene, {.functions = {"coriolis"}}), ModelError);
+    CHECK_THROWS_AS(emission(scene, {.functions = {"centrifugal"}}), ModelError);
     CHECK_THROWS_WITH_AS(emission(read_scene(test::source_path("scenes/textbook/chaplygin_sleigh_in_speeds.toml")),
                                   {.functions = {"mass"}}),
                          doctest::Contains("leave out the table [speeds]"), ModelError);

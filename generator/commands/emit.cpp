@@ -70,11 +70,12 @@ void add_emit(CLI::App& app, Chosen& chosen) {
             verb.add_flag("--fold", options.emission.fold, say("parameters as constants"));
             verb.add_flag("--jacobian", options.emission.jacobian,
                           say("also the derivatives of the right-hand side"));
-            verb.add_option("--functions", options.functions,
-                            say("functions of their own: inverse, mass, bias, gravity, loads, inverse_jacobian, "
-                                "mass_inverse, com, com_jacobian, momentum, centroidal, centroidal_drift, "
-                                "regressor; of each "
-                                "--frame: mobility, operational_inertia"))
+            verb.add_option(
+                    "--functions", options.functions,
+                    say("functions of their own: inverse, mass, bias, gravity, loads, inverse_jacobian, "
+                        "mass_inverse, coriolis, com, com_jacobian, momentum, centroidal, centroidal_drift, "
+                        "regressor; of each "
+                        "--frame: mobility, operational_inertia"))
                 .type_name(values::names);
             verb.add_option(
                     "--frame", options.frames,

@@ -10,13 +10,14 @@ namespace {
 
 struct EvalOptions : SceneOptions {
     std::vector<std::string> at;
-    bool reactions = false;
+    bool reactions = false, matrices = false;
 };
 
 int run(const EvalOptions& options) {
-    const Evaluation e =
-        evaluate(scene_of(options.scene),
-                 {.by = options.by, .at = overrides_of(options.at), .reactions = options.reactions});
+    const Evaluation e = evaluate(scene_of(options.scene), {.by = options.by,
+                                                            .at = overrides_of(options.at),
+                                                            .reactions = options.reactions,
+                                                            .matrices = options.matrices});
     warn(e.warnings);
     if (options.json)
         show(as_json(e, options.reactions));
@@ -36,6 +37,8 @@ void add_eval(CLI::App& app, Chosen& chosen) {
                                     add_at_option(verb, options.at);
                                     add_by_option(verb, options.by);
                                     add_reactions_option(verb, options.reactions);
+                                    verb.add_flag("--matrices", options.matrices,
+                                                  say("M(q) and C(q, q') of M q'' + C q' + g = Q"));
                                 });
 }
 

@@ -84,6 +84,29 @@ const char* sentence_for(const std::string& name) {
     return "Q: generalized forces of springs, dampers and applied loads.";
 }
 
+const Mechanism::Constraint* norm_of_quaternion(const Mechanism& m) {
+    const auto found = std::find_if(m.constraints.begin(), m.constraints.end(),
+                                    [](const Mechanism::Constraint& c) { return c.norm; });
+    return found == m.constraints.end() ? nullptr : &*found;
+}
+
+/// All entries of a Jacobian, row by row.
+std::optional<std::vector<int>> jacobian_of(Program& program, const std::vector<int>& outputs, Variable::Kind kind,
+                                            int n, EliminationOrder order) {
+    std::vector<int> inputs;
+    for (int i = 0; i < n; ++i) inputs.push_back(program.variable({kind, i}));
+    const auto found = partials(program, outputs, inputs, order);
+    if (!found) return std::nullopt;
+    std::vector<int> values(outputs.size() * inputs.size(), program.number(0));
+    for (const Partial& partial : *found)
+        values[static_cast<std::size_t>(partial.output) * inputs.size() +
+               static_cast<std::size_t>(partial.input)] = partial.node;
+    return values;
+}
+
+constexpr EliminationOrder every_order[] = {EliminationOrder::forward, EliminationOrder::reverse,
+                                            EliminationOrder::least_fill};
+
 }  // namespace
 
 RobotFunctions::RobotFunctions(const Mechanism& mechanism, bool fold)
@@ -93,8 +116,8 @@ RobotFunctions::RobotFunctions(const Mechanism& mechanism, bool fold)
 }
 
 const std::vector<std::string>& RobotFunctions::of_dynamics() {
-    static const std::vector<std::string> names{"inverse",          "mass",        "bias", "gravity", "loads",
-                                                "inverse_jacobian", "mass_inverse"};
+    static const std::vector<std::string> names{"inverse",          "mass",         "bias",    "gravity", "loads",
+                                                "inverse_jacobian", "mass_inverse", "coriolis"};
     return names;
 }
 
@@ -157,6 +180,7 @@ FunctionProgram RobotFunctions::dynamics(const std::string& name) const {
     const int n = m_.size();
     if (name == "inverse_jacobian") return inverse_jacobian();
     if (name == "mass_inverse") return mass_inverse();
+    if (name == "coriolis") return coriolis();
     FunctionProgram result{
         .name = name, .about = sentence_for(name), .rows = n, .columns = name == "mass" ? n : 1};
     std::vector<Program> forms;
@@ -187,7 +211,7 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
     const Program inverse = dynamics("inverse").program;
     const std::vector<int> loads = inverse.nodes_of(Group::function);
     std::vector<Program> forms;
-    for (const auto order : {EliminationOrder::forward, EliminationOrder::reverse, EliminationOrder::least_fill}) {
+    for (const EliminationOrder order : every_order) {
         Program program = inverse;
         std::vector<int> inputs;
         for (const auto kind : {Variable::Kind::coordinate, Variable::Kind::rate})
@@ -211,12 +235,11 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
 }
 
 FunctionProgram RobotFunctions::mass_inverse() const {
-    for (const Mechanism::Constraint& c : m_.constraints)
-        if (c.norm)
-            throw ModelError(say(
-                "the mass matrix has no inverse, because the quaternion of '{}' has no inertia along itself; turn "
+    if (const auto* norm = norm_of_quaternion(m_))
+        throw ModelError(
+            say("the mass matrix has no inverse, because the quaternion of '{}' has no inertia along itself; turn "
                 "it by angles instead, or leave 'mass_inverse' out",
-                c.name));
+                norm->name));
     const int n = m_.size();
     Program program = dynamics("mass").program;
     const std::vector<int> full = program.nodes_of(Group::function);
@@ -240,6 +263,87 @@ FunctionProgram RobotFunctions::mass_inverse() const {
             .rows = n,
             .columns = n,
             .program = with_values_only(std::move(program), values)};
+}
+
+// C_ij = ½ Σ_k (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) q'_k  (Murray, Li & Sastry, A Mathematical Introduction to
+// Robotic Manipulation (1994), (4.23)). With p = M q' at constant q' that is ½ (Σ_k ∂M/∂q_k q'_k + ∂p/∂q −
+// (∂p/∂q)ᵀ).
+std::optional<Program> RobotFunctions::christoffel() const {
+    const int n = m_.size();
+    const Program mass = dynamics("mass").program;
+    std::vector<Program> forms;
+    for (const EliminationOrder order : every_order) {
+        Program program = mass;
+        const std::vector<int> M = program.nodes_of(Group::function);
+        const auto at = [n](int i, int j) { return static_cast<std::size_t>(i * n + j); };
+        const auto by = jacobian_of(program, M, Variable::Kind::coordinate, n, order);  // of M_ij by q_k
+        if (!by) continue;
+        const auto slope = [&](int i, int j, int k) {
+            return (*by)[at(i, j) * static_cast<std::size_t>(n) + static_cast<std::size_t>(k)];
+        };
+        const Rational half = Rational(1) / 2;
+        std::vector<int> values;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                std::vector<Program::Term> terms;
+                for (int k = 0; k < n; ++k)
+                    terms.emplace_back(
+                        half,
+                        program.product(
+                            1,
+                            {{program.sum(0, {{1, slope(i, j, k)}, {1, slope(i, k, j)}, {-1, slope(j, k, i)}}), 1},
+                             {program.variable({Variable::Kind::rate, k}), 1}}));
+                values.push_back(program.sum(0, terms));
+            }
+        forms.push_back(with_values_only(std::move(program), values));
+    }
+    if (forms.empty()) return std::nullopt;
+    return with_fewest_operations(forms);
+}
+
+// The velocity terms c_i = Σ Γ_ijk q'_j q'_k have ∂c_i/∂q'_j = 2 Σ_k Γ_ijk q'_k, if nothing but the state moves
+// the bodies.
+std::optional<Program> RobotFunctions::half_of_bias_by_rates(LinkAxes axes) const {
+    if (!tree_ || (axes == LinkAxes::still && !has_parallel_axes(*tree_))) return std::nullopt;
+    const int n = m_.size();
+    std::vector<Program> forms;
+    for (const EliminationOrder order : every_order) {
+        Program program = begun(m_, fold_);
+        const auto lowering = lowering_into(program, m_, {}, fold_);
+        const TreeFunctions tree(program, *tree_, axes, *m_.z, lowering);
+        const std::vector<int> bias = tree.loads(TreeFunctions::Terms::bias);
+        constexpr unsigned time = 1U << static_cast<unsigned>(Variable::Kind::time);
+        if (std::any_of(bias.begin(), bias.end(), [&](int node) { return (program[node].depends & time) != 0; }))
+            return std::nullopt;
+        auto values = jacobian_of(program, bias, Variable::Kind::rate, n, order);
+        if (!values) continue;
+        for (int& node : *values) node = program.sum(0, {{Rational(1) / 2, node}});
+        forms.push_back(with_values_only(std::move(program), *values));
+    }
+    if (forms.empty()) return std::nullopt;
+    return with_fewest_operations(forms);
+}
+
+FunctionProgram RobotFunctions::coriolis() const {
+    if (const auto* norm = norm_of_quaternion(m_))
+        throw ModelError(say(
+            "the quaternion of '{}' has four coordinates for three degrees of freedom, so that there is no matrix "
+            "C of its own; turn it by angles instead, or leave 'coriolis' out",
+            norm->name));
+    std::vector<Program> forms;
+    for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still})
+        if (auto form = half_of_bias_by_rates(axes)) forms.push_back(*std::move(form));
+    if (m_.size() <= most_by_lagrange || forms.empty())
+        if (auto form = christoffel()) forms.push_back(*std::move(form));
+    if (forms.empty())
+        throw ModelError(
+            say("the derivatives of the mass matrix are too long to be written out; leave 'coriolis' "
+                "out"));
+    return {.name = "coriolis",
+            .about = "C(q, q') by Christoffel's symbols: M' - 2 C is skew, and C q' are the velocity terms.",
+            .rows = m_.size(),
+            .columns = m_.size(),
+            .program = with_fewest_operations(forms)};
 }
 
 }  // namespace alembert

@@ -17,6 +17,7 @@
 ///     loads     Q, n values
 ///     inverse_jacobian   ∂/∂q and ∂/∂q' of `inverse`, n × 2n; ∂/∂q'' is M
 ///     mass_inverse       M⁻¹, n × n
+///     coriolis  C(q, q'), n × n, by Christoffel's symbols of M, so that M' − 2C is skew
 ///
 /// Several forms compete, and that with the fewest operations is taken: the recursions over a tree of joints along
 /// axes that turn with the links or that do not, and for few coordinates or without a tree Lagrange's equations.
@@ -36,14 +37,17 @@ public:
 
     /// The names above, in this order.
     static const std::vector<std::string>& of_dynamics();
-    /// For one of these names. Throws ModelError where M is singular or derivatives are too long, and for
-    /// `gravity` and `loads` of a scene that gives its potential or Lagrangian by a formula, in which gravity is
-    /// not told apart.
+    /// For one of these names. Throws ModelError where M is singular or derivatives are too long, for
+    /// `mass_inverse` and `coriolis` of a scene with quaternions, and for `gravity` and `loads` of a scene that
+    /// gives its potential or Lagrangian by a formula, in which gravity is not told apart.
     FunctionProgram dynamics(const std::string& name) const;
 
 private:
     FunctionProgram inverse_jacobian() const;
     FunctionProgram mass_inverse() const;
+    FunctionProgram coriolis() const;
+    std::optional<Program> christoffel() const;
+    std::optional<Program> half_of_bias_by_rates(LinkAxes axes) const;
     std::vector<Program> tree_forms(const std::string& name) const;
     Program by_expressions(const std::vector<GiNaC::ex>& values) const;
     Program from_lagrange(const std::string& name) const;

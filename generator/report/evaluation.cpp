@@ -52,6 +52,7 @@ Json as_json(const Evaluation& e, bool reactions) {
     for (const auto& [name, side] : e.frictions) result["friction"][name] = mode_of(e, name, side);
     if (!e.adjusted.empty()) result["adjusted"] = e.adjusted;
     result["outputs"] = object_of(e.outputs);
+    if (!e.mass.empty()) result["matrices"] = {{"M", e.mass}, {"C", e.coriolis}};
     if (!reactions) return result;
     result["reactions"] = Json::object();
     for (const Evaluation::Reaction& r : e.reactions) result["reactions"][r.constraint][r.coordinate] = r.force;
@@ -79,6 +80,12 @@ std::string as_text(const Evaluation& e) {
     for (const std::string& line : e.adjusted) say_on(page, "adjusted {}\n", line);
     put(page, "\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", e.kinetic, e.potential, e.energy);
     for (const auto& [name, value] : e.outputs) put(page, "{} = {:.16g}\n", name, value);
+    for (const auto& [letter, rows] : {std::pair("M", &e.mass), std::pair("C", &e.coriolis)})
+        for (std::size_t i = 0; i < rows->size(); ++i) {
+            put(page, "{}{:<{}}", i == 0 ? "\n" : "", i == 0 ? letter : "", width);
+            for (const double x : (*rows)[i]) put(page, "{:>24.16g}", x + 0.0);
+            put(page, "\n");
+        }
     if (!e.joint_loads.empty()) page += say("\nJoints exert on their children, along the joint's axes:\n");
     for (const JointLoad& load : e.joint_loads)
         for (const auto& [what, v] :

@@ -11,6 +11,7 @@
 #include "contact/contacts.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
+#include "lower/robot_functions.hpp"
 #include "model/friction.hpp"
 #include "program/without_rounding.hpp"
 #include "run/held_state.hpp"
@@ -65,6 +66,18 @@ std::vector<double> reactions_without_rounding(const Program& program, const Sta
     wide.qddot.clear();
     for (const int id : program.nodes_of(Group::acceleration)) wide.qddot.push_back(first[id]);
     return without_rounding(value, interpret(program, wide));
+}
+
+/// A function n × n of robots at a state of coordinates and rates.
+std::vector<std::vector<double>> matrix_at(const Mechanism& m, const char* name, const State<double>& state) {
+    const FunctionProgram f = RobotFunctions(m, false).dynamics(name);
+    const std::vector<double> value = interpret(f.program, state);
+    std::vector<std::vector<double>> rows;
+    for (const int node : f.program.nodes_of(Group::function)) {
+        if (rows.empty() || static_cast<int>(rows.back().size()) == f.columns) rows.emplace_back();
+        rows.back().push_back(value[static_cast<std::size_t>(node)]);
+    }
+    return rows;
 }
 
 }  // namespace
@@ -132,6 +145,10 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     for (std::size_t k = 0; k < position.size(); ++k)
         e.residuals.push_back({m.constraints[k].name, {position[k], velocity[k]}});
     e.outputs = named_values(program, value, Group::output);
+    if (options.matrices) {
+        e.mass = matrix_at(m, "mass", start.state());
+        e.coriolis = matrix_at(m, "coriolis", start.state());
+    }
     if (options.reactions) {
         const std::vector<double> plain = reactions_without_rounding(program, state, value);
         for (const ReactionOutput& r : e.reaction_outputs) {

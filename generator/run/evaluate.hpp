@@ -20,6 +20,7 @@ struct EvaluateOptions {
     Overrides at = {};    ///< coordinates, rates, speeds, parameters, t
     /// Whether to give the reaction of each constraint along each coordinate, and those of joints.
     bool reactions = false;
+    bool matrices = false;  ///< whether to give M(q) and C(q, q')
 };
 
 /// Names and values stand in the order of the scene; units are the scene's.
@@ -47,10 +48,14 @@ struct Evaluation : Derived {
     std::vector<Reaction> reactions = {};                               ///< set if they were requested
     std::vector<JointLoad> joint_loads = {};                            ///< likewise
     std::vector<std::pair<std::string, double>> normal_reactions = {};  ///< likewise, of bodies that roll
+    /// M(q) and C(q, q') of M q'' + C q' + g = Q by Christoffel's symbols (lower/robot_functions.hpp), row by row;
+    /// set if they were requested.
+    std::vector<std::vector<double>> mass = {}, coriolis = {};
 };
 
 /// Throws what `derived` throws; ModelError for a name in `at` that the scene does not have and for a gap that is
-/// negative; IntegrationError if the accelerations are not finite, with the reason in terms of the scene.
+/// negative, and for matrices of a scene with quaternions; IntegrationError if the accelerations are not finite,
+/// with the reason in terms of the scene.
 Evaluation evaluate(Scene scene, const EvaluateOptions& options = {});
 
 }  // namespace alembert
