@@ -2,8 +2,8 @@
 /// The Python module `alembert._alembert`: one function for all verbs (verbs.hpp), and classes whose numbers
 /// Python reads without a copy. The package's Python part gives them names, units and documentation (alembert/).
 ///
-/// GiNaC is for one thread alone: everything symbolic keeps the interpreter's lock. The functions of many
-/// states release it and use all cores.
+/// GiNaC is for one thread at a time: everything symbolic takes its turn (turns.hpp), without the interpreter's
+/// lock. The functions of many states release it too and use all cores.
 
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
@@ -12,6 +12,7 @@
 
 #include "alembert/compile.hpp"
 #include "alembert/error.hpp"
+#include "archive/file_form.hpp"
 #include "language/libraries.hpp"
 #include "report/derivation.hpp"
 #include "report/motion_plot.hpp"
@@ -22,6 +23,7 @@
 #include "run/section.hpp"
 #include "state/prepared.hpp"
 #include "system.hpp"
+#include "turns.hpp"
 #include "verbs.hpp"
 
 namespace py = pybind11;
@@ -38,17 +40,12 @@ py::array_t<double> view(const std::vector<double>& values, std::vector<py::ssiz
     return array;
 }
 
-/// Lets the user interrupt the work (Ctrl-C, or the stop button of a notebook).
-void look_for_interrupt(std::string_view, double) {
-    if (PyGILState_Check() != 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
 using Warnings = std::vector<std::string>;
 
 /// JSON and the program's page as texts, warnings, files, and the table with its columns.
 py::tuple asked(const std::string& verb, const std::string& text, const std::string& file,
                 const std::string& options) {
-    Answer answer = answer_of(verb, text, file, options, look_for_interrupt);
+    Answer answer = in_turn([&] { return answer_of(verb, text, file, options, look_for_interrupt); });
     py::dict files;
     for (const auto& [name, content] : answer.files) files[py::str(name)] = py::bytes(content);
     const auto columns = static_cast<py::ssize_t>(answer.table.columns.size());
@@ -73,8 +70,13 @@ struct Motion {
     }
 };
 
-std::unique_ptr<Motion> simulated(const std::string& text, const std::string& file, RunOptions wishes,
-                                  const std::string& section) {
+/// A value with expressions in it, as Python holds it.
+template <typename Value>
+using Held = std::unique_ptr<Value, DestroyedInTurn<Value>>;
+
+Held<Motion> simulated(const std::string& text, const std::string& file, RunOptions wishes,
+                       const std::string& section) {
+    const SymbolicTurn turn;
     wishes.progress = look_for_interrupt;
     Scene scene = parse_scene(text, file);
     if (!section.empty()) {
@@ -82,26 +84,35 @@ std::unique_ptr<Motion> simulated(const std::string& text, const std::string& fi
         scene = std::move(begun.scene);
         add_section(scene, begun.mechanism, section);
     }
-    auto motion = std::make_unique<Motion>(Motion{wishes, simulate(std::move(scene), wishes), section, {}, {}});
+    Held<Motion> motion(new Motion{wishes, simulate(std::move(scene), wishes), section, {}, {}});
     motion->crossings = {section, take_crossings(motion->run)};
     return motion;
 }
 
 std::pair<std::string, Warnings> json_of(const Motion& motion) {
+    const SymbolicTurn turn;
     Json json = as_json(motion.run);
     if (!motion.section.empty()) json["poincare"] = as_json(motion.crossings, motion.run);
     return {json.dump(), motion.run.warnings};
+}
+
+CompiledSystem compiled_system(std::string source) {
+    const py::gil_scoped_release release;
+    Module module = load(compile(source, "python", {}).object);
+    return {std::move(module), std::move(source)};
 }
 
 std::pair<CompiledSystem, Warnings> system_of(const std::string& text, const std::string& file,
                                               const std::string& by, bool jacobian,
                                               const std::vector<std::string>& functions,
                                               const std::vector<std::string>& frames) {
-    const Emission emitted =
-        emission(parse_scene(text, file),
-                 {.by = by, .jacobian = jacobian, .batch = true, .functions = functions, .frames = frames});
-    return {CompiledSystem(load(compile(emitted.source.text, "python", {}).object), emitted.source.text),
-            emitted.warnings};
+    auto [source, warnings] = in_turn([&] {
+        Emission emitted =
+            emission(parse_scene(text, file),
+                     {.by = by, .jacobian = jacobian, .batch = true, .functions = functions, .frames = frames});
+        return std::pair(std::move(emitted.source.text), std::move(emitted.warnings));
+    });
+    return {compiled_system(std::move(source)), std::move(warnings)};
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -188,6 +199,8 @@ void add_errors(py::module_& module) {
             PyErr_SetString(model.ptr(), translated_from_library(e.what()).c_str());
         } catch (const CompileError& e) {
             PyErr_SetString(environment.ptr(), translated_from_library(e.what()).c_str());
+        } catch (const std::invalid_argument& e) {
+            PyErr_SetString(PyExc_ValueError, translated_from_library(e.what()).c_str());
         } catch (const IntegrationError& e) {
             const py::object raised = static_cast<const py::object&>(numbers)(translated_from_library(e.what()));
             raised.attr("time") = e.time;
@@ -212,15 +225,20 @@ py::array_t<double> robot_function(const CompiledSystem& s, int which, const py:
 }
 
 py::array_t<double> states_at(Motion& motion, const Numbers& t) {
-    BetweenRows& states = motion.states();
+    BetweenRows& states = in_turn([&]() -> BetweenRows& { return motion.states(); });
     const auto width = static_cast<std::size_t>(states.dimension());
     std::vector<py::ssize_t> shape(t.shape(), t.shape() + t.ndim());
     shape.push_back(states.dimension());
     py::array_t<double> result(shape);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(t.size()); ++k) {
-        if (k % 1000 == 999) look_for_interrupt({}, 0);
-        states.state_at(t.data()[k], {result.mutable_data() + k * width, width});
-    }
+    double* const values = result.mutable_data();
+    const double* const times = t.data();
+    const auto count = static_cast<std::size_t>(t.size());
+    in_turn([&] {
+        for (std::size_t k = 0; k < count; ++k) {
+            if (k % 1000 == 999) look_for_interrupt({}, 0);
+            states.state_at(times[k], {values + k * width, width});
+        }
+    });
     return result;
 }
 
@@ -228,54 +246,69 @@ void add_verbs(py::module_& module) {
     module.def("ask", asked);
     module.def("derive",
                [](const std::string& text, const std::string& file, const std::string& by, bool reactions) {
-                   return derive(parse_scene(text, file), {.by = by, .reactions = reactions});
+                   const SymbolicTurn turn;
+                   return Held<DerivedScene>(
+                       new DerivedScene(derive(parse_scene(text, file), {.by = by, .reactions = reactions})));
                });
-    module.def("simulate", [](const std::string& text, const std::string& file, const std::string& by,
-                              const std::string& method, const std::array<double, 5>& numbers, long budget,
-                              bool estimate, bool reactions, bool fast_math, const std::string& section,
-                              const std::string& code, const std::vector<std::string>& sensitivity,
-                              const std::vector<std::string>& sensitivity_of, bool regularize) {
-        return simulated(text, file,
-                         {.by = by,
-                          .method = method,
-                          .code = code,
-                          .duration = numbers[0],
-                          .tolerance = numbers[1],
-                          .step = numbers[2],
-                          .sample = numbers[3],
-                          .max_step = numbers[4],
-                          .budget = budget,
-                          .fast_math = fast_math,
-                          .estimate = estimate,
-                          .regularize = regularize,
-                          .reactions = reactions,
-                          .sensitivity = sensitivity,
-                          .sensitivity_of = sensitivity_of},
-                         section);
-    });
+    module.def("simulate",
+               [](const std::string& text, const std::string& file, const std::string& by,
+                  const std::string& method, const std::array<std::optional<double>, 5>& numbers, long budget,
+                  bool estimate, bool reactions, bool fast_math, const std::string& section,
+                  const std::string& code, const std::vector<std::string>& sensitivity,
+                  const std::vector<std::string>& sensitivity_of, bool regularize) {
+                   return simulated(text, file,
+                                    {.by = by,
+                                     .method = method,
+                                     .code = code,
+                                     .duration = numbers[0],
+                                     .tolerance = numbers[1],
+                                     .step = numbers[2],
+                                     .sample = numbers[3],
+                                     .max_step = numbers[4],
+                                     .budget = budget,
+                                     .fast_math = fast_math,
+                                     .estimate = estimate,
+                                     .regularize = regularize,
+                                     .reactions = reactions,
+                                     .sensitivity = sensitivity,
+                                     .sensitivity_of = sensitivity_of},
+                                    section);
+               });
     module.def("system", system_of);
     module.def("functions_of_robots", all_functions);
+    module.def("need_form", [](const std::string& path, const std::string& form) {
+        need_form(path, form == "picture" ? FileForm::picture : form == "unit" ? FileForm::unit : FileForm::page);
+    });
 }
 
 void add_motion(py::module_& module) {
-    py::class_<DerivedScene>(module, "Derivation")
+    py::class_<DerivedScene, Held<DerivedScene>>(module, "Derivation")
         .def("json",
-             [](const DerivedScene& d) { return std::pair<std::string, Warnings>(as_json(d).dump(), d.warnings); })
+             [](const DerivedScene& d) {
+                 const SymbolicTurn turn;
+                 return std::pair<std::string, Warnings>(as_json(d).dump(), d.warnings);
+             })
         .def("page", [](const DerivedScene& d, const std::string& format, bool steps) {
+            const SymbolicTurn turn;
             return as_page(d, {.format = format, .steps = steps});
         });
-    py::class_<Motion>(module, "Run")
+    py::class_<Motion, Held<Motion>>(module, "Run")
         .def("json", json_of)
-        .def("text", [](const Motion& motion) { return as_text(motion.run); })
+        .def("text",
+             [](const Motion& motion) {
+                 const SymbolicTurn turn;
+                 return as_text(motion.run);
+             })
         .def("plot",
              [](const Motion& motion, const std::vector<std::string>& columns) {
+                 const SymbolicTurn turn;
                  check_columns(motion.run.rows.columns, columns);
                  return motion_plot(motion.run, columns);
              })
         .def("file",
              [](const Motion& motion, const std::string& path) {
                  need_table_form(path);
-                 return py::bytes(table_file(motion.run, path));
+                 return py::bytes(in_turn([&] { return table_file(motion.run, path); }));
              })
         .def("states_at", states_at)
         .def_property_readonly("failure", [](const Motion& motion) { return motion.run.failure; })
@@ -297,6 +330,12 @@ void add_system(py::module_& module) {
         .def_property_readonly("parameter_values", &CompiledSystem::parameter_values)
         .def_property_readonly("source", &CompiledSystem::source)
         .def("set_parameters", &CompiledSystem::set_parameters)
+        .def(py::pickle([](const CompiledSystem& s) { return std::pair(s.source(), s.parameter_values()); },
+                        [](const std::pair<std::string, std::vector<double>>& state) {
+                            CompiledSystem s = compiled_system(state.first);
+                            s.set_parameters(state.second);
+                            return s;
+                        }))
         .def("rhs", right_hand_side)
         .def("jacobian",
              [](const CompiledSystem& s, const py::object& t, const Numbers& states) {

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
+#include "alembert/argument.hpp"
 #include "commands/import.hpp"
 #include "commands/verb.hpp"
 #include "linear/about.hpp"
@@ -44,7 +47,16 @@ public:
 
     bool has(const char* name) const { return options_.contains(name); }
     bool flag(const char* name) const { return options_.value(name, false); }
-    double number(const char* name, double missing) const { return options_.value(name, missing); }
+    double number(const char* name, double missing) const { return real(name).value_or(missing); }
+    std::optional<double> real(const char* name) const {
+        return has(name) ? std::optional(real_of(options_.at(name))) : std::nullopt;
+    }
+    int whole(const char* name, int missing) const {
+        const double value = number(name, missing);
+        if (value != std::floor(value) || std::abs(value) > 1e9)
+            throw std::invalid_argument(argument::mistake(name, value, argument::whole_nonnegative));
+        return static_cast<int>(value);
+    }
     std::string text(const char* name) const { return options_.value(name, std::string()); }
     Texts texts(const char* name) const { return options_.value(name, Texts()); }
     std::string by() const { return text("by"); }
@@ -67,10 +79,10 @@ public:
         return {.by = by(),
                 .method = text("method"),
                 .code = text("code"),
-                .duration = number("duration", -1),
-                .tolerance = number("tolerance", -1),
-                .step = number("step", -1),
-                .max_step = number("max_step", -1),
+                .duration = real("duration"),
+                .tolerance = real("tolerance"),
+                .step = real("step"),
+                .max_step = real("max_step"),
                 .budget = static_cast<long>(number("budget", 10'000'000)),
                 .progress = progress};
     }
@@ -78,11 +90,16 @@ public:
     const ToldProgress& progress;
     const Json& options() const { return options_; }
 
+    /// What is not finite comes as a text, because JSON has no number for it.
+    static double real_of(const Json& value) {
+        return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
+    }
+
 private:
     static Axis axis_of(const Json& range, std::size_t count) {
         return {.name = range.at(0).get<std::string>(),
-                .from = range.at(1).get<double>(),
-                .to = range.at(2).get<double>(),
+                .from = real_of(range.at(1)),
+                .to = real_of(range.at(2)),
                 .count = range.size() > 3 ? range.at(3).get<std::size_t>() : count};
     }
 
@@ -123,7 +140,8 @@ Answer do_impact(Scene scene, const Asked&) {
 Answer do_eval(Scene scene, const Asked& asked) {
     const bool reactions = asked.flag("reactions");
     const Evaluation value =
-        evaluate(std::move(scene), {.by = asked.by(), .at = asked.at(), .reactions = reactions});
+        evaluate(std::move(scene),
+                 {.by = asked.by(), .at = asked.at(), .reactions = reactions, .matrices = asked.flag("matrices")});
     return {.json = as_json(value, reactions), .text = as_text(value), .warnings = value.warnings};
 }
 
@@ -132,7 +150,13 @@ Answer do_inverse(Scene scene, const Asked& asked) {
 }
 
 Answer do_linearize(Scene scene, const Asked& asked) {
-    return shown(linearize(std::move(scene), {.by = asked.by(), .at = asked.at(), .exact_at = asked.exact_at()}));
+    LinearizeOptions options{.by = asked.by(), .at = asked.at(), .exact_at = asked.exact_at()};
+    if (asked.flag("affine")) options.about = About::any;
+    if (asked.flag("along"))
+        options.along = AlongOptions{.duration = asked.real("duration"),
+                                     .tolerance = asked.real("tolerance"),
+                                     .sample = asked.real("sample")};
+    return shown(linearize(std::move(scene), options));
 }
 
 StabilityOptions stability_options(const Asked& asked) {
@@ -162,16 +186,15 @@ Answer do_locus(Scene scene, const Asked& asked) {
 Answer do_exponents(Scene scene, const Asked& asked) {
     return drawn(lyapunov_exponents(std::move(scene), {.by = asked.by(),
                                                        .at = asked.at(),
-                                                       .count = static_cast<int>(asked.number("count", 1)),
+                                                       .count = asked.whole("count", 1),
                                                        .duration = asked.number("duration", 1000),
                                                        .progress = asked.progress}));
 }
 
 Answer do_equilibrium(Scene scene, const Asked& asked) {
-    return shown(equilibria(std::move(scene), {.by = asked.by(),
-                                               .at = asked.at(),
-                                               .starts = static_cast<int>(asked.number("starts", 0)),
-                                               .progress = asked.progress}));
+    return shown(equilibria(
+        std::move(scene),
+        {.by = asked.by(), .at = asked.at(), .starts = asked.whole("starts", 0), .progress = asked.progress}));
 }
 
 Answer do_branches(Scene scene, const Asked& asked) {
@@ -206,7 +229,7 @@ Answer do_identify(Scene scene, const Asked&) {
 Answer do_fmu(Scene scene, const Asked& asked) {
     const std::string path = asked.text("path");
     const FunctionalUnit unit =
-        functional_unit(std::move(scene), {.by = asked.by(), .version = static_cast<int>(asked.number("fmi", 2))});
+        functional_unit(std::move(scene), {.by = asked.by(), .version = asked.whole("fmi", 2)});
     return {.json = as_json(unit, path),
             .text = as_text(unit, path),
             .warnings = unit.warnings,
@@ -238,11 +261,9 @@ Answer do_emit(Scene scene, const Asked& asked) {
 Answer do_sweep(Scene scene, const Asked& asked) {
     Grid grid;
     for (const std::string& name : asked.texts("names")) grid.axes.push_back({.name = name});
-    grid.listed = asked.options().at("points").get<std::vector<double>>();
+    for (const Json& value : asked.options().at("points")) grid.listed.push_back(Asked::real_of(value));
     for (Axis& axis : grid.axes) axis.count = grid.listed.size() / grid.axes.size();
-    RunOptions wishes = asked.run_options();
-    wishes.progress = {};  // told by other threads
-    const Sweep swept = sweep(std::move(scene), grid, wishes, static_cast<int>(asked.number("threads", 0)));
+    const Sweep swept = sweep(std::move(scene), grid, asked.run_options(), asked.whole("threads", 0));
     const SweepTotals totals = totals_of(swept);
     Answer answer{.json = as_json(swept, totals), .text = as_text(swept, totals), .warnings = swept.warnings};
     answer.table.columns = grid.names();

@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tests of what the Python package gives as arrays: motions, sweeps, systems, robots, functions for CasADi."""
 
+import copy
 import ctypes
 import math
 import os
+import pickle
+import signal
 import subprocess
+import sys
 import tempfile
+import threading
+import time
 import unittest
 
 import numpy as np
@@ -13,7 +19,142 @@ import numpy as np
 import alembert
 from python_shared import NO_SKIP, PENDULUM, TESTS, program, scene_file
 
-__all__ = ["CasadiFunctions", "Motions", "Robots", "Systems"]
+__all__ = ["CasadiFunctions", "Copies", "Motions", "Robots", "Systems", "Threads"]
+
+
+def copied(value):
+    return pickle.loads(pickle.dumps(value))
+
+
+class Copies(unittest.TestCase):
+    def test_a_motion_goes_to_another_process_and_back(self):
+        scene = alembert.Scene(scene_file("textbook/bouncing_ball.toml"))
+        run = scene.simulate(duration=2.5, sample=0.5, poincare="y = 0.2")
+        for same in (copied(run), copy.copy(run), copy.deepcopy(run)):
+            self.assertEqual(same.json, run.json)
+            self.assertEqual(same.columns, run.columns)
+            np.testing.assert_array_equal(same.table, run.table)
+            self.assertEqual(repr(same), repr(run))
+            with self.assertRaises(ValueError):
+                same.table[0, 0] = 1
+            times = np.linspace(0, run.t[-1], 20)
+            np.testing.assert_array_equal(same(times), run(times))
+            self.assertEqual(same.plot("y").svg, run.plot("y").svg)
+        self.assertEqual(copied(scene).text, scene.text)
+
+    def test_systems_keep_their_parameters(self):
+        scene = alembert.Scene(PENDULUM)
+        f = scene.system()
+        f.set(l=0.7)
+        y = [0.3, 0.2]
+        for same in (copied(f), copy.deepcopy(f)):
+            self.assertEqual(same.parameters, f.parameters)
+            np.testing.assert_array_equal(same.rhs(0.0, y), f.rhs(0.0, y))
+            same.set(l=3)
+            self.assertEqual(f.parameters["l"], 0.7)
+            self.assertAlmostEqual(same.rhs(0.0, y)[1], -9.81 / 3 * math.sin(0.3), places=14)
+        self.assertEqual(copied(f.rhs)(0.0, y)[1], f.rhs(0.0, y)[1])
+        arm = alembert.Scene.from_robot(os.path.join(TESTS, "robots/arm6.urdf"))
+        robot = arm.robot(("mass", "gravity"))
+        q = np.linspace(0, 1, 6)
+        np.testing.assert_array_equal(copied(robot).mass(q), robot.mass(q))
+        np.testing.assert_array_equal(copied(robot.gravity)(q), robot.gravity(q))
+        self.assertEqual(copied(arm).imported.json, arm.imported.json)
+
+    def test_results_derivations_figures_and_errors_are_copied(self):
+        scene = alembert.Scene(PENDULUM)
+        for value in (scene.check("theta'' + g/l*sin(theta) = 0"), scene.agree(), scene.eval(), scene.derive()):
+            same = copied(value)
+            self.assertEqual((same.json, repr(same)), (value.json, repr(value)))
+        self.assertEqual(copied(scene.draw()).svg, scene.draw().svg)
+        swept = scene.sweep({"theta": [0.1, 0.2]}, duration=0.5)
+        np.testing.assert_array_equal(copied(swept)["theta"], swept["theta"])
+        with self.assertRaises(alembert.SceneError) as caught:
+            alembert.Scene(text="[coordinates]\nx = true\n").derive()
+        same = copied(caught.exception)
+        self.assertEqual((str(same), same.diagnostics), (str(caught.exception), caught.exception.diagnostics))
+
+
+class Threads(unittest.TestCase):
+    def test_other_threads_go_on_during_a_call(self):
+        """A thread asks for the interpreter once in 1000 s and gives it up at each turn of its loop. It can count while
+        the main thread is in a call only if the call gives up the interpreter."""
+        scene = alembert.Scene(scene_file("textbook/double_pendulum.toml"))
+        calls = {
+            "simulate": lambda: scene.simulate(duration=2000),
+            "sweep": lambda: scene.sweep({"theta1": np.linspace(0, 1, 4000)}, duration=10),
+            "agree": scene.agree,
+            "derive": scene.derive,
+            "check": scene.check,
+        }
+        count, over = [0], []
+
+        def count_on():
+            while not over:
+                count[0] += 1
+                time.sleep(0)
+
+        counting = threading.Thread(target=count_on)
+        interval = sys.getswitchinterval()
+        try:
+            sys.setswitchinterval(1000)
+            counting.start()
+            for name, call in calls.items():
+                for _ in range(50):
+                    before = count[0]
+                    call()
+                    if count[0] > before:
+                        break
+                else:
+                    self.fail(f"during {name} no other thread runs")
+        finally:
+            over.append(True)
+            sys.setswitchinterval(interval)
+            counting.join()
+
+    def test_threads_that_ask_at_the_same_time_get_what_one_gets(self):
+        scenes = [alembert.Scene(scene_file(f"textbook/{name}.toml"))
+                  for name in ("double_pendulum", "slider_crank", "coin", "rotating_hoop")]
+
+        def ask(scene):
+            run = scene.simulate(duration=0.5)
+            return [scene.derive().json["equations"], scene.eval().json, run.final, run(0.25).tolist(),
+                    scene.check().verdicts]
+
+        alone = [ask(scene) for scene in scenes]
+        found = [[None] * 3 for _ in scenes]
+
+        def ask_again(which, turn):
+            found[which][turn] = ask(scenes[which])
+
+        threads = [threading.Thread(target=ask_again, args=(which, turn))
+                   for turn in range(3) for which in range(len(scenes))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for one, others in zip(alone, found):
+            self.assertEqual(others, [one] * 3)
+
+    def test_a_signal_ends_a_call(self):
+        class Stopped(Exception):
+            pass
+
+        def stop(_number, _frame):
+            raise Stopped
+
+        scene = alembert.Scene(scene_file("textbook/double_pendulum.toml"))
+        former = signal.signal(signal.SIGUSR1, stop)
+        try:
+            for call in (lambda: scene.simulate(duration=1e7, budget=10**12),
+                         lambda: scene.sweep({"theta1": np.linspace(0, 1, 10**5)}, duration=200)):
+                timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGUSR1))
+                timer.start()
+                with self.assertRaises(Stopped):
+                    call()
+                timer.join()
+        finally:
+            signal.signal(signal.SIGUSR1, former)
 
 
 class Motions(unittest.TestCase):
@@ -134,6 +275,29 @@ class Systems(unittest.TestCase):
         self.assertAlmostEqual(T, 0.5 * 2 * (1.5 * 0.1)**2)
         self.assertAlmostEqual(E, T + V)
 
+    def test_states_may_be_columns(self):
+        f = self.system
+        states = np.random.default_rng(2).normal(size=(2, 37))
+        np.testing.assert_array_equal(f.rhs_of_columns(0.0, states), f.rhs(0.0, states.T).T)
+        np.testing.assert_array_equal(f.rhs_of_columns(0.0, states[:, 3]), f.rhs(0.0, states[:, 3]))
+        try:
+            from scipy.integrate import solve_ivp
+        except ImportError:
+            self.skipTest("SciPy is missing")
+        ours = alembert.Scene(PENDULUM).simulate(duration=2, tolerance=1e-12)
+        for method in ("Radau", "BDF"):
+            theirs = solve_ivp(f.rhs_of_columns, (0, 2), [0.4, 0.1], method=method, vectorized=True, rtol=1e-9, atol=1e-11)
+            self.assertAlmostEqual(theirs.y[0, -1], ours["theta"][-1], places=6)
+
+    def test_matrices_along_a_motion(self):
+        near = alembert.Scene(PENDULUM).linearize(along=True, duration=1, sample=0.25)
+        self.assertEqual([row["time"] for row in near.along], [0, 0.25, 0.5, 0.75, 1])
+        for row in near.along:
+            np.testing.assert_allclose(row["A"], self.system.jacobian(0.0, row["x"]), rtol=1e-12)
+            np.testing.assert_allclose(row["c"], self.system.rhs(0.0, row["x"]), rtol=1e-12)
+        with self.assertRaisesRegex(ValueError, "sample=nan: expected a finite number"):
+            alembert.Scene(PENDULUM).linearize(along=True, sample=math.nan)
+
     def test_other_parameters(self):
         self.system.set(l=3)
         self.assertAlmostEqual(self.system.rhs(0.0, [0.4, 0.1])[1], -9.81 / 3 * math.sin(0.4), places=13)
@@ -174,9 +338,12 @@ class Robots(unittest.TestCase):
     def test_an_arm_from_urdf_over_arrays_of_any_shape(self):
         arm = alembert.Scene.from_robot(os.path.join(TESTS, "robots/arm6.urdf"), drives=True)
         self.assertEqual(arm.imported.bodies, 6)
-        robot = arm.robot(("inverse", "mass", "bias"), frames=["tip"])
+        robot = arm.robot(("inverse", "mass", "bias", "coriolis"), frames=["tip"])
         q, v, a = np.random.default_rng(3).normal(size=(3, 5, 7, 6))
         M, h = robot.mass(q), robot.bias(q, v)
+        C, change = robot.coriolis(q, v), (robot.mass(q + 1e-5 * v) - robot.mass(q - 1e-5 * v)) / 2e-5
+        skew = change - 2 * C
+        np.testing.assert_allclose(skew, -np.swapaxes(skew, -1, -2), atol=1e-7)
         self.assertEqual(M.shape, (5, 7, 6, 6))
         np.testing.assert_allclose(robot.inverse(q, v, a), (M @ a[..., None])[..., 0] + h, rtol=1e-11, atol=1e-11)
         np.testing.assert_allclose(robot.tip_velocity(q, v), (robot.tip_jacobian(q) @ v[..., None])[..., 0],

@@ -71,8 +71,10 @@ class Verbs(unittest.TestCase):
                 self.assertEqual(one.read(), other.read())
         with self.assertRaises(ValueError):
             alembert.Scene(file).fmu("none.fmu", fmi=1)
-        with self.assertRaises(ValueError):
+        with self.assertRaisesRegex(alembert.ModelError, "call it NAME.fmu"):
             alembert.Scene(file).fmu("none.zip")
+        with self.assertRaisesRegex(alembert.ModelError, "expected a name that ends in .svg"):
+            alembert.Scene(file).draw().save("none.png")
 
     def test_branches_charts_loci_and_exponents_have_pictures(self):
         hoop = alembert.Scene(scene_file("textbook/rotating_hoop.toml"))
@@ -144,6 +146,7 @@ class Verbs(unittest.TestCase):
     def test_the_stubs_have_the_names_and_arguments_of_the_package(self):
         with open(os.path.join(os.path.dirname(alembert.__file__), "__init__.pyi"), encoding="utf-8") as file:
             stubs = {one.name: one for one in ast.parse(file.read()).body if hasattr(one, "name")}
+        stubs = {name: one for name, one in stubs.items() if not name.startswith("_")}  # of fields
         self.assertEqual(set(stubs), set(alembert.__all__))
         for name, stub in stubs.items():
             ours = getattr(alembert, name)
@@ -156,6 +159,33 @@ class Verbs(unittest.TestCase):
                     has = [p for p in inspect.signature(getattr(ours, method.name)).parameters if p != "self"]
                     self.assertEqual(has, said, f"{name}.{method.name}")
                     self.assertTrue(method.name.startswith("_") or is_there.__doc__ or is_there.__func__.__doc__)
+
+    def test_the_fields_of_stubs_are_those_of_the_values(self):
+        hoop = alembert.Scene(scene_file("textbook/rotating_hoop.toml"))
+        coin = alembert.Scene(scene_file("textbook/coin.toml"))
+        with open(os.path.join(os.path.dirname(alembert.__file__), "__init__.pyi"), encoding="utf-8") as file:
+            text = file.read()
+        stubs = {one.name: one for one in ast.parse(text).body if isinstance(one, ast.ClassDef)}
+        fields = {name: {f.target.id: ast.unparse(f.annotation) for f in stub.body if isinstance(f, ast.AnnAssign)}
+                  for name, stub in stubs.items()}
+        shown = [hoop.check(["theta'' = 0", "0 = 0"]), hoop.agree(), coin.audit(), hoop.stability({"theta": 0}),
+                 hoop.equilibrium()]
+        self.assertEqual([type(one).__name__ for one in shown],
+                         ["Checked", "Agreed", "Audited", "Stability", "Equilibria"])
+        for one in shown:
+            for name in fields[type(one).__name__]:
+                self.assertIn(name, one.json)
+        for value, always, more in ((shown[0].claims[0], "_ClaimAlways", "_Claim"),
+                                    (shown[2].constraints[0], "_Constraint", "_Constraint"),
+                                    (shown[4].equilibria[0], "_EquilibriumAlways", "_Equilibrium")):
+            self.assertLessEqual(set(fields[always]), set(value))
+            self.assertLessEqual(set(value), {**fields[always], **fields[more]}.keys())
+        (verdict,) = re.findall(r"_Verdict = Literal\[(.*)\]", text)
+        for said in shown[0].verdicts:
+            self.assertIn(f'"{said}"', verdict)
+        for one in (shown[1], shown[3]):
+            self.assertIn(f"'{one.verdict}'", fields[type(one).__name__]["verdict"])
+        self.assertNotIn("Any", " ".join(fields["Checked"].values()))
 
     def test_warnings_are_warnings(self):
         wrong = {**PENDULUM, "body": [{"name": "B", "mass": 1, "position": [0, 0, 0], "frame": "F",
@@ -234,6 +264,22 @@ class Expressions(unittest.TestCase):
         names = {"cart": scene.replace(force, "")}
         exec(code, names)
         self.assertEqual(names["scene"].check(names["claims"]).verdicts, ["proved", "proved"])
+
+    def test_what_the_scene_language_does_not_have_is_refused(self):
+        sympy = self.sympy
+        x, t = sympy.symbols("x t")
+        none = (x > 1, x <= 1, sympy.Ne(x, 1), sympy.And(x > 1, t > 1), sympy.Piecewise((x, x > 0), (1, True)),
+                sympy.true, sympy.Eq(x, x), sympy.I * x, sympy.oo, sympy.nan, sympy.zoo, sympy.gamma(x), sympy.sec(x),
+                sympy.Integral(x, x), sympy.Matrix([x]), sympy.Symbol("a b"), sympy.Mod(x, 2), sympy.floor(x))
+        for value in none:
+            with self.assertRaises(ValueError, msg=str(value)):
+                alembert.from_sympy(value)
+        with self.assertRaisesRegex(ValueError, "x > 1: an inequality cannot be written as an equation"):
+            alembert.from_sympy(x > 1)
+        self.assertEqual(alembert.from_sympy(sympy.Eq(x, x, evaluate=False)), "x = x")
+        for value in (sympy.E * x, 0.1 * x, 1e-20 * x, sympy.Min(x, t), sympy.Abs(x)**sympy.Rational(1, 3), sympy.pi):
+            there = alembert.to_sympy(alembert.from_sympy(value))
+            self.assertEqual(float((there - value).subs({x: 1.7, t: 0.3})), 0)
 
     def test_powers_bind_as_in_the_scene_language(self):
         sympy = self.sympy

@@ -19,16 +19,18 @@ message), ModelError, IntegrationError (with `.time` and `.state`), EnvironmentF
 from . import _alembert
 from ._alembert import EnvironmentFailure, Error, IntegrationError, ModelError, SceneError
 from ._motion import Run, Swept
-from ._results import Checked, Derivation, Drawn, Equation, Figure, Result, SceneWarning, Sources
+from ._results import (
+    Agreed, Audited, Checked, Derivation, Drawn, Equation, Equilibria, Figure, Result, SceneWarning, Sources,
+    Stability)  # yapf: disable
 from ._scene import Scene
 from ._system import Robot, RobotFunction, System
 from .expressions import from_sympy, to_sympy
 
 __version__ = _alembert.version
 __all__ = [
-    "Checked", "Derivation", "Drawn", "EnvironmentFailure", "Equation", "Error", "Figure", "IntegrationError",
-    "ModelError", "Result", "Robot", "RobotFunction", "Run", "Scene", "SceneError", "SceneWarning", "Sources", "Swept",
-    "System", "from_sympy", "to_sympy",
+    "Agreed", "Audited", "Checked", "Derivation", "Drawn", "EnvironmentFailure", "Equation", "Equilibria", "Error",
+    "Figure", "IntegrationError", "ModelError", "Result", "Robot", "RobotFunction", "Run", "Scene", "SceneError",
+    "SceneWarning", "Sources", "Stability", "Swept", "System", "from_sympy", "to_sympy",
 ]  # yapf: disable
 for _name in __all__:  # where users find them, and where pickles look for them
     globals()[_name].__module__ = "alembert"

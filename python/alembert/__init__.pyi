@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 from os import PathLike
-from typing import Any, Iterable, Mapping, Sequence
+from typing import Any, Iterable, Literal, Mapping, Sequence, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,10 +30,103 @@ class Result:
     json: dict[str, Any]
     def __getattr__(self, name: str) -> Any: ...
 
+_Verdict = Literal["proved", "refuted", "undecided", "vacuous"]
+
+class _Likely(TypedDict):
+    kind: str
+    term: str
+
+class _Branch(TypedDict):
+    where: str | None
+    verdict: _Verdict
+    counterexample: dict[str, str]
+
+class _ClaimAlways(TypedDict):
+    equation: str
+    line: int
+    at: str
+    verdict: _Verdict
+    method: Literal["proved", "sampled"]
+    kinematic: bool
+    counterexample: dict[str, str]
+    residual: float | None
+    difference: str
+    likely: _Likely | None
+
+class _Claim(_ClaimAlways, total=False):
+    source: str
+    failure_bound_log2: float
+    residual_text: str
+    nearest: str
+    reason: str
+    where: str | None
+    other_branches: list[_Branch]
+
 class Checked(Result):
+    claims: list[_Claim]
+    complete: bool
+    missing_equations: list[str]
+    degrees_of_freedom: int
     @property
-    def verdicts(self) -> list[str]: ...
+    def verdicts(self) -> list[_Verdict]: ...
     def __bool__(self) -> bool: ...
+
+class Agreed(Result):
+    formalisms: list[str]
+    verdict: Literal["proved", "refuted", "undecided"]
+    method: Literal["proved", "sampled"]
+    points: int
+    failure_bound_log2: float
+    refused: dict[str, str]
+    seconds: float
+
+class _Constraint(TypedDict):
+    name: str
+    kind: Literal["holonomic", "nonholonomic"]
+    rheonomic: bool
+    integrable: bool | None
+    integrable_alone: bool | None
+    integral: str | None
+    redundant: bool
+    residual: list[float | None]
+    notes: list[str]
+
+class Audited(Result):
+    constraints: list[_Constraint]
+    rank: int
+    degrees_of_freedom: int
+    notes: list[str]
+
+class Stability(Result):
+    verdict: Literal["asymptotically stable", "stable", "unstable", "undecided"]
+    theorem: str
+    reason: str
+    states: list[str]
+    eigenvalues: list[tuple[float, float]]
+    conditions: list[str]
+    conditions_for: str
+    certain: bool
+
+class _EquilibriumAlways(TypedDict):
+    coordinates: dict[str, float]
+    rates: dict[str, float]
+    moving: list[str]
+    multipliers: dict[str, float]
+    residual: float
+    isolated: bool
+    stable: Literal["yes", "no", "undecided"]
+    because: str
+    eigenvalues: list[tuple[float, float]]
+
+class _Equilibrium(_EquilibriumAlways, total=False):
+    exact: dict[str, str]
+    where: list[str]
+
+class Equilibria(Result):
+    equilibria: list[_Equilibrium]
+    complete: bool
+    method: Literal["closed form", "search"]
+    formalism: str
 
 class Drawn(Result):
     @property
@@ -57,6 +150,7 @@ class Derivation(Result):
     def page(self, format: str = ..., steps: bool = ...) -> str: ...
 
 class Run(Result):
+    final: dict[str, Any]
     columns: list[str]
     table: NDArray[np.float64]
     failure: str | None
@@ -84,6 +178,7 @@ class System:
     def jacobian(self, t: ArrayLike, y: ArrayLike) -> NDArray[np.float64]: ...
     def mass_matrix(self, t: ArrayLike, y: ArrayLike) -> NDArray[np.float64]: ...
     def energy(self, t: ArrayLike, y: ArrayLike) -> NDArray[np.float64]: ...
+    def rhs_of_columns(self, t: ArrayLike, y: ArrayLike) -> NDArray[np.float64]: ...
     def __call__(self, t: ArrayLike, y: ArrayLike) -> NDArray[np.float64]: ...
     @property
     def parameters(self) -> dict[str, float]: ...
@@ -122,9 +217,11 @@ class Scene:
     def derive(self, by: str = ..., *, reactions: bool = ...) -> Derivation: ...
     def draw(self) -> Figure: ...
     def check(self, claims: str | Iterable[str] | None = ..., *, by: str = ...) -> Checked: ...
-    def audit(self) -> Result: ...
-    def agree(self) -> Result: ...
-    def eval(self, at: _Values = ..., *, by: str = ..., reactions: bool = ...) -> Result: ...
+    def audit(self) -> Audited: ...
+    def agree(self) -> Agreed: ...
+    def eval(
+        self, at: _Values = ..., *, by: str = ..., reactions: bool = ..., matrices: bool = ...
+    ) -> Result: ...
     def inverse(self, at: _Values = ..., *, by: str = ...) -> Result: ...
     def impact(self) -> Result: ...
     def kinematics(
@@ -133,12 +230,15 @@ class Scene:
     def inertia(self, of: Iterable[str] = ..., about: str = ..., at: _Values = ...) -> Result: ...
     def identify(self) -> Result: ...
     def initial_state(self) -> NDArray[np.float64]: ...
-    def equilibrium(self, at: _Values = ..., *, by: str = ..., starts: int = ...) -> Result: ...
+    def equilibrium(self, at: _Values = ..., *, by: str = ..., starts: int = ...) -> Equilibria: ...
     def branches(self, over: _Range, at: _Values = ..., *, by: str = ...) -> Drawn: ...
-    def linearize(self, at: _Values = ..., *, by: str = ...) -> Result: ...
+    def linearize(
+        self, at: _Values = ..., *, by: str = ..., affine: bool = ..., along: bool = ...,
+        duration: float | None = ..., tolerance: float | None = ..., sample: float | None = ...
+    ) -> Result: ...
     def stability(
         self, at: _Values = ..., *, by: str = ..., period: float = ..., lyapunov: str = ...
-    ) -> Result: ...
+    ) -> Stability: ...
     def stability_chart(
         self, x: _Range, y: _Range, at: _Values = ..., *, by: str = ..., period: float = ...
     ) -> Drawn: ...

@@ -4,6 +4,7 @@
 import json as _json
 import os as _os
 
+from . import _alembert
 from ._results import Figure, Result, warn, write
 
 
@@ -13,17 +14,38 @@ class Run(Result):
     `run.t`, `run["theta1"]`, `run["theta1'"]`, `run.table` (rows × columns), `run.columns`. `run(t)` is the state at any
     time, or at each of an array of times. The attributes are those of the JSON object of `simulate`: `final`, `events`,
     `contacts`, `error_estimate` and so on. A motion that broke off has `failure` (a text); what was computed until then
-    is there.
+    is there. A pickled motion has its table and all attributes; what needs the program, `run(t)`, `plot` and `save`,
+    integrates it again when it is first asked for.
     """
 
-    def __init__(self, run):
+    def __init__(self, asked):
+        run = _alembert.simulate(*asked)
         json, said = run.json()
         warn(said)
         super().__init__(_json.loads(json))
+        self._asked = asked
         self._run = run
         self.columns = run.columns
         self.table = run.table
         self.failure = run.failure
+
+    def __getstate__(self):
+        return {**self.__dict__, "_run": None, "_text": repr(self)}
+
+    def __setstate__(self, state):
+        self.__dict__.update(state)
+        self.table.flags.writeable = False
+
+    def __copy__(self):
+        same = object.__new__(type(self))
+        same.__dict__.update(self.__dict__)
+        return same
+
+    def _alive(self):
+        """The motion in the program."""
+        if self._run is None:
+            self._run = _alembert.simulate(*self._asked)
+        return self._run
 
     @property
     def t(self):
@@ -40,21 +62,21 @@ class Run(Result):
         """The state at the time t between the first row and the last: coordinates, then rates (or speeds), as
         `System.rhs` takes them. For an array of times an array with one more axis. Where rates jump it is the state
         after the jump. The error is that of the rows: the motion is integrated from the row before t."""
-        return self._run.states_at(t)
+        return self._alive().states_at(t)
 
     def plot(self, *columns):
         """A Figure of these columns over time; of all coordinates if none is named."""
-        return Figure(self._run.plot(list(columns)))
+        return Figure(self._alive().plot(list(columns)))
 
     def save(self, path):
         """Writes the table as CSV, or as NAME.npz (NumPy) or NAME.h5 (HDF5), as `simulate -o` does."""
-        write(path, self._run.file(_os.fspath(path)))
+        write(path, self._alive().file(_os.fspath(path)))
 
     def _repr_html_(self):
         return super()._repr_html_() + self.plot().svg
 
     def __repr__(self):
-        return self._run.text()
+        return self._text if self._run is None else self._run.text()
 
 
 class Swept(Result):

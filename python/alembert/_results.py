@@ -3,6 +3,7 @@
 
 import html as _html
 import json as _json
+import math as _math
 import os as _os
 import warnings as _warnings
 
@@ -42,13 +43,27 @@ def axis(over):
         raise ValueError(f"{over!r}: expected (name, from, to) or (name, from, to, count)") from None
 
 
-def run_numbers(**given):
-    """Options of a motion as numbers; what is None is the scene's, which the program writes as -1."""
-    for name, value in given.items():
-        if value is not None and not (value >= 0 if name == "duration" else value > 0):
-            least = "of zero or more" if name == "duration" else "above zero"
-            raise ValueError(f"{name}={value}: expected a number {least}")
-    return {name: -1.0 if value is None else float(value) for name, value in given.items()}
+def numbers(**given):
+    """Options as numbers, which the program checks; what is None is the scene's."""
+    return {name: None if value is None else float(value) for name, value in given.items()}
+
+
+def _as_json(value):
+    """JSON has no number for what is not finite: it becomes a text, which the program reads and refuses."""
+    if isinstance(value, dict):
+        return {name: _as_json(one) for name, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_as_json(one) for one in value]
+    return repr(value) if isinstance(value, float) and not _math.isfinite(value) else value
+
+
+def options_text(options):
+    """Options as the program reads them (verbs.hpp); those that are None are left out."""
+    given = {name: value for name, value in options.items() if value is not None}
+    try:
+        return _json.dumps(given, allow_nan=False)
+    except ValueError:
+        return _json.dumps(_as_json(given), allow_nan=False)
 
 
 class Figure:
@@ -62,6 +77,7 @@ class Figure:
 
     def save(self, path):
         """Writes the picture to an SVG file."""
+        _alembert.need_form(_os.fspath(path), "picture")
         write(path, self.svg)
 
     def __repr__(self):
@@ -104,6 +120,22 @@ class Checked(Result):
     def __bool__(self):
         """True if every claim is proved."""
         return all(verdict == "proved" for verdict in self.verdicts)
+
+
+class Agreed(Result):
+    """Formalisms that were compared: `verdict`, and how it was found."""
+
+
+class Audited(Result):
+    """Constraints: kinds, ranks, which are redundant or integrable."""
+
+
+class Stability(Result):
+    """A `verdict` about stability, with its `reason`."""
+
+
+class Equilibria(Result):
+    """Equilibria and steady motions, each with its coordinates and what is known of its stability."""
 
 
 class Drawn(Result):
@@ -154,11 +186,22 @@ class Equation:
 class Derivation(Result):
     """Equations of motion by one formalism. A notebook shows them as formulas."""
 
-    def __init__(self, derived):
+    def __init__(self, asked):
+        derived = _alembert.derive(*asked)
         json, said = derived.json()
         warn(said)
         super().__init__(_json.loads(json))
+        self._asked = asked
         self._derived = derived
+
+    def __getstate__(self):
+        return {**self.__dict__, "_derived": None}
+
+    def _alive(self):
+        """The derivation in the program, which one that was pickled does not have: it is derived again."""
+        if self._derived is None:
+            self._derived = _alembert.derive(*self._asked)
+        return self._derived
 
     @property
     def equations(self):
@@ -167,7 +210,7 @@ class Derivation(Result):
 
     def page(self, format="text", steps=False):
         """The whole derivation as text, latex or mathml; with `steps` all that leads to the equations."""
-        return self._derived.page(format, steps)
+        return self._alive().page(format, steps)
 
     def _repr_latex_(self):
         lines = " \\\\\n".join(one.latex for one in self.equations)
@@ -182,7 +225,6 @@ class Derivation(Result):
 
 def ask(verb, text, file, options, kind=Result):
     """The value of a verb (verbs.hpp); `options` that are None are left out."""
-    given = {name: value for name, value in options.items() if value is not None}
-    json, page, said, files, _, _ = _alembert.ask(verb, text, file, _json.dumps(given, allow_nan=False))
+    json, page, said, files, _, _ = _alembert.ask(verb, text, file, options_text(options))
     warn(said)
     return kind(_json.loads(json), page, files)

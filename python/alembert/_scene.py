@@ -9,7 +9,8 @@ from collections.abc import Mapping as _Mapping
 from . import _alembert
 from ._motion import Run, Swept
 from ._results import (
-    Checked, Derivation, Drawn, Figure, Result, Sources, ask, axis, run_numbers, values_at, warn, write)  # yapf: disable
+    Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Result, Sources, Stability, ask, axis, numbers,
+    options_text, values_at, warn, write)  # yapf: disable
 from ._system import Robot, System
 from ._toml import to_toml
 
@@ -63,7 +64,7 @@ class Scene:
 
     def derive(self, by="", *, reactions=False):
         """The equations of motion, by the formalism named, or by the one that a teacher would choose."""
-        return Derivation(_alembert.derive(self.text, self.name, by, reactions))
+        return Derivation((self.text, self.name, by, reactions))
 
     def draw(self):
         """The figure of the scene at its initial state."""
@@ -77,17 +78,18 @@ class Scene:
 
     def audit(self):
         """Constraints: kinds, ranks, which are redundant or integrable."""
-        return self._ask("audit")
+        return self._ask("audit", Audited)
 
     def agree(self):
         """Derives by every formalism that applies and proves them equal."""
-        return self._ask("agree")
+        return self._ask("agree", Agreed)
 
     # One state
 
-    def eval(self, at=None, *, by="", reactions=False):
-        """One evaluation, at the initial state or with `at={"theta": 0.3, "theta'": 1}`; needs no compiler."""
-        return self._ask("eval", at=values_at(at), by=by, reactions=reactions)
+    def eval(self, at=None, *, by="", reactions=False, matrices=False):
+        """One evaluation, at the initial state or with `at={"theta": 0.3, "theta'": 1}`; needs no compiler. With
+        `matrices` there are M and C of M q'' + C q' + g = Q."""
+        return self._ask("eval", at=values_at(at), by=by, reactions=reactions, matrices=matrices)
 
     def inverse(self, at=None, *, by=""):
         """The loads for given accelerations: `at={"q1''": 2}`."""
@@ -121,19 +123,22 @@ class Scene:
 
     def equilibrium(self, at=None, *, by="", starts=0):
         """Where the system can stay at rest or move steadily: `equilibria`."""
-        return self._ask("equilibrium", at=values_at(at), by=by, starts=starts)
+        return self._ask("equilibrium", Equilibria, at=values_at(at), by=by, starts=starts)
 
     def branches(self, over, at=None, *, by=""):
         """Equilibria followed over a parameter: `over=("Omega", 0, 20)`; `.figure` is the bifurcation diagram."""
         return self._ask("branches", Drawn, over=axis(over), at=values_at(at), by=by)
 
-    def linearize(self, at=None, *, by=""):
-        """Matrices and eigenvalues near an equilibrium or a steady motion."""
-        return self._ask("linearize", at=values_at(at), by=by)
+    def linearize(self, at=None, *, by="", affine=False, along=False, duration=None, tolerance=None, sample=None):
+        """Matrices and eigenvalues near an equilibrium or a steady motion. With `affine`, about any state:
+        x' = A dx + B du + c, `c` besides `matrices`. With `along`, about the motion from the state: `along` is a list of
+        such rows with their `time` and `x`, as many as `duration` and `sample` make."""
+        return self._ask("linearize", at=values_at(at), by=by, affine=affine, along=along,
+                         **numbers(duration=duration, tolerance=tolerance, sample=sample))
 
     def stability(self, at=None, *, by="", period=0.0, lyapunov=""):
         """Is an equilibrium or a steady motion stable, and why? `verdict`, `by` and the rest of the command's."""
-        return self._ask("stability", at=values_at(at), by=by, period=period, lyapunov=lyapunov)
+        return self._ask("stability", Stability, at=values_at(at), by=by, period=period, lyapunov=lyapunov)
 
     def stability_chart(self, x, y, at=None, *, by="", period=0.0):
         """Stability over two parameters, each (name, from, to) or (name, from, to, count); `.figure` is the chart."""
@@ -158,11 +163,9 @@ class Scene:
         `run.sensitivity["values"][i][k]` is that of component `["of"][i]` by `["by"][k]`; `sensitivity_of` names the
         components and outputs that are wanted, and where these are few, the adjoint equations give them. With
         `regularize=True` steps are short where the potential is deep."""
-        given = run_numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
-        run_numbers(budget=budget)
-        return Run(_alembert.simulate(self.text, self.name, by, method, list(given.values()), int(budget), estimate,
-                                      reactions, fast_math, poincare, code, list(sensitivity), list(sensitivity_of),
-                                      regularize))
+        given = numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
+        return Run((self.text, self.name, by, method, list(given.values()), int(budget), estimate, reactions, fast_math,
+                    poincare, code, list(sensitivity), list(sensitivity_of), regularize))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
               budget=10_000_000, by="", threads=0, code=""):
@@ -172,21 +175,22 @@ class Scene:
 
         lists = [numpy.asarray(one, dtype=float).ravel().tolist() for one in values.values()]
         shape = tuple(map(len, lists)) if grid else (len(lists[0]) if lists else 0,)
-        if not lists or 0 in shape:
-            raise ValueError("there is nothing to vary; values={'theta1': [0.1, 0.2]} is wanted")
+        empty = [name for name, one in zip(values, lists) if not one]
+        if empty:  # of which the program tells
+            values, lists, shape = {empty[0]: ()}, [[]], (0,)
         if not grid and any(len(one) != len(lists[0]) for one in lists):
             raise ValueError("with grid=False every quantity needs as many values as the others")
         points = [x for point in (_itertools.product(*lists) if grid else zip(*lists)) for x in point]
         given = {"names": list(values), "points": points, "method": method, "by": by, "threads": threads, "code": code,
-                 **run_numbers(duration=duration, tolerance=tolerance, step=step, max_step=max_step, budget=budget)}
-        json, text, said, _, columns, table = _alembert.ask("sweep", self.text, self.name, _json.dumps(given))
+                 "budget": int(budget), **numbers(duration=duration, tolerance=tolerance, step=step, max_step=max_step)}
+        json, text, said, _, columns, table = _alembert.ask("sweep", self.text, self.name, options_text(given))
         warn(said)
         return Swept(_json.loads(json), text, columns, table, shape)
 
     def bench(self, duration=None, *, method="", budget=10_000_000, peers=False, by=""):
         """Speed against error of every method; `.figure` is the diagram."""
         return self._ask("bench", Drawn, method=method, peers=peers, by=by,
-                         **run_numbers(duration=duration, budget=budget))
+                         budget=int(budget), **numbers(duration=duration))
 
     # For other programs
 
@@ -196,7 +200,7 @@ class Scene:
 
     def robot(self, functions=ROBOT_FUNCTIONS, frames=(), *, by=""):
         """The compiled functions that control and planning need, over arrays of states; those of `frames` (points,
-        bodies, or "P@F") too. `functions` may have "inverse_jacobian" and "regressor" besides."""
+        bodies, or "P@F") too. `functions` may have "coriolis", "inverse_jacobian" and "regressor" besides."""
         return Robot(self, functions, frames, by)
 
     def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
@@ -216,18 +220,16 @@ class Scene:
 
     def fmu(self, path, *, fmi=2, by=""):
         """Writes a functional mock-up unit of FMI 2.0 or 3.0 to this file; its states, inputs, outputs, parameters."""
-        if fmi not in (2, 3):
-            raise ValueError(f"fmi={fmi!r}: there are the versions 2 and 3")
         path = _os.fspath(path)
-        if not path.endswith(".fmu"):
-            raise ValueError(f"{path!r}: other tools know a unit by its ending; call it NAME.fmu")
+        _alembert.need_form(path, "unit")
         unit = self._ask("fmu", path=path, fmi=fmi, by=by)
         write(path, unit._files["fmu"])
         return unit
 
     def report(self, path, *, duration=None, motion=True, by=""):
         """Writes the page of the scene, with the figure that moves, to this HTML file."""
-        page = self._ask("report", motion=motion, by=by, **run_numbers(duration=duration))
+        _alembert.need_form(_os.fspath(path), "page")
+        page = self._ask("report", motion=motion, by=by, **numbers(duration=duration))
         write(path, page._files["html"])
 
     def _repr_latex_(self):

@@ -12,6 +12,7 @@ import re
 
 _TOKEN = re.compile(r"\s*(?:(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|([^\W\d]\w*)('*)|([-+*/^(),=]))")
 _RENAMED = {"asin": "asin", "acos": "acos", "abs": "Abs", "min": "Min", "max": "Max"}
+_LANGUAGE = {"Abs": "abs", "Min": "min", "Max": "max"}
 _FUNCTIONS = "sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs min max sign".split()
 
 
@@ -123,17 +124,60 @@ def to_sympy(text, functions=()):
     return value
 
 
+def _check_language(value):
+    """Throws where a part of a SymPy expression has no word in the scene language."""
+    import sympy
+
+    def refuse(part, why):
+        raise ValueError(f"{part}: {why}")
+
+    known = (sympy.Symbol, sympy.Rational, sympy.Float, sympy.Add, sympy.Mul, sympy.Pow, sympy.Derivative, sympy.Tuple,
+             type(sympy.pi), type(sympy.E))  # yapf: disable
+    if value in (sympy.true, sympy.false):
+        refuse(value, "this is no equation; Eq(…, …, evaluate=False) keeps one that holds for all values, or for none")
+    for part in sympy.preorder_traversal(value):
+        if not isinstance(part, sympy.Basic):
+            refuse(part, "the scene language has no words for this")
+        kind = part.func.__name__
+        is_open = isinstance(part, sympy.core.function.AppliedUndef)
+        if isinstance(part, sympy.core.relational.Relational):
+            if not isinstance(part, sympy.Eq):
+                refuse(part, "an inequality cannot be written as an equation")
+            if part is not value:
+                refuse(part, "an equation cannot stand within an expression")
+        elif (is_open or isinstance(part, sympy.Symbol)) and not re.fullmatch(
+                r"[^\W\d]\w*", kind if is_open else part.name):
+            refuse(part, "a name of the scene language has letters, digits and _ alone")
+        elif isinstance(part, (sympy.Function, sympy.core.operations.LatticeOp)) and not is_open:
+            if _LANGUAGE.get(kind, kind) not in _FUNCTIONS:
+                refuse(part, f"the scene language has no {kind}")
+        elif not is_open and not isinstance(part, known) or part is sympy.nan:
+            refuse(part, "the scene language has no words for this")
+
+
 def from_sympy(value):
-    """A SymPy expression or equation in the scene language. Functions of t lose their argument: theta(t) is theta."""
+    """A SymPy expression or equation in the scene language. Functions of t lose their argument: theta(t) is theta.
+
+    Raises ValueError for what the language does not have, such as inequalities and cases.
+    """
     import sympy
     from sympy.printing.str import StrPrinter
+
+    value = sympy.sympify(value)
+    _check_language(value)
 
     class Printer(StrPrinter):
         def _print_Function(self, e):
             name = e.func.__name__
             if e.args == (sympy.Symbol("t"),) and isinstance(e, sympy.core.function.AppliedUndef):
                 return name
-            return f"{ {'Abs': 'abs', 'Min': 'min', 'Max': 'max'}.get(name, name) }({self.stringify(e.args, ', ')})"
+            return f"{_LANGUAGE.get(name, name)}({self.stringify(e.args, ', ')})"
+
+        def _print_Float(self, e):
+            return repr(float(e)) if e._prec == 53 else super()._print_Float(e)
+
+        def _print_Exp1(self, e):
+            return "exp(1)"
 
         _print_Abs = _print_Min = _print_Max = _print_Function
         _print_LatticeOp = _print_Function

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// GiNaC counts its references without atomic operations, so that one thread at a time may work with expressions,
+/// or destroy them. A thread takes its turn without the interpreter's lock: other threads of Python go on
+/// meanwhile, and those that ask for a turn wait.
+///
+///     const Answer answer = in_turn([&] { return answer_of(verb, …); });
+///     py::class_<Motion, std::unique_ptr<Motion, DestroyedInTurn<Motion>>>(module, "Run");
+///
+/// No object of Python may be touched in a turn, except by a thread that takes the lock again.
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+
+namespace alembert {
+
+/// The calling thread has its turn while this exists; one that has it already keeps it. Ctrl-C ends the wait for
+/// it.
+class SymbolicTurn {
+public:
+    SymbolicTurn();
+    ~SymbolicTurn();
+    SymbolicTurn(const SymbolicTurn&) = delete;
+    SymbolicTurn& operator=(const SymbolicTurn&) = delete;
+
+private:
+    pybind11::gil_scoped_release released_;
+    bool is_outer_;
+};
+
+template <typename Function>
+decltype(auto) in_turn(Function function) {
+    const SymbolicTurn turn;
+    return function();
+}
+
+/// Calls the function at once if the turn is free or the thread's own, and otherwise when the next turn begins.
+void in_some_turn(std::function<void()> function);
+
+/// A deleter for values with expressions, which Python destroys whenever it likes.
+template <typename Value>
+struct DestroyedInTurn {
+    void operator()(Value* value) const {
+        in_some_turn([value] { delete value; });
+    }
+};
+
+/// Lets the user interrupt the work (Ctrl-C, or the stop button of a notebook). May be called with or without the
+/// interpreter's lock, and often: it looks twenty times a second.
+void look_for_interrupt(std::string_view what, double part);
+
+}  // namespace alembert
