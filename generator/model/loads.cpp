@@ -121,6 +121,13 @@ ex length_of(Building& here, const Link& link) {
                         : here.m.z->name(here.translator.scalar(link.along));
 }
 
+/// The component of a vector that has one alone, along the axes of N.
+std::optional<ex> only_component(const Vector3& v) {
+    const auto is_there = [](const ex& x) { return !x.is_zero(); };
+    if (std::count_if(v.begin(), v.end(), is_there) != 1) return {};
+    return *std::find_if(v.begin(), v.end(), is_there);
+}
+
 // V = ½ k (d − d₀)²
 void add_spring(Building& here, const Link& s, const Origin& origin) {
     const ex k = here.translator.scalar(s.constant), free_length = here.translator.scalar(s.length);
@@ -129,8 +136,7 @@ void add_spring(Building& here, const Link& s, const Origin& origin) {
     if (s.between && free_length.is_zero()) {
         const Vector3 d = across(here, s);
         square = dot(d, d, *here.m.z);
-        if (std::count_if(d.begin(), d.end(), [](const ex& x) { return !x.is_zero(); }) == 1)
-            spring.extension = *std::find_if(d.begin(), d.end(), [](const ex& x) { return !x.is_zero(); });
+        spring.extension = only_component(d);
     } else {
         spring.extension = length_of(here, s) - free_length;
         square = pow(*spring.extension, 2);
@@ -145,8 +151,10 @@ void add_spring(Building& here, const Link& s, const Origin& origin) {
 }
 
 // The force −c d' along d.
+/// Along a line d is ±e, and −c d' along d is −c e' along e, which is also known where the ends meet.
 void add_damper(Building& here, const Link& damper, const Origin& origin) {
-    const ex length = length_of(here, damper);
+    const std::optional<ex> along_line = damper.between ? only_component(across(here, damper)) : std::nullopt;
+    const ex length = along_line ? *along_line : length_of(here, damper);
     const ex rate = here.m.time_derivative({length})[0];
     const ex force = here.m.z->name(-here.translator.scalar(damper.constant) * rate);
     here.m.loads.push_back({origin, true, {{rate, force, length}}});
