@@ -8,7 +8,7 @@
 //   state[6]        alpha [rad], beta [rad], phi [rad], then their rates
 //   rate[6]         d state / dt
 //   par[12]         J = 40 [kg*m^2], A = 1 [kg*m^2], C = 1.5 [kg*m^2], Wh = 300 [N m], u = 5 [N m],
-//                   N1 = 2 [N m], then 6 numbers that prepare computes from them; call it after each change
+//                   N1 = 2 [N m s], then 6 numbers that prepare computes from them; call it after each change
 //   mass_forcing    mass[9], M row by row; forcing[3], f
 //   energy          energy[4]: T, V, E = T + V [J], and the power [W] of loads and prescribed motions; jacobi[1]
 //   cost            43 operations a right-hand side: 11 additions, 27 multiplications, 1 division, 4 functions

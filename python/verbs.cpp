@@ -33,6 +33,7 @@
 #include "report/stability_charts.hpp"
 #include "report/sweep.hpp"
 #include "scene/claims_file.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -44,6 +45,28 @@ using Texts = std::vector<std::string>;
 class Asked {
 public:
     Asked(Json options, const ToldProgress& progress) : progress(progress), options_(std::move(options)) {}
+
+    /// From here on numbers that were given for names are in SI units, and not in those of the scene.
+    void take_units(const Scene& scene) {
+        if (has("at")) {
+            Json values = Json::array();
+            for (const auto& [name, value] : exact_overrides_of(texts("at"), scene))
+                values.push_back(fmt::format("{}={}", name, value));
+            options_["at"] = std::move(values);
+        }
+        if (has("over")) {
+            Json& over = options_["over"];
+            if (over.at(0).is_array())
+                for (Json& range : over) scale(range, scene);
+            else
+                scale(over, scene);
+        }
+        if (!has("names") || !has("points")) return;
+        const Texts names = texts("names");
+        Json& points = options_["points"];  // one after the other
+        for (std::size_t k = 0; k < points.size() && !names.empty(); ++k)
+            points[k] = points[k].get<double>() * size_of_one(scene, names[k % names.size()]);
+    }
 
     bool has(const char* name) const { return options_.contains(name); }
     bool flag(const char* name) const { return options_.value(name, false); }
@@ -60,14 +83,9 @@ public:
     std::string text(const char* name) const { return options_.value(name, std::string()); }
     Texts texts(const char* name) const { return options_.value(name, Texts()); }
     std::string by() const { return text("by"); }
-    Overrides at() const { return overrides_of(texts("at")); }
+    Overrides at() const { return overrides_of(texts("at"), Scene()); }
     /// The values as they were written.
-    ExactOverrides exact_at() const {
-        ExactOverrides result;
-        for (const std::string& item : texts("at"))
-            result.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
-        return result;
-    }
+    ExactOverrides exact_at() const { return exact_overrides_of(texts("at"), Scene()); }
     /// [name, from, to] or [name, from, to, count]
     Axis axis(const char* name, std::size_t count) const { return axis_of(options_.at(name), count); }
     std::vector<Axis> axes(const char* name, std::size_t count) const {
@@ -96,6 +114,10 @@ public:
     }
 
 private:
+    static void scale(Json& range, const Scene& scene) {
+        for (const std::size_t k : {1, 2})
+            range[k] = range[k].get<double>() * size_of_one(scene, range[0].get<std::string>());
+    }
     static Axis axis_of(const Json& range, std::size_t count) {
         return {.name = range.at(0).get<std::string>(),
                 .from = real_of(range.at(1)),
@@ -340,11 +362,13 @@ Answer import_robot(const std::string& file, const Asked& asked) {
 Answer answer_of(const std::string& verb, const std::string& text, const std::string& file,
                  const std::string& options, const ToldProgress& progress) {
     try {
-        const Asked asked(Json::parse(options), progress);
+        Asked asked(Json::parse(options), progress);
         if (verb == "import") return import_robot(file, asked);
         const auto known = verb_functions.find(verb);
         if (known == verb_functions.end()) throw std::invalid_argument(fmt::format("there is no verb '{}'", verb));
-        return known->second(parse_scene(text, file), asked);
+        Scene scene = parse_scene(text, file);
+        asked.take_units(scene);
+        return known->second(std::move(scene), asked);
     } catch (const nlohmann::json::exception& wrong) {
         throw std::invalid_argument(fmt::format("{}: an option is not what is expected: {}", verb, wrong.what()));
     }

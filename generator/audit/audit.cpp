@@ -421,9 +421,7 @@ Audited audit(Scene scene) {
                     rolling.name, rolling.axes));
     constexpr int most_coordinates = 40;
     if (result.mechanism.size() <= most_coordinates)
-        if (const auto found = warnings_of_unresisted(result.scene, result.mechanism, routh(result.mechanism));
-            !found.empty())
-            result.warn(describe(result.scene, found));
+        result.warn(warnings_of_unresisted(result.scene, result.mechanism, routh(result.mechanism)));
     return result;
 }
 

@@ -7,7 +7,6 @@
 #include <array>
 
 #include "check/claim_arithmetic.hpp"
-#include "check/dimensions.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
 #include "check/speaks_of_scene.hpp"
@@ -16,6 +15,7 @@
 #include "language/say.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
+#include "scene/dimensions.hpp"
 #include "symbolic/fourier.hpp"
 
 namespace alembert {
@@ -60,7 +60,7 @@ public:
         else
             tell_nearest(result);
         if (!result.likely)
-            if (const auto term = term_of_wrong_unit(claim_, m_))
+            if (const auto term = term_of_wrong_unit(claim_, asked_.scene))
                 result.likely = Slip{.kind = "wrong_unit", .term = *term};
         return result;
     }

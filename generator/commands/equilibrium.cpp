@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
-#include <charconv>
+#include <cmath>
 #include <iostream>
 
 #include "alembert/error.hpp"
@@ -13,6 +13,7 @@
 #include "language/say.hpp"
 #include "report/branches.hpp"
 #include "report/equilibria.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -27,27 +28,31 @@ struct EquilibriumVerb : SceneOptions {
 };
 
 /// NAME=FROM:TO
-void read_range(const std::string& item, FollowOptions& options) {
+void read_range(const std::string& item, FollowOptions& options, const Scene& scene) {
     const std::size_t equals = item.find('='), colon = item.find(':', equals == item.npos ? 0 : equals);
-    const auto read = [](std::string_view text, double& value) {
-        const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-        return failure == std::errc() && end == text.data() + text.size();
+    options.name = item.substr(0, equals);
+    const auto read = [&](const std::string& text, double& value) {
+        try {
+            value = number_of(in_si(scene, options.name, text));
+            return std::isfinite(value);
+        } catch (const ModelError&) {
+            return false;
+        }
     };
-    const std::string_view all = item;
     if (equals == item.npos || equals == 0 || colon == item.npos ||
-        !read(all.substr(equals + 1, colon - equals - 1), options.from) ||
-        !read(all.substr(colon + 1), options.to))
+        !read(item.substr(equals + 1, colon - equals - 1), options.from) ||
+        !read(item.substr(colon + 1), options.to))
         throw ModelError(
             say("--follow {}: expected NAME=FROM:TO with two numbers, as in --follow Omega=0:20", item));
-    options.name = item.substr(0, equals);
 }
 
 int follow(const EquilibriumVerb& verb) {
-    FollowOptions options{.by = verb.by, .at = overrides_of(verb.at)};
-    read_range(verb.follow, options);
+    Scene scene = scene_of(verb.scene);
+    FollowOptions options{.by = verb.by, .at = overrides_of(verb.at, scene)};
+    read_range(verb.follow, options, scene);
     Progress progress;
     options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Branches found = branches(scene_of(verb.scene), options);
+    const Branches found = branches(std::move(scene), options);
     progress.wipe();
     warn(found.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(found), {verb.scene});
@@ -71,10 +76,11 @@ int run(const EquilibriumVerb& verb) {
     if (!verb.follow.empty()) return follow(verb);
     if (!verb.output.empty() || !verb.svg.empty())
         throw ModelError(say("-o and --svg show branches; expected --follow NAME=FROM:TO with them"));
-    EquilibriumOptions options{.by = verb.by, .at = overrides_of(verb.at), .starts = verb.starts};
+    Scene scene = scene_of(verb.scene);
+    EquilibriumOptions options{.by = verb.by, .at = overrides_of(verb.at, scene), .starts = verb.starts};
     Progress progress;
     options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Equilibria found = equilibria(scene_of(verb.scene), options);
+    const Equilibria found = equilibria(std::move(scene), options);
     progress.wipe();
     warn(found.warnings);
     if (verb.json)

@@ -14,10 +14,11 @@ struct EvalOptions : SceneOptions {
 };
 
 int run(const EvalOptions& options) {
-    const Evaluation e = evaluate(scene_of(options.scene), {.by = options.by,
-                                                            .at = overrides_of(options.at),
-                                                            .reactions = options.reactions,
-                                                            .matrices = options.matrices});
+    Scene scene = scene_of(options.scene);
+    const Overrides at = overrides_of(options.at, scene);
+    const Evaluation e =
+        evaluate(std::move(scene),
+                 {.by = options.by, .at = at, .reactions = options.reactions, .matrices = options.matrices});
     warn(e.warnings);
     if (options.json)
         show(as_json(e, options.reactions));

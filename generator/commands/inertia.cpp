@@ -15,8 +15,9 @@ struct InertiaVerb : SceneOptions {
 };
 
 int run(const InertiaVerb& verb) {
-    const SceneInertia found =
-        inertia(scene_of(verb.scene), {.of = names_of(verb.of), .about = verb.about, .at = overrides_of(verb.at)});
+    Scene scene = scene_of(verb.scene);
+    const Overrides at = overrides_of(verb.at, scene);
+    const SceneInertia found = inertia(std::move(scene), {.of = names_of(verb.of), .about = verb.about, .at = at});
     warn(found.warnings);
     if (verb.json)
         show(as_json(found));

@@ -13,8 +13,9 @@ struct InverseVerb : SceneOptions {
 };
 
 int run(const InverseVerb& options) {
-    const InverseLoads needed =
-        inverse(scene_of(options.scene), {.by = options.by, .at = overrides_of(options.at)});
+    Scene scene = scene_of(options.scene);
+    const Overrides at = overrides_of(options.at, scene);
+    const InverseLoads needed = inverse(std::move(scene), {.by = options.by, .at = at});
     warn(needed.warnings);
     if (options.json)
         show(as_json(needed));

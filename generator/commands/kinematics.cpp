@@ -16,9 +16,10 @@ struct KinematicsVerb : SceneOptions {
 };
 
 int run(const KinematicsVerb& verb) {
+    Scene scene = scene_of(verb.scene);
+    const Overrides at = overrides_of(verb.at, scene);
     const SceneKinematics found = kinematics(
-        scene_of(verb.scene),
-        {.of = names_of(verb.of), .at = overrides_of(verb.at), .steps = verb.steps, .jacobian = verb.jacobian});
+        std::move(scene), {.of = names_of(verb.of), .at = at, .steps = verb.steps, .jacobian = verb.jacobian});
     warn(found.warnings);
     if (verb.json)
         show(as_json(found, verb.steps));

@@ -19,12 +19,12 @@ struct LinearizeVerb : SceneOptions {
 
 int run(const LinearizeVerb& verb) {
     check_output(verb.output, FileForm::csv, {verb.scene});
-    LinearizeOptions options{.by = verb.by, .at = overrides_of(verb.at)};
+    Scene scene = scene_of(verb.scene);
+    LinearizeOptions options{
+        .by = verb.by, .at = overrides_of(verb.at, scene), .exact_at = exact_overrides_of(verb.at, scene)};
     if (verb.affine) options.about = About::any;
     if (verb.along) options.along = verb.motion;
-    for (const std::string& item : verb.at)
-        options.exact_at.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
-    const LinearizedScene near = linearize(scene_of(verb.scene), options);
+    const LinearizedScene near = linearize(std::move(scene), options);
     warn(near.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(near), {verb.scene});
     if (verb.json)

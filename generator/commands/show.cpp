@@ -10,8 +10,36 @@
 
 namespace alembert {
 
+namespace {
+
+/// What was warned of so far.
+std::vector<Diagnostic>& told() {
+    static std::vector<Diagnostic> list;
+    return list;
+}
+
+Json as_json(const std::vector<Diagnostic>& warnings) {
+    Json list = Json::array();
+    for (const Diagnostic& one : warnings) {
+        Json entry = {{"kind", one.kind}, {"message", one.message}};
+        entry["line"] = one.place.line > 0 ? Json(one.place.line) : Json();
+        entry["name"] = one.name.empty() ? Json() : Json(one.name);
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+}  // namespace
+
+bool& are_warnings_errors() {
+    static bool strict = false;
+    return strict;
+}
+
 void show(const Json& result) {
-    std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    Json whole = result;
+    if (whole.is_object() && !whole.contains("warnings")) whole["warnings"] = as_json(told());
+    std::cout << whole.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
 }
 
 void show(const std::string& text) {
@@ -20,7 +48,11 @@ void show(const std::string& text) {
 
 Scene scene_of(const std::string& file) {
     Scene scene = read_scene(file);
-    scene.on_warning = [](const std::string& warning) { warn({warning}); };
+    scene.on_warning = [](const Warning& warning) {
+        if (are_warnings_errors()) throw SceneError(warning.text, warning.parts);
+        warn({warning.text});
+        told().insert(told().end(), warning.parts.begin(), warning.parts.end());
+    };
     return scene;
 }
 

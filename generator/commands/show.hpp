@@ -11,7 +11,7 @@
 
 namespace alembert {
 
-/// Prints one JSON object, or text for people.
+/// Prints one JSON object, with the warnings of the scenes that were read, or text for people.
 void show(const Json& result);
 void show(const std::string& text);
 
@@ -19,8 +19,11 @@ void show(const std::string& text);
 void show_formulas(const std::string& text);
 
 /// Reads a scene. Its warnings, and those of everything computed from it, are printed to standard error as soon as
-/// they are found. Throws like read_scene.
+/// they are found; with --strict the first is a mistake of the scene. Throws like read_scene.
 Scene scene_of(const std::string& file);
+
+/// Whether --strict was given.
+bool& are_warnings_errors();
 
 /// Prints each warning to standard error.
 void warn(const std::vector<std::string>& warnings);

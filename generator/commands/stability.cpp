@@ -26,12 +26,12 @@ struct StabilityVerb : SceneOptions {
     std::string lyapunov, locus, exponents, output, svg;
 };
 
-StabilityOptions options_of(const StabilityVerb& verb) {
-    StabilityOptions options{
-        .by = verb.by, .at = overrides_of(verb.at), .period = verb.period, .lyapunov = verb.lyapunov};
-    for (const std::string& item : verb.at)
-        options.exact_at.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
-    return options;
+StabilityOptions options_of(const StabilityVerb& verb, const Scene& scene) {
+    return {.by = verb.by,
+            .at = overrides_of(verb.at, scene),
+            .exact_at = exact_overrides_of(verb.at, scene),
+            .period = verb.period,
+            .lyapunov = verb.lyapunov};
 }
 
 void need_alone(const StabilityVerb& verb) {
@@ -65,26 +65,28 @@ void hand_over(const StabilityVerb& verb, const Found& found) {
 }
 
 int draw_over(const StabilityVerb& verb) {
-    ChartOptions options{.stability = options_of(verb)};
+    Scene scene = scene_of(verb.scene);
+    ChartOptions options{.stability = options_of(verb, scene)};
     Progress progress;
     options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     if (!verb.locus.empty()) {
-        const RootLocus locus =
-            root_locus(scene_of(verb.scene), range_of("--locus", verb.locus, locus_values), options);
+        const Axis range = range_of("--locus", verb.locus, locus_values, scene);
+        const RootLocus locus = root_locus(std::move(scene), range, options);
         progress.wipe();
         hand_over(verb, locus);
         return 0;
     }
-    const StabilityChart chart =
-        stability_chart(scene_of(verb.scene), range_of("--over", verb.over[0], chart_columns),
-                        range_of("--over", verb.over[1], chart_rows), options);
+    const Axis across = range_of("--over", verb.over[0], chart_columns, scene),
+               up = range_of("--over", verb.over[1], chart_rows, scene);
+    const StabilityChart chart = stability_chart(std::move(scene), across, up, options);
     progress.wipe();
     hand_over(verb, chart);
     return 0;
 }
 
 int find_exponents(const StabilityVerb& verb) {
-    ExponentOptions options{.by = verb.by, .at = overrides_of(verb.at)};
+    Scene scene = scene_of(verb.scene);
+    ExponentOptions options{.by = verb.by, .at = overrides_of(verb.at, scene)};
     if (verb.exponents != "all") {
         const double count = number_of(verb.exponents);
         if (!(count >= 1 && count <= 1000) || count != static_cast<int>(count))
@@ -96,7 +98,7 @@ int find_exponents(const StabilityVerb& verb) {
     if (verb.duration > 0) options.duration = verb.duration;
     Progress progress;
     options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const LyapunovExponents found = lyapunov_exponents(scene_of(verb.scene), options);
+    const LyapunovExponents found = lyapunov_exponents(std::move(scene), options);
     progress.wipe();
     warn(found.warnings);
     hand_over(verb, found);
@@ -109,7 +111,9 @@ int run(const StabilityVerb& verb) {
     need_alone(verb);
     if (!verb.exponents.empty()) return find_exponents(verb);
     if (!verb.over.empty() || !verb.locus.empty()) return draw_over(verb);
-    const Stability result = stability(scene_of(verb.scene), options_of(verb));
+    Scene scene = scene_of(verb.scene);
+    const StabilityOptions options = options_of(verb, scene);
+    const Stability result = stability(std::move(scene), options);
     warn(result.warnings);
     if (verb.json)
         show(as_json(result));

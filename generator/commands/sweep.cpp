@@ -44,17 +44,17 @@ struct SweepVerb : RunVerb {
     std::string show;     ///< the names of the columns that it shows, with commas; if empty, the coordinates
 };
 
-Grid points_of(const SweepVerb& verb) {
+Grid points_of(const SweepVerb& verb, const Scene& scene) {
     if (!verb.vary_from.empty()) {
         if (!verb.vary.empty() || verb.samples > 0)
             throw ModelError(say("--vary-from has all points; leave --vary and --samples out"));
-        return grid_from_file(verb.vary_from);
+        return grid_from_file(verb.vary_from, scene);
     }
-    if (verb.samples == 0) return grid_of(verb.vary);
+    if (verb.samples == 0) return grid_of(verb.vary, scene);
     const Sampling sampling = verb.sampling == "latin"     ? Sampling::latin
                               : verb.sampling == "uniform" ? Sampling::uniform
                                                            : Sampling::sobol;
-    return sampled(ranges_of(verb.vary), static_cast<std::size_t>(verb.samples), sampling,
+    return sampled(ranges_of(verb.vary, scene), static_cast<std::size_t>(verb.samples), sampling,
                    static_cast<std::uint64_t>(verb.seed));
 }
 
@@ -77,7 +77,8 @@ std::unique_ptr<Sweeper> sweeper_of(const SweepVerb& verb, Scene scene) {
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     wishes.columns = shown_names(verb.show);
-    return std::make_unique<Sweeper>(std::move(scene), points_of(verb), wishes, asked_along(verb));
+    Grid points = points_of(verb, scene);
+    return std::make_unique<Sweeper>(std::move(scene), std::move(points), wishes, asked_along(verb));
 }
 
 /// Processes that share a machine have one thread each, unless the launcher or the user gives them more.
@@ -92,7 +93,7 @@ int help_first(const SweepVerb& verb, const Ranks& ranks) {
     run_other(
         [&] {
             Scene scene = read_scene(verb.scene);
-            scene.on_warning = [](const std::string&) {};
+            scene.on_warning = [](const Warning&) {};
             return sweeper_of(verb, std::move(scene));
         },
         [&](const Sweeper& sweeper) {

@@ -11,6 +11,7 @@
 #include "alembert/error.hpp"
 #include "commands/verb.hpp"
 #include "language/say.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -23,7 +24,8 @@ bool read(std::string_view text, long& value) {
 }
 
 /// `missing`: the count where none is given; nothing: it must be.
-Axis axis_of(const std::string& option, const std::string& item, std::optional<std::size_t> missing) {
+Axis axis_of(const std::string& option, const std::string& item, std::optional<std::size_t> missing,
+             const Scene& scene) {
     const auto wrong = [&](const std::string& what) {
         return ModelError(missing
                               ? say("{0} {1}: {2}; expected NAME=FROM:TO, as in {0} k=0:20", option, item, what)
@@ -43,7 +45,7 @@ Axis axis_of(const std::string& option, const std::string& item, std::optional<s
                            count = is_counted ? range.substr(second + 1) : std::string_view();
     for (const auto& [text, value] : {std::pair{from, &axis.from}, std::pair{to, &axis.to}}) {
         try {
-            *value = number_of(std::string(text));
+            *value = number_of(in_si(scene, axis.name, std::string(text)));
         } catch (const ModelError&) {
             throw wrong(say("'{}' is no finite number", text));
         }
@@ -62,16 +64,16 @@ Axis axis_of(const std::string& option, const std::string& item, std::optional<s
 
 }  // namespace
 
-Axis range_of(const std::string& option, const std::string& item, std::size_t count) {
-    const Axis axis = axis_of(option, item, count);
+Axis range_of(const std::string& option, const std::string& item, std::size_t count, const Scene& scene) {
+    const Axis axis = axis_of(option, item, count, scene);
     if (axis.count > 2000) throw ModelError(say("{} {}: expected at most 2000 values", option, item));
     return axis;
 }
 
-std::vector<Axis> ranges_of(const std::vector<std::string>& vary) {
+std::vector<Axis> ranges_of(const std::vector<std::string>& vary, const Scene& scene) {
     std::vector<Axis> axes;
     for (const std::string& item : vary) {
-        const Axis axis = axis_of("--vary", item, 0);
+        const Axis axis = axis_of("--vary", item, 0, scene);
         if (axis.count != 0)
             throw ModelError(say("--vary {}: with --samples a range has no count; leave it out", item));
         for (const Axis& other : axes)
@@ -82,14 +84,14 @@ std::vector<Axis> ranges_of(const std::vector<std::string>& vary) {
     return axes;
 }
 
-Grid grid_of(const std::vector<std::string>& vary) {
+Grid grid_of(const std::vector<std::string>& vary, const Scene& scene) {
     if (vary.empty())
         throw ModelError(
             say("there is nothing to vary; expected --vary NAME=FROM:TO:COUNT, as in --vary theta1=0:3:1000"));
     Grid grid;
     std::size_t points = 1;
     for (const std::string& item : vary) {
-        const Axis axis = axis_of("--vary", item, {});
+        const Axis axis = axis_of("--vary", item, {}, scene);
         for (const Axis& other : grid.axes)
             if (other.name == axis.name) throw ModelError(say("--vary {}: '{}' is varied twice", item, axis.name));
         if (axis.count > most_points / points)

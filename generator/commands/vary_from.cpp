@@ -14,6 +14,7 @@
 #include "commands/verb.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -41,7 +42,7 @@ bool is_blank(const std::string& line) {
 
 }  // namespace
 
-Grid grid_from_file(const std::string& path) {
+Grid grid_from_file(const std::string& path, const Scene& scene) {
     std::ifstream file(path);
     if (!file) throw ModelError(say("--vary-from {}: it cannot be read: {}", path, std::strerror(errno)));
     Grid grid;
@@ -73,7 +74,7 @@ Grid grid_from_file(const std::string& path) {
         for (std::size_t k = 0; k < fields.size(); ++k) {
             double value = NAN;
             try {
-                value = number_of(fields[k]);
+                value = number_of(in_si(scene, grid.axes[k].name, fields[k]));
             } catch (const ModelError&) {
             }
             if (!std::isfinite(value)) throw wrong(say("'{}' is no finite number", fields[k]));

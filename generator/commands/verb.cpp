@@ -9,9 +9,11 @@
 #include <sstream>
 
 #include "alembert/error.hpp"
+#include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "language/say.hpp"
 #include "model/constant.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -92,6 +94,8 @@ void Verb::callback(std::function<void()> chosen) {
 void add_scene_options(Verb& verb, SceneOptions& options) {
     verb.add_option("scene", options.scene, say("the scene, a TOML file")).type_name(values::scene).required();
     verb.add_flag("--json", options.json, say("print one JSON object"));
+    verb.add_flag("--strict", are_warnings_errors(),
+                  say("warnings end the run, with exit code 3"));
 }
 
 void add_by_option(Verb& verb, std::string& by) {
@@ -142,15 +146,26 @@ std::vector<std::string> names_of(const std::string& list) {
     return result;
 }
 
-Overrides overrides_of(const std::vector<std::string>& at) {
-    Overrides result;
+ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scene& scene) {
+    ExactOverrides result;
     for (const std::string& item : at) {
         const std::size_t equals = item.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == item.size())
             throw ModelError(say(
                 "--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", item));
+        const std::string name = item.substr(0, equals);
+        result.emplace_back(name, in_si(scene, name, item.substr(equals + 1)));
+    }
+    return result;
+}
+
+Overrides overrides_of(const std::vector<std::string>& at, const Scene& scene) {
+    Overrides result;
+    const ExactOverrides exact = exact_overrides_of(at, scene);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        const std::string& item = at[k];
         try {
-            result.emplace_back(item.substr(0, equals), number_of(item.substr(equals + 1)));
+            result.emplace_back(exact[k].first, number_of(exact[k].second));
         } catch (const ModelError& mistake) {
             throw ModelError(
                 say("--at {}: {}; expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2",

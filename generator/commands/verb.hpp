@@ -19,6 +19,8 @@
 #include <vector>
 
 #include "lower/start.hpp"
+#include "scene/scene.hpp"
+#include "stability/point.hpp"
 
 namespace CLI {
 class App;
@@ -68,7 +70,11 @@ void add_manual(CLI::App& app, Chosen& chosen);
 void add_verbs(CLI::App& app, Chosen& chosen);
 
 /// --at NAME=VALUE, any number of times. Throws ModelError for anything that is not of this form.
-Overrides overrides_of(const std::vector<std::string>& at);
+/// Numbers are in the unit that the scene gives for the name.
+Overrides overrides_of(const std::vector<std::string>& at, const Scene& scene);
+
+/// The same as typed, as expressions in SI units.
+ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scene& scene);
 
 /// B1,B2 …: names between commas.
 std::vector<std::string> names_of(const std::string& list);

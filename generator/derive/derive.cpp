@@ -50,7 +50,7 @@ std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const
     std::vector<Diagnostic> told;
     if (!taken_forces(friction, declare(scene, told)).empty()) return {};
     Scene stuck = with_sticking(scene, {friction.name.text});
-    stuck.on_warning = [](const std::string&) {};  // they were told for the scene itself
+    stuck.on_warning = [](const Warning&) {};  // they were told for the scene itself
     try {
         Derived d = derived(std::move(stuck), {.by = "routh", .on_sheets = true});
         if (!d.mechanism.unilateral.empty()) d = derived_again(d, with_all_closed(d.mechanism), "routh");

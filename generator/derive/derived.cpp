@@ -92,16 +92,16 @@ std::vector<ReactionOutput> add_reactions(Mechanism& m) {
 
 /// A rolling condition has three rows, one of which often follows from the position of the body; only `audit`
 /// reports that. The same applies to a joint that closes a loop.
-std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechanism::Constraint& c) {
+std::vector<Diagnostic> warning_of_redundancy(const Prepared& p, const Mechanism::Constraint& c) {
     if (c.joint) return {};
     if (std::any_of(p.scene.rolling.begin(), p.scene.rolling.end(),
                     [&](const RollingRule& r) { return r.name.place == c.place; }))
         return {};
-    return describe(p.scene, {{c.place,
-                               say("constraint '{}' follows from the others; its equation is left "
-                                   "out, and of all reactions that satisfy the constraints the least are taken",
-                                   c.name),
-                               Severity::warning}});
+    return {{c.place,
+             say("constraint '{}' follows from the others; its equation is left "
+                 "out, and of all reactions that satisfy the constraints the least are taken",
+                 c.name),
+             Severity::warning, "redundant", c.name}};
 }
 
 }  // namespace
@@ -113,8 +113,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     refuse_touching(d.mechanism);
     const std::vector<int> redundant = redundant_constraints(d.mechanism);
     check_implied(d.mechanism, redundant);
-    for (const int k : redundant)
-        if (auto warning = warning_of_redundancy(d, d.mechanism.constraints[k])) d.warn(*std::move(warning));
+    for (const int k : redundant) d.warn(warning_of_redundancy(d, d.mechanism.constraints[k]));
     d.mechanism = without_constraints(std::move(d.mechanism), redundant);
     refuse_contradiction(d.mechanism);
     if (options.reactions) d.reaction_outputs = add_reactions(d.mechanism);
@@ -124,13 +123,13 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
     d.mechanism.z = d.equations.z;
     if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
-        d.warn(say(
-            "warning: the rates that remain when the nonholonomic constraints are solved do not determine the "
-            "others at every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, "
-            "[speeds]\n"));
-    if (options.use == Use::shown)
-        if (const auto found = warnings_of_unresisted(d.scene, d.mechanism, d.equations); !found.empty())
-            d.warn(describe(d.scene, found));
+        d.warn(
+            "poles",
+            say("warning: the rates that remain when the nonholonomic constraints are solved do not determine the "
+                "others at every pose, and numbers lose accuracy near such poses; give the scene generalized "
+                "speeds, "
+                "[speeds]\n"));
+    if (options.use == Use::shown) d.warn(warnings_of_unresisted(d.scene, d.mechanism, d.equations));
     d.seconds = process_seconds() - start;
     return d;
 }

@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "check/dimensions.hpp"
 #include "emit/names.hpp"
 #include "fmu/dependence.hpp"
+#include "scene/dimensions.hpp"
 #include "scene/unit_text.hpp"
 
 namespace alembert {
@@ -155,7 +155,7 @@ private:
     std::string unit_of_output(const std::string& name) const {
         if (is_si())
             for (const Output& output : m_.scene.outputs)
-                if (output.name.text == name) return si_unit_of(output.value, m_.mechanism).value_or("");
+                if (output.name.text == name) return si_unit_of(output.value, m_.scene).value_or("");
         return {};
     }
 

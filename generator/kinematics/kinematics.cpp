@@ -95,7 +95,7 @@ void find_accelerations(SceneKinematics& s, const KinematicsOptions& options, co
     std::vector<double> others(m.q.size(), 0);
     if (s.has_masses) try {
             Scene scene = s.scene;
-            scene.on_warning = [](const std::string&) {};  // they have been told
+            scene.on_warning = [](const Warning&) {};  // they have been told
             others = evaluate(std::move(scene), {.at = without_accelerations(options.at)}).accelerations;
         } catch (const IntegrationError& e) {
             s.no_accelerations = e.what();

@@ -20,7 +20,7 @@ void declare_parameters(Building& here) {
         const Parameter& p = here.scene.parameters[i];
         const auto s = here.m.symbols->declare(p.name.text, SymbolInfo::Kind::parameter, static_cast<int>(i));
         here.translator.know(p.name.text, s);
-        here.m.parameters.push_back({.symbol = s, .value = 0, .unit = p.unit, .about = p.about});
+        here.m.parameters.push_back({.symbol = s, .value = 0, .unit = p.unit, .about = p.about, .shown = p.shown});
     }
     for (std::size_t i = 0; i < here.scene.parameters.size(); ++i)
         here.attempt([&] {
@@ -52,6 +52,7 @@ void declare_coordinates(Building& here) {
         here.m.qdot.push_back(here.m.symbols->declare(c.name.text, SymbolInfo::Kind::coordinate, index, 1));
         here.m.qddot.push_back(here.m.symbols->declare(c.name.text, SymbolInfo::Kind::coordinate, index, 2));
         here.m.units.push_back(c.unit);
+        here.m.shown_units.push_back(c.shown);
         here.m.q_is_guess.push_back(c.initial_is_guess);
         here.m.qdot_is_guess.push_back(c.rate_is_guess);
     }
@@ -65,7 +66,8 @@ void declare_coordinates(Building& here) {
                                  .drift = 0,
                                  .start = {},
                                  .unit = s.unit,
-                                 .place = s.name.place});
+                                 .place = s.name.place,
+                                 .shown = s.shown});
     }
     for (const Coordinate& c : here.scene.coordinates) {
         here.m.q_start.emplace_back(0);

@@ -113,6 +113,7 @@ struct Mechanism {
         GiNaC::ex value;  ///< an exact number, or an expression in other parameters
         bool independent = true;
         std::string unit, about;
+        Shown shown = {};
     };
     struct Input {
         std::array<GiNaC::symbol, 3> derivative;  ///< F, F', F''
@@ -133,6 +134,7 @@ struct Mechanism {
         std::optional<GiNaC::ex> start;  ///< in parameters; nothing if the scene gives rates
         std::string unit;
         Place place;
+        Shown shown = {};
     };
 
     /// A constraint as a row: row·q' + drift = 0 and, differentiated once more, row·q'' = acceleration.
@@ -193,6 +195,7 @@ struct Mechanism {
     std::vector<Definition> definitions;
     std::vector<GiNaC::symbol> q, qdot, qddot;
     std::vector<std::string> units;              ///< units of the coordinates
+    std::vector<Shown> shown_units;              ///< in which texts and plots show them
     std::vector<GiNaC::ex> q_start, qdot_start;  ///< in parameters
     std::vector<bool> q_is_guess,
         qdot_is_guess;          ///< values that may be changed so that the constraints hold at the start

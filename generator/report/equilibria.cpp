@@ -3,6 +3,7 @@
 
 #include "language/say.hpp"
 #include "report/page.hpp"
+#include "report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -75,8 +76,11 @@ std::string as_text(const Equilibria& found) {
                    one.moving.size() == 1 ? say("moves") : say("move"),
                    one.isolated ? "" : say(", one of a continuum"));
         for (int i = 0; i < m.size(); ++i) {
-            put(page, "     {} = {:.16g}", m.q[i].get_name(), one.start.q[i] + 0.0);
-            if (one.start.qdot[i] != 0) put(page, ", {}' = {:.10g}", m.q[i].get_name(), one.start.qdot[i]);
+            const ShownUnit unit(m.shown_units[static_cast<std::size_t>(i)]);
+            const std::string name = m.q[i].get_name();
+            put(page, "     {} = {:.16g}", unit.label(name), unit.value(one.start.q[i] + 0.0));
+            if (one.start.qdot[i] != 0)
+                put(page, ", {} = {:.10g}", unit.label(name + "'", 1), unit.value(one.start.qdot[i]));
             if (one.exact && !one.exact->text[i].empty() && one.exact->text[i] != "0")
                 put(page, "  = {}", one.exact->text[i]);
             put(page, "\n");

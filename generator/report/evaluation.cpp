@@ -5,6 +5,7 @@
 
 #include "language/say.hpp"
 #include "report/page.hpp"
+#include "report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -16,9 +17,14 @@ Json object_of(const Evaluation::Named& values) {
     return object;
 }
 
+ShownUnit unit_of(const Evaluation& e, std::size_t coordinate) {
+    return ShownUnit(e.mechanism.shown_units[coordinate]);
+}
+
 std::size_t widest_name(const Evaluation& e) {
     std::size_t width = 16;
-    for (const std::string& name : e.coordinates) width = std::max(width, name.size() + 1);
+    for (std::size_t i = 0; i < e.coordinates.size(); ++i)
+        width = std::max(width, unit_of(e, i).label(e.coordinates[i]).size() + 1);
     for (const auto& [name, value] : e.multipliers) width = std::max(width, name.size() + 1);
     for (const JointLoad& load : e.joint_loads) width = std::max(width, load.joint.size() + 1);
     return width;
@@ -53,6 +59,7 @@ Json as_json(const Evaluation& e, bool reactions) {
     if (!e.adjusted.empty()) result["adjusted"] = e.adjusted;
     result["outputs"] = object_of(e.outputs);
     if (!e.mass.empty()) result["matrices"] = {{"M", e.mass}, {"C", e.coriolis}};
+    if (Json units = si_units(e.mechanism); !units.empty()) result["units"] = std::move(units);
     if (!reactions) return result;
     result["reactions"] = Json::object();
     for (const Evaluation::Reaction& r : e.reactions) result["reactions"][r.constraint][r.coordinate] = r.force;
@@ -69,12 +76,16 @@ std::string as_text(const Evaluation& e) {
     std::string page;
     put(page, "t = {}\n\n{:<{}}{:>24}{:>24}{:>24}\n", e.time, "", width, say("value"), say("rate"),
         say("acceleration"));
-    for (std::size_t i = 0; i < e.coordinates.size(); ++i)
-        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}\n", e.coordinates[i], width, e.q[i], e.rates[i],
-            e.accelerations[i]);
-    for (std::size_t k = 0; k < e.speeds.size() && k < e.speed_rates.size(); ++k)
-        put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", e.speeds[k].first, width, e.speeds[k].second,
-            e.speed_rates[k].second);
+    for (std::size_t i = 0; i < e.coordinates.size(); ++i) {
+        const ShownUnit unit = unit_of(e, i);
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}\n", unit.label(e.coordinates[i]), width,
+            unit.value(e.q[i]), unit.value(e.rates[i]), unit.value(e.accelerations[i]));
+    }
+    for (std::size_t k = 0; k < e.speeds.size() && k < e.speed_rates.size(); ++k) {
+        const ShownUnit unit(e.mechanism.speeds[k].shown);
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", unit.label(e.speeds[k].first), width,
+            unit.value(e.speeds[k].second), unit.value(e.speed_rates[k].second));
+    }
     for (const auto& [name, value] : e.multipliers) put(page, "{:<{}}{:>24.16g}\n", name, width, value);
     for (const auto& [name, side] : e.frictions) say_on(page, "friction {}: {}\n", name, mode_of(e, name, side));
     for (const std::string& line : e.adjusted) say_on(page, "adjusted {}\n", line);

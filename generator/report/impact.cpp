@@ -5,6 +5,7 @@
 #include "notation/latex.hpp"
 #include "notation/text.hpp"
 #include "report/page.hpp"
+#include "report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -53,9 +54,11 @@ void add_numbers(std::string& page, const Impact& hit, const Mechanism& m) {
         say_on(page, "Contact '{}' {}.\n", m.unilateral[hit.contacts[k]].gap.name,
                hit.numbers.stays_closed[k] ? say("stays closed") : say("opens"));
     put(page, "{:<16}{:>24}{:>24}{:>24}\n", "", say("value"), say("rate before"), say("rate after"));
-    for (int i = 0; i < m.size(); ++i)
-        put(page, "{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", m.q[i].get_name(), hit.start.q[i], hit.start.qdot[i],
-            hit.numbers.after[i]);
+    for (int i = 0; i < m.size(); ++i) {
+        const ShownUnit unit(m.shown_units[static_cast<std::size_t>(i)]);
+        put(page, "{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", unit.label(m.q[i].get_name()),
+            unit.value(hit.start.q[i]), unit.value(hit.start.qdot[i]), unit.value(hit.numbers.after[i]));
+    }
     for (const auto& [name, value] : reactions(hit, m))
         say_on(page, "{:<16}{:>24.16g}    (impulse of the reaction)\n", name, value);
     for (const std::string& line : hit.adjusted) say_on(page, "adjusted {}\n", line);

@@ -7,6 +7,7 @@
 
 #include "language/say.hpp"
 #include "report/page.hpp"
+#include "report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -31,14 +32,20 @@ Json as_json(const InverseLoads& needed) {
 
 std::string as_text(const InverseLoads& needed) {
     std::size_t width = 16;
-    for (const auto* names : {&needed.coordinates, &needed.speeds})
-        for (const std::string& name : *names) width = std::max(width, name.size() + 1);
+    std::vector<std::string> labels;
+    for (std::size_t i = 0; i < needed.coordinates.size(); ++i) {
+        labels.push_back(ShownUnit(needed.mechanism.shown_units[i]).label(needed.coordinates[i]));
+        width = std::max(width, labels[i].size() + 1);
+    }
+    for (const std::string& name : needed.speeds) width = std::max(width, name.size() + 1);
     std::string page;
     put(page, "t = {:.6g}\n\n{:<{}}{:>24}{:>24}{:>24}{:>24}\n", needed.time, "", width, say("value"), say("rate"),
         say("acceleration"), say("load"));
-    for (std::size_t i = 0; i < needed.coordinates.size(); ++i)
-        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", needed.coordinates[i], width, needed.q[i],
-            needed.rates[i], needed.accelerations[i], needed.loads[i]);
+    for (std::size_t i = 0; i < needed.coordinates.size(); ++i) {
+        const ShownUnit unit(needed.mechanism.shown_units[i]);
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", labels[i], width, unit.value(needed.q[i]),
+            unit.value(needed.rates[i]), unit.value(needed.accelerations[i]), needed.loads[i]);
+    }
     if (!needed.speeds.empty())
         put(page, "\n{:<{}}{:>24}{:>24}{:>24}\n", "", width, say("value"), say("rate"), say("load"));
     for (std::size_t k = 0; k < needed.speeds.size(); ++k)

@@ -7,6 +7,7 @@
 
 #include "language/say.hpp"
 #include "report/plot_panels.hpp"
+#include "report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -42,13 +43,27 @@ std::vector<PlottedLine> columns_of(const Run& run) {
     return result;
 }
 
+/// The unit in which a column is drawn.
+ShownUnit shown_unit(const Mechanism& m, std::size_t column, const MotionTable& rows) {
+    const std::size_t n = m.units.size();
+    if (column <= 2 * n) return ShownUnit(m.shown_units[(column - 1) % n]);
+    for (const Mechanism::Speed& u : m.speeds)
+        if (u.u.get_name() == rows.columns[column]) return ShownUnit(u.shown);
+    return ShownUnit({});
+}
+
 /// The named columns, or all except reactions, with their points.
 std::vector<PlottedLine> lines_of(const Run& run, const std::vector<std::string>& names) {
     std::vector<PlottedLine> all = columns_of(run), result;
     const MotionTable& rows = run.rows;
-    for (std::size_t column = 1; column < rows.columns.size(); ++column)
+    for (std::size_t column = 1; column < rows.columns.size(); ++column) {
+        const ShownUnit unit = shown_unit(run.mechanism, column, rows);
+        PlottedLine& line = all[column - 1];
+        line.unit = line.group == rate ? unit.text(run.mechanism.units[column - 1 - run.mechanism.units.size()], 1)
+                                       : unit.text(line.unit);
         for (std::size_t row = 0; row < rows.rows(); ++row)
-            all[column - 1].points.emplace_back(rows.at(row, 0), rows.at(row, column));
+            line.points.emplace_back(rows.at(row, 0), unit.value(rows.at(row, column)));
+    }
     if (names.empty()) {
         std::erase_if(all, [](const PlottedLine& line) { return line.group == reaction; });
         return all;

@@ -7,6 +7,7 @@
 #include "report/figure.hpp"
 #include "report/figure_shapes.hpp"
 #include "report/page_parts.hpp"
+#include "report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -169,15 +170,17 @@ void add_mechanism(PageParts& page, const Overview& all) {
                 {say("symbol"), say("at the start"), say("rate at the start"), say("unit"), say("meaning")});
     for (std::size_t k = 0; k < m.q.size(); ++k)
         put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            symbol(m, m.q[k]), six_digits(all.start.q[k]), six_digits(all.start.qdot[k]),
-            html(unit_text(m.units[k])),
+            symbol(m, m.q[k]), six_digits(ShownUnit(m.shown_units[k]).value(all.start.q[k])),
+            six_digits(ShownUnit(m.shown_units[k]).value(all.start.qdot[k])),
+            html(unit_text(ShownUnit(m.shown_units[k]).text(m.units[k]))),
             html(k < all.scene.coordinates.size() ? all.scene.coordinates[k].about : ""));
     put(body, "</tbody></table></div>\n");
     if (!m.speeds.empty()) {
         begin_table(body, say("Generalized speeds"), {say("symbol"), say("form"), say("unit"), say("meaning")});
         for (std::size_t k = 0; k < m.speeds.size(); ++k)
             put(body, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
-                symbol(m, m.speeds[k].u), html(all.scene.speeds[k].form.text), html(unit_text(m.speeds[k].unit)),
+                symbol(m, m.speeds[k].u), html(all.scene.speeds[k].form.text),
+                html(unit_text(ShownUnit(m.speeds[k].shown).text(m.speeds[k].unit))),
                 html(all.scene.speeds[k].about));
         put(body, "</tbody></table></div>\n");
     }
@@ -186,8 +189,9 @@ void add_mechanism(PageParts& page, const Overview& all) {
         for (std::size_t k = 0; k < m.parameters.size(); ++k) {
             const Parameter& given = all.scene.parameters[k];
             put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                symbol(m, m.parameters[k].symbol), html(given.value.text), html(unit_text(given.unit)),
-                html(given.about));
+                symbol(m, m.parameters[k].symbol),
+                html(given.shown.unit.empty() ? given.value.text : given.shown.value),
+                html(unit_text(ShownUnit(given.shown).text(given.unit))), html(given.about));
         }
         put(body, "</tbody></table></div>\n");
     }
@@ -198,8 +202,9 @@ void add_mechanism(PageParts& page, const Overview& all) {
             put(body,
                 "<tr><th scope=\"row\"><span class=\"letters\">{}</span></th><td><code>{}</code></td><td>{}</td>"
                 "<td>{}</td></tr>\n",
-                html_letters(input.name.text), html(input.value.text), html(unit_text(input.unit)),
-                html(input.about));
+                html_letters(input.name.text),
+                html(input.shown.unit.empty() ? input.value.text : input.shown.value),
+                html(unit_text(ShownUnit(input.shown).text(input.unit))), html(input.about));
         put(body, "</tbody></table></div>\n");
     }
     page.end();

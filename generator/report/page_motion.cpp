@@ -8,6 +8,7 @@
 #include "report/page_parts.hpp"
 #include "report/page_plot.hpp"
 #include "report/run.hpp"
+#include "report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -52,10 +53,10 @@ public:
         put(page_.body, "<div class=\"plots\">\n");
         by_unit(
             say("Coordinates"), 0, n, [&](std::size_t k) { return m.q[k].get_name(); },
-            [&](std::size_t k) { return m.units[k]; }, 1);
+            [&](std::size_t k) { return shown(k).text(m.units[k]); }, 1);
         by_unit(
             say("Rates"), 0, n, [&](std::size_t k) { return m.q[k].get_name() + "'"; },
-            [&](std::size_t k) { return rate_unit(m.units[k]); }, 1 + n);
+            [&](std::size_t k) { return shown_rate(k); }, 1 + n);
         energies();
         named(say("Multipliers"), 1 + 2 * n, energy_column(), "");
         named(say("Outputs and speeds"), energy_column() + 1, rows_.columns.size(), "");
@@ -65,6 +66,12 @@ public:
     }
 
 private:
+    ShownUnit shown(std::size_t coordinate) const { return ShownUnit(all_.mechanism.shown_units[coordinate]); }
+    std::string shown_rate(std::size_t coordinate) const {
+        return shown(coordinate)
+            .text(rate_unit(all_.mechanism.units[coordinate]).empty() ? "" : all_.mechanism.units[coordinate], 1);
+    }
+
     std::string time_unit() const { return si_ ? "s" : ""; }
     std::string rate_unit(const std::string& unit) const { return unit.empty() || !si_ ? "" : unit + "/s"; }
 
@@ -75,9 +82,12 @@ private:
         return static_cast<std::size_t>(at - rows_.columns.begin());
     }
 
+    /// In the units that the scene has for coordinates.
     std::vector<double> column(std::size_t k) const {
+        const std::size_t n = all_.mechanism.q.size();
+        const ShownUnit unit = k >= 1 && k <= 2 * n ? shown((k - 1) % n) : ShownUnit({});
         std::vector<double> values;
-        for (std::size_t row = 0; row < rows_.rows(); ++row) values.push_back(rows_.at(row, k));
+        for (std::size_t row = 0; row < rows_.rows(); ++row) values.push_back(unit.value(rows_.at(row, k)));
         return values;
     }
 
@@ -170,9 +180,9 @@ private:
             page_.body +=
                 page_plot({.title = say("Phase portrait"),
                            .x_name = name,
-                           .x_unit = unit_text(m.units[k]),
+                           .x_unit = unit_text(shown(k).text(m.units[k])),
                            .y_name = name + "'",
-                           .y_unit = unit_text(rate_unit(m.units[k]))},
+                           .y_unit = unit_text(shown_rate(k))},
                           column(1 + k), {{name + "'", column(1 + n + k), columns_[1 + n + k]}}, columns_[1 + k]);
         }
     }

@@ -6,6 +6,7 @@
 #include "emit/layout.hpp"
 #include "language/say.hpp"
 #include "report/page.hpp"
+#include "report/shown_unit.hpp"
 
 namespace alembert {
 
@@ -225,12 +226,20 @@ void add_motion(std::string& page, const Run& run) {
         say_on(page, "… and {} more\n", run.chart_passes.size() - most_lines);
     page += text_of(run.side_changes);
     say_on(page, "\nat t = {:.15g}\n", run.motion.final_time());
-    const std::size_t width = column_for(run.speeds, column_for(run.coordinates, 16));
+    const Mechanism& m = run.mechanism;
+    std::vector<std::string> coordinates, speeds;
     for (std::size_t i = 0; i < run.coordinates.size(); ++i)
-        say_on(page, "{:<{}}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], width, run.final_coordinates[i],
-               run.final_rates[i]);
+        coordinates.push_back(ShownUnit(m.shown_units[i]).label(run.coordinates[i]));
     for (std::size_t k = 0; k < run.speeds.size(); ++k)
-        put(page, "{:<{}}{:>24.16g}\n", run.speeds[k], width, run.final_speeds[k]);
+        speeds.push_back(ShownUnit(m.speeds[k].shown).label(run.speeds[k]));
+    const std::size_t width = column_for(speeds, column_for(coordinates, 16));
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+        const ShownUnit unit(m.shown_units[i]);
+        say_on(page, "{:<{}}{:>24.16g}   rate {:>24.16g}\n", coordinates[i], width,
+               unit.value(run.final_coordinates[i]), unit.value(run.final_rates[i]));
+    }
+    for (std::size_t k = 0; k < speeds.size(); ++k)
+        put(page, "{:<{}}{:>24.16g}\n", speeds[k], width, ShownUnit(m.speeds[k].shown).value(run.final_speeds[k]));
     if (run.contacts.empty()) return;
     std::string closed;
     for (const int k : run.motion.phases.back().closed)
@@ -301,6 +310,7 @@ Json as_json(const Run& run) {
                        {"coordinates", by_name(run.coordinates, run.final_coordinates)},
                        {"rates", by_name(run.coordinates, run.final_rates)}};
     if (!run.speeds.empty()) result["final"]["speeds"] = by_name(run.speeds, run.final_speeds);
+    if (Json units = si_units(run.mechanism); !units.empty()) result["final"]["units"] = std::move(units);
     result["method"] = s.method;
     if (!run.why_method.empty()) result["method_why"] = run.why_method;
     if (run.is_regularized) result["regularized"] = true;

@@ -137,8 +137,8 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
         std::optional<std::string> what;
         for (const Group group : {Group::kinetic, Group::potential, Group::energy})
             if (!what) what = not_finite(program, state, group);
-        e.warn(say("warning: the energy is not a number here, because of {}\n",
-                   what.value_or(say("numbers that overflow"))));
+        e.warn("not_a_number", say("warning: the energy is not a number here, because of {}\n",
+                                   what.value_or(say("numbers that overflow"))));
     }
     const std::vector<double> position = values_of(program, value, Group::position),
                               velocity = values_of(program, value, Group::velocity);

@@ -94,6 +94,7 @@ Program with_signs_told(Prepared& prepared, const Program& program) {
     for (const int x : signs) arguments.insert(text_of(made, x));
     for (const std::string& x : arguments)
         prepared.warn(
+            "quotient_of_size",
             say("warning: a quotient such as {0}/abs({0}) or {0}/sqrt(({0})^2) is followed as sign({0}), "
                 "which is 0 where {0} is 0; write sign({0})\n",
                 x));

@@ -202,7 +202,8 @@ private:
         } catch (const CompileError&) {
             throw;
         } catch (const std::runtime_error& reason) {
-            run_.warn(say("warning: the angles of {} come near gimbal lock, and the run stays in them: {}\n",
+            run_.warn("gimbal_lock",
+                      say("warning: the angles of {} come near gimbal lock, and the run stays in them: {}\n",
                           angles_->is_joint ? say("joint '{}'", angles_->name(run_.scene).text)
                                             : say("frame '{}'", angles_->name(run_.scene).text),
                           reason.what()));
@@ -329,10 +330,10 @@ Run simulate(Scene scene, const RunOptions& wishes) {
     check_numbers(wishes);
     Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
-        result.warn(
-            say("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
-                "gives those after\n",
-                result.scene.file));
+        result.warn("before_impulses",
+                    say("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
+                        "gives those after\n",
+                        result.scene.file));
     Simulating(result, wishes).run();
     return result;
 }

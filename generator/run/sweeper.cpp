@@ -68,10 +68,10 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
         throw ModelError(
             say("sweep does not run regularized; simulate does, for one state at a time. Leave 'regularize' out"));
     if (!m.impulses.empty())
-        s_.warn(
-            say("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
-                "gives those after\n",
-                s_.scene.file));
+        s_.warn("before_impulses",
+                say("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
+                    "gives those after\n",
+                    s_.scene.file));
     const std::vector<std::string> names = s_.grid.names();
     starts_.emplace(m, names);
     has_varied_bodies_ = !m.masses.empty() && varies_parameters(m, names);
@@ -147,7 +147,7 @@ void Sweeper::check() {
             for (std::size_t i = 0; i < values.size(); ++i)
                 one.message += fmt::format("{}{} = {:.6g}", i == 0 ? say(", at ") : ", ", names[i], values[i]);
             if (one.severity == Severity::error) fail(s_.scene, {one});
-            if (told.insert(one.place).second) s_.warn(describe(s_.scene, {one}));
+            if (told.insert(one.place).second) s_.warn({one});
         }
     }
 }

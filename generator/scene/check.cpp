@@ -40,6 +40,27 @@ public:
         for (const Claim& claim : scene_.claims) check_claim(claim, {scene_, names_, quantities_, diagnostics_});
     }
 
+    /// After `check`.
+    std::vector<Diagnostic> warnings() const {
+        std::vector<Diagnostic> found = quantities_.warnings();
+        const auto unused = [&](const Name& name, Declared::Kind kind, const std::string& what) {
+            if (quantities_.is_used(kind, name.text) || name.place.line == 0) return;
+            std::string message = say("{} {} is not used", what, in_quotes(name.text));
+            if (name.text == "g" && kind == Declared::Kind::parameter && !scene_.gravity && !scene_.lagrangian)
+                message +=
+                    say(", and the scene has no gravity; write gravity = [0, \"-g\"] above the first table");
+            found.push_back({name.place, std::move(message), Severity::warning, "unused", name.text});
+        };
+        for (const Parameter& p : scene_.parameters) unused(p.name, Declared::Kind::parameter, say("parameter"));
+        for (const Input& i : scene_.inputs) unused(i.name, Declared::Kind::input, say("input"));
+        for (const Definition& d : scene_.definitions)
+            if (!d.is_motion) unused(d.name, Declared::Kind::definition, say("definition"));
+        for (const Frame& f : scene_.frames) unused(f.name, Declared::Kind::frame, say("frame"));
+        for (const Point& p : scene_.points) unused(p.name, Declared::Kind::point, say("point"));
+        warn_of_still_inertia(found);
+        return found;
+    }
+
     void check_claims() {
         describe_definitions();
         for (const Claim& claim : scene_.claims) check_claim(claim, {scene_, names_, quantities_, diagnostics_});
@@ -50,6 +71,19 @@ private:
     std::vector<Diagnostic>& diagnostics_;
     const NameSpaces names_;
     Quantities quantities_;
+
+    /// A moment of inertia along the axes of N belongs to a body that never turns.
+    void warn_of_still_inertia(std::vector<Diagnostic>& found) const {
+        for (const Body& body : scene_.bodies) {
+            if (!body.inertia || body.joint || body.frame.text != "N") continue;
+            found.push_back(
+                {body.inertia->place,
+                 say("body {} never turns, so that its moment of inertia has no effect: its axes are those of "
+                     "N; give it the frame that turns with it, frame = \"…\", a [[frame]] with rotate",
+                     in_quotes(body.name.text)),
+                 Severity::warning, "no_effect", body.name.text});
+        }
+    }
 
     void describe_definitions() {
         for (const auto& [kind, k] : follow(scene_, diagnostics_).definitions)
@@ -383,9 +417,11 @@ private:
 
 }  // namespace
 
-std::vector<Diagnostic> check_scene(const Scene& scene) {
+std::vector<Diagnostic> check_scene(const Scene& scene, std::vector<Diagnostic>& warnings) {
     std::vector<Diagnostic> diagnostics;
-    Checker(scene, diagnostics).check();
+    Checker checker(scene, diagnostics);
+    checker.check();
+    for (Diagnostic& one : checker.warnings()) warnings.push_back(std::move(one));
     return diagnostics;
 }
 

@@ -5,7 +5,9 @@
 //     product  = signed (("*" | "/") signed)*
 //     signed   = ("-" | "+") signed | power
 //     power    = primary ("^" exponent)?            exponent = ("-" | "+") exponent | power
-//     primary  = number | name primes? | function "(" sum ("," sum)* ")" | "(" sum ")" primes?
+//     primary  = number unit? | name primes? | function "(" sum ("," sum)* ")" | "(" sum ")" primes?
+//
+//     unit     = word power? (("*" | "/")? word power?)*     of words that are units (scene/unit_text.hpp)
 //
 // Sums and products are flat, so that only nesting adds depth.
 
@@ -24,6 +26,7 @@
 #include "scene/hints.hpp"
 #include "scene/text.hpp"
 #include "scene/tokens.hpp"
+#include "scene/unit_text.hpp"
 
 namespace alembert {
 namespace {
@@ -203,7 +206,61 @@ private:
         if (now().kind == Token::Kind::primes) stop(now().offset, say("a number has no derivative"));
         double value = 0;
         std::from_chars(literal.data(), literal.data() + literal.size(), value);
-        return {make(Kind::number, begin, literal), value};
+        const TreePtr number = make(Kind::number, begin, literal);
+        return is_unit(0) ? quantity(number, begin) : Operand{number, value};
+    }
+
+    // --- units
+
+    /// Whether the word `ahead` tokens from here is a unit; min(x, y) is none.
+    bool is_unit(std::size_t ahead) const {
+        const Token &word = words_.ahead(ahead), &next = words_.ahead(ahead + 1);
+        return word.kind == Token::Kind::name && !Words::is(next, '(') && next.kind != Token::Kind::primes &&
+               words_.word(word) != "t" && (is_known_unit(words_.word(word)) || is_no_multiple(words_.word(word)));
+    }
+
+    /// The number times what its unit is in the SI.
+    Operand quantity(const TreePtr& number, int begin) {
+        const int unit_begin = now().offset;
+        const std::string text = unit();
+        const std::optional<UnitMeaning> meaning = meaning_of_unit(text);
+        if (!meaning) stop(unit_begin, say("'{}' is no unit", text));
+        std::vector<TreePtr> factors{number};
+        if (!meaning->exact.empty()) factors.push_back(Parser(meaning->exact, false).parse());
+        Tree whole{Kind::product, "", 0, std::move(factors), begin, words_.end() - begin};
+        whole.unit = text;
+        return {std::make_shared<const Tree>(std::move(whole)), {}};
+    }
+
+    std::string unit() {
+        std::string text;
+        while (true) {
+            const bool is_joined = !text.empty() && (at('*') || at('/'));
+            if (!is_unit(is_joined ? 1 : 0)) return text;
+            if (is_joined)
+                text += words_.word(words_.tokens[words_.at++]);
+            else if (!text.empty())
+                text += ' ';
+            const std::string word = words_.word(now());
+            if (is_no_multiple(word))
+                stop(now().offset,
+                     say("'{}' has a zero of its own or is a logarithm, and a quantity is a multiple of its "
+                         "unit; write it in K, or as a ratio",
+                         word));
+            text += word;
+            next();
+            if (at('^')) text += unit_power();
+        }
+    }
+
+    /// ^2 or ^-1 after a unit.
+    std::string unit_power() {
+        const std::size_t number = Words::is(words_.ahead(1), '-') ? 2 : 1;
+        const std::string power = words_.word(words_.ahead(number));
+        if (words_.ahead(number).kind != Token::Kind::number || power.find_first_of(".eE") != std::string::npos)
+            stop(now().offset, say("the power of a unit is a whole number"));
+        words_.at += number + 1;
+        return (number == 2 ? "^-" : "^") + power;
     }
 
     int primes() {

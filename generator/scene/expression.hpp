@@ -38,6 +38,7 @@ struct Tree {
     std::vector<TreePtr> args{};
     int offset = 0;
     int length = 0;
+    std::string unit = {};  ///< of a quantity such as `200 mm`: a product of the number and of the unit in the SI
 };
 
 /// An expression as text, its place in the file, and its tree. `tree` is null only if the key was missing in the

@@ -35,7 +35,7 @@ struct TableKeys {
 };
 
 inline constexpr TableKeys table_keys[] = {
-    {"", TableKeys::Shape::one, {"title", "source", "notes", "gravity"}},
+    {"", TableKeys::Shape::one, {"title", "source", "notes", "gravity", "allow"}},
     {"parameters", TableKeys::Shape::one},
     {"parameters.*", TableKeys::Shape::inner, {"value", "unit", "about"}},
     {"inputs", TableKeys::Shape::one},

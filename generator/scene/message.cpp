@@ -116,7 +116,7 @@ std::string describe(const Scene& scene, const std::vector<Diagnostic>& diagnost
     const std::string file = escaped(scene.file, 400);
     std::string text;
     for (std::size_t k = 0; k < diagnostics.size() && k < most_told; ++k) {
-        const auto& [place, message, severity] = diagnostics[k];
+        const auto& [place, message, severity, kind, name] = diagnostics[k];
         text += file;
         if (place.line > 0) text += fmt::format(":{}:{}", place.line, place.column);
         text += fmt::format(": {}{}\n", severity == Severity::warning ? say("warning: ") : "", message);

@@ -46,6 +46,23 @@ std::string Quantities::suggestion(const std::string& word, const std::vector<st
     return meant.empty() ? "" : say("; did you mean '{}'?", meant);
 }
 
+bool Quantities::is_used(Declared::Kind kind, const std::string& name) const {
+    if (kind == Declared::Kind::frame) return used_frames_.contains(name);
+    return (kind == Declared::Kind::point ? used_points_ : used_values_).contains(name);
+}
+
+/// The sine of 30 is hardly that of 30 rad.
+void Quantities::doubt_angle(const Context& context, const Tree& call) {
+    const Tree& arg = *call.args[0];
+    const Tree& number = arg.kind == Kind::negate ? *arg.args[0] : arg;
+    constexpr double whole_turn = 6.2832;
+    if (number.kind != Kind::number || std::stod(number.text) < whole_turn) return;
+    warnings_.push_back({context.expression.place(arg.offset),
+                         say("{0}({1}) takes {1} as radians; an angle in degrees is written {0}({1} deg)",
+                             call.text, (arg.kind == Kind::negate ? "-" : "") + number.text),
+                         Severity::warning, "suspicious_number"});
+}
+
 void Quantities::describe(const Definition& definition) {
     if (!definition.value.tree) return;
     const Legal anything{.subject = say("a definition"), .order = 2, .input_order = 2, .time = true};
@@ -135,7 +152,24 @@ Quantities::Rank Quantities::rank_of_sum(Context& context, const Tree& tree, int
     return is_consistent ? first : Rank::wrong;
 }
 
+/// "2m" may be meant as twice the mass m.
+void Quantities::refuse_ambiguous_unit(Context& context, const Tree& tree) {
+    const std::string& number = tree.args[0]->text;
+    const std::size_t after = static_cast<std::size_t>(tree.offset) + number.size();
+    const bool is_apart = after >= context.expression.text.size() || context.expression.text[after] == ' ';
+    if (is_apart || NameSpaces::find(names_.values, tree.unit) == nullptr) return;
+    complain(context, tree,
+             say("an operator is missing here, or a blank; write {0}*{1} for the product with {1} of this scene, "
+                 "and {0} {1} "
+                 "for the unit",
+                 number, tree.unit));
+}
+
 Quantities::Rank Quantities::rank_of_product(Context& context, const Tree& tree, int raised) {
+    if (!tree.unit.empty()) {
+        refuse_ambiguous_unit(context, tree);
+        return Rank::number;
+    }
     Rank product = Rank::number;
     for (const TreePtr& arg : tree.args) {
         const Rank factor = rank(context, *arg, raised);
@@ -155,6 +189,7 @@ Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, in
         for (const TreePtr& arg : tree.args) need_scalar(context, *arg, raised);
         return Rank::number;
     }
+    if (tree.text == "sin" || tree.text == "cos" || tree.text == "tan") doubt_angle(context, tree);
     for (const TreePtr& arg : tree.args) switch (function->takes) {
             case Function::Takes::derivative:
             case Function::Takes::scalars:
@@ -182,6 +217,7 @@ Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, in
 
 /// A call of a function of [functions].
 void Quantities::meet_function(Context& context, const Tree& tree) {
+    used_values_.insert(tree.text);
     const Declared* const declared = NameSpaces::find(names_.values, tree.text);
     if (!declared || declared->kind != Declared::Kind::function) {
         const std::string& text = context.expression.text;
@@ -210,6 +246,7 @@ void Quantities::meet_function(Context& context, const Tree& tree) {
 }
 
 void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
+    used_values_.insert(tree.text);
     const auto constant = [&](const std::string& what) {
         if (tree.primes > 0)
             complain(context, tree, say("{} {}: it has no derivative", in_quotes(tree.text), what));
@@ -319,6 +356,7 @@ void Quantities::meet_unknown(Context& context, const Tree& tree) {
 
 void Quantities::check_place(const std::string& name, Place place, const std::string& kind) {
     const bool is_point = kind == "point";
+    (is_point ? used_points_ : used_frames_).insert(name);
     const NameSpaces::Space& other = is_point ? names_.frames : names_.points;
     if (place.line == 0 || name == (is_point ? "O" : "N") ||
         NameSpaces::find(is_point ? names_.points : names_.frames, name))

@@ -53,6 +53,12 @@ public:
 
     std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
+    /// Whether an expression or a reference that was checked has this name.
+    bool is_used(Declared::Kind kind, const std::string& name) const;
+
+    /// What was met that is not wrong, but hardly meant.
+    const std::vector<Diagnostic>& warnings() const { return warnings_; }
+
 private:
     /// What an expression contains: the highest orders of derivatives, -1 for none.
     struct Contents {
@@ -72,6 +78,8 @@ private:
     std::unordered_map<std::string, Contents> definitions_;  // of definitions and speeds
     std::unordered_set<std::string> vectors_;                // definitions that are vectors
     std::unordered_set<std::string> unknown_;                // each is reported once for each expression
+    std::unordered_set<std::string> used_values_, used_frames_, used_points_;
+    std::vector<Diagnostic> warnings_;
     int suggestions_ = 0;
 
     enum class Rank {
@@ -85,6 +93,8 @@ private:
     void need_scalar(Context& context, const Tree& tree, int raised);
     Rank rank_of_sum(Context& context, const Tree& tree, int raised);
     Rank rank_of_product(Context& context, const Tree& tree, int raised);
+    void doubt_angle(const Context& context, const Tree& call);
+    void refuse_ambiguous_unit(Context& context, const Tree& tree);
     Rank rank_of_call(Context& context, const Tree& tree, int raised);
     void meet_function(Context& context, const Tree& tree);
     void meet_name(Context& context, const Tree& tree, int raised);

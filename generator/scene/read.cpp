@@ -19,6 +19,7 @@
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 #include "scene/text_file.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 namespace {
@@ -127,7 +128,7 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
             read_section(reading, *section, entry, scene);
         else if (entry.key == "gravity")
             scene.gravity = top.vector("gravity");
-        else if (entry.key != "title" && entry.key != "source" && entry.key != "notes")
+        else if (entry.key != "title" && entry.key != "source" && entry.key != "notes" && entry.key != "allow")
             refuse_unknown(reading, entry);
     }
     const Entry* const coordinates = top.find("coordinates");
@@ -147,6 +148,7 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
     scene.title = top.text("title");
     scene.source = top.text("source");
     scene.notes = top.text("notes");
+    for (const Name& kind : top.names("allow")) scene.allowed.push_back(kind.text);
     if (!scene.simulation.start) scene.simulation.start = zero({});
 }
 
@@ -165,6 +167,15 @@ std::optional<toml::table> parse_toml(Layout layout, const SourceText& source, s
             if (!drop_statement(layout, source.offset(place))) break;
         }
     return {};
+}
+
+/// Numbers in SI units; what units contradict is warned of.
+void take_units(Scene& scene, std::vector<Diagnostic>& mistakes) {
+    std::vector<Diagnostic> found;
+    convert_units(scene, found);
+    for (Diagnostic& one : contradicting_dimensions(scene)) found.push_back(std::move(one));
+    for (Diagnostic& one : found)
+        (one.severity == Severity::error ? mistakes : scene.warnings).push_back(std::move(one));
 }
 
 /// The text in the form of a scene; `fill` reads its tables. Throws SceneError with all mistakes.
@@ -195,8 +206,10 @@ Scene parse_scene(std::string text, std::string file) {
                   [](const Reading& reading, const toml::table& root, Scene& scene) {
                       read_tables(reading, root, scene);
                       place_by_joints(scene, reading.diagnostics);
-                      std::vector<Diagnostic> more = check_scene(scene);
+                      std::vector<Diagnostic> warnings, more = check_scene(scene, warnings);
                       reading.diagnostics.insert(reading.diagnostics.end(), more.begin(), more.end());
+                      scene.warnings = std::move(warnings);
+                      if (reading.diagnostics.empty()) take_units(scene, reading.diagnostics);
                   });
 }
 

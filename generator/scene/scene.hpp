@@ -31,16 +31,25 @@ struct Vector {
     Place place;
 };
 
+/// How the scene gives the numbers of a name whose unit is not of the SI (scene/units.hpp).
+struct Shown {
+    std::string unit;   ///< "mm"; empty where numbers are as given
+    double size = 1;    ///< of this unit in that of the SI: 0.001
+    std::string value;  ///< of the name, as typed
+};
+
 struct Parameter {
     Name name;
     Expression value;  ///< a number, or an expression in other parameters
     std::string unit, about;
+    Shown shown = {};
 };
 
 struct Input {
     Name name;
     Expression value;  ///< in t, parameters (and other inputs)
     std::string unit, about;
+    Shown shown = {};
 };
 
 struct Coordinate {
@@ -50,6 +59,7 @@ struct Coordinate {
          rate_is_guess = false;            ///< the value may be changed so that the constraints hold at the start
     std::optional<Place> rate_given = {};  ///< the place where the scene gives `rate` or `rate_guess`
     std::string unit, about;
+    Shown shown = {};
 };
 
 struct Definition {
@@ -74,6 +84,7 @@ struct Speed {
     Expression form;
     Expression initial;  ///< in parameters; null if missing
     std::string unit, about;
+    Shown shown = {};
 };
 
 /// One simple rotation about an axis of the frame reached so far.
@@ -257,6 +268,12 @@ struct Simulation {
     bool regularize = false;
 };
 
+/// What is told of a scene that is not wrong.
+struct Warning {
+    std::string text;  ///< for people: lines, each with its line break
+    std::vector<Diagnostic> parts;
+};
+
 struct Claim {
     Place place;
     Equality equation;
@@ -316,9 +333,10 @@ struct Scene {
     Simulation simulation;
     std::vector<Claim> claims;
     std::vector<Diagnostic> warnings;
+    std::vector<std::string> allowed;  ///< kinds of warnings that are not told: `allow` of the scene
     /// Called with each warning of the reader and of all later stages as soon as it is found, so that it is not
     /// lost if an error follows. If it is empty, warnings are kept with the results.
-    std::function<void(const std::string&)> on_warning = {};
+    std::function<void(const Warning&)> on_warning = {};
 };
 
 /// Reads and checks a scene. Throws SceneError with every mistake found, or if the file cannot be read.

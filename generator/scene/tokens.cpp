@@ -132,6 +132,7 @@ private:
             return add(Token::Kind::symbol, begin, byte);
         }
         const char32_t c = decode(text_, at_);
+        if (c == U'°') return add(Token::Kind::name, begin);  // a unit after a number
         if (!is_letter(c)) stray(begin, c);
         while (at_ < text_.size()) {
             std::size_t after = at_;

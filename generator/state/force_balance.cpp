@@ -150,7 +150,7 @@ std::vector<Diagnostic> warnings_of_unresisted(const Scene& scene, const Mechani
                              : say("no inertia resists {}: the equations say there that forces are in balance, {} "
                                    "= 0; give a body a mass or a moment of inertia, or make this a constraint",
                                    rates, words(u.balance, m)),
-                         Severity::warning});
+                         Severity::warning, "no_inertia", rates});
     }
     return found;
 }

@@ -87,7 +87,7 @@ void InertiaCheck::add_moments(std::vector<Diagnostic>& found, const Body& body,
              say("{} break the triangle inequality: {:.6g} + {:.6g} is less than {:.6g}; no distribution of mass "
                  "has them",
                  moments, own.moments[0], own.moments[1], own.moments[2]),
-             Severity::warning});
+             Severity::warning, "suspicious_number", body.name.text});
 }
 
 }  // namespace alembert

@@ -10,27 +10,49 @@
 
 namespace alembert {
 
-std::vector<std::string> check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& at) {
+std::vector<Diagnostic> check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& at) {
     if (mechanism.masses.empty()) return {};
     std::vector<Diagnostic> errors, warnings;
     for (Diagnostic& found : InertiaCheck(scene, mechanism).findings(start_of(mechanism, at).state()))
         (found.severity == Severity::warning ? warnings : errors).push_back(std::move(found));
     if (!errors.empty()) fail(scene, std::move(errors));
-    if (warnings.empty()) return {};
-    return {describe(scene, warnings)};
+    return warnings;
 }
 
-void Prepared::warn(std::string warning) {
-    if (scene.on_warning)
-        scene.on_warning(warning);
+namespace {
+
+bool is_allowed(const Scene& scene, const std::string& kind) {
+    return std::find(scene.allowed.begin(), scene.allowed.end(), kind) != scene.allowed.end();
+}
+
+void tell(Prepared& p, Warning warning) {
+    if (p.scene.on_warning)
+        p.scene.on_warning(warning);
     else
-        warnings.push_back(std::move(warning));
+        p.warnings.push_back(std::move(warning.text));
+}
+
+}  // namespace
+
+void Prepared::warn(std::vector<Diagnostic> found) {
+    std::erase_if(found, [this](const Diagnostic& one) { return is_allowed(scene, one.kind); });
+    if (found.empty()) return;
+    std::string text = describe(scene, found);
+    tell(*this, {std::move(text), std::move(found)});
+}
+
+void Prepared::warn(const std::string& kind, const std::string& text) {
+    if (is_allowed(scene, kind)) return;
+    std::string sentence = text.substr(0, text.find('\n'));
+    if (const std::string prefix = say("warning: "); sentence.starts_with(prefix))
+        sentence.erase(0, prefix.size());
+    tell(*this, {text, {{{}, std::move(sentence), Severity::warning, kind}}});
 }
 
 namespace {
 
 /// One for each group of constraints to which equations were added.
-std::optional<std::string> warning_of_squares(const Prepared& p) {
+std::vector<Diagnostic> warnings_of_squares(const Prepared& p) {
     std::vector<Diagnostic> found;
     const auto& all = p.mechanism.constraints;
     for (auto c = all.begin(); c != all.end();) {
@@ -46,16 +68,15 @@ std::optional<std::string> warning_of_squares(const Prepared& p) {
                      "squares, each of which is therefore zero; these equations are added as {}, and their "
                      "multipliers bear such loads",
                      c->squared_in, names),
-                 Severity::warning});
+                 Severity::warning, "added_equations", c->name});
         }
         c = next;
     }
-    if (found.empty()) return {};
-    return describe(p.scene, found);
+    return found;
 }
 
 /// One for each force at a place that moves within a body.
-std::optional<std::string> warning_of_moving_places(const Prepared& p) {
+std::vector<Diagnostic> warnings_of_moving_places(const Prepared& p) {
     std::vector<Diagnostic> found;
     for (const Load& load : p.mechanism.loads) {
         if (!load.at_moving_place) continue;
@@ -66,27 +87,26 @@ std::optional<std::string> warning_of_moving_places(const Prepared& p) {
                  "A force that pushes a body at a changing place works along the body's point there: "
                  "say on = \"BODY\"",
                  force.at.text),
-             Severity::warning});
+             Severity::warning, "moving_place", force.at.text});
     }
-    if (found.empty()) return {};
-    return describe(p.scene, found);
+    return found;
 }
 
 }  // namespace
 
 Prepared prepared(Scene scene, const Overrides& at, bool on_sheets, Coordinates coordinates) {
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
-    if (!result.scene.warnings.empty()) result.warn(describe(result.scene, result.scene.warnings));
+    result.warn(result.scene.warnings);
     OnSheets built = on_sheets ? build_on_sheets(result.scene) : OnSheets{build(result.scene), nullptr};
     if (built.mechanism.q.empty() && coordinates == Coordinates::needed)
         throw ModelError(
             say("the scene has no coordinates, so that nothing in it moves; eval --reactions and derive "
                 "--reactions give what its joints bear"));
     result.mechanism = with_regular_constraints(with_regular_rows(std::move(built.mechanism)));
-    if (auto warning = warning_of_squares(result)) result.warn(*std::move(warning));
-    if (auto warning = warning_of_moving_places(result)) result.warn(*std::move(warning));
+    result.warn(warnings_of_squares(result));
+    result.warn(warnings_of_moving_places(result));
     result.sheets = std::move(built.sheets);
-    for (std::string& warning : check_bodies(result.scene, result.mechanism, at)) result.warn(std::move(warning));
+    result.warn(check_bodies(result.scene, result.mechanism, at));
     return result;
 }
 

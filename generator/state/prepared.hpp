@@ -26,8 +26,11 @@ struct Prepared {
     std::vector<std::string> warnings;        ///< lines for the user, each ending with a line break
     std::shared_ptr<RootSheets> sheets = {};  ///< set if the mechanism was built on them
 
-    /// Reports a warning at once, or keeps it in `warnings` (Scene::on_warning).
-    void warn(std::string warning);
+    /// Reports warnings at once, or keeps them in `warnings` (Scene::on_warning), but for kinds that the scene
+    /// allows.
+    void warn(std::vector<Diagnostic> found);
+    /// The same of one that has no place; `text` is a line for people.
+    void warn(const std::string& kind, const std::string& text);
 };
 
 /// Whether a scene without coordinates, bodies that are welded, will do.
@@ -43,6 +46,6 @@ Prepared prepared(Scene scene, const Overrides& at = {}, bool on_sheets = false,
                   Coordinates coordinates = Coordinates::needed);
 
 /// Only the check of the bodies, at other values. Returns the warnings; throws like `prepared`.
-std::vector<std::string> check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& at);
+std::vector<Diagnostic> check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& at);
 
 }  // namespace alembert

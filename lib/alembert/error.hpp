@@ -26,6 +26,8 @@ struct Diagnostic {
     Place place;
     std::string message;  ///< one sentence without file, line or "error:"
     Severity severity = Severity::error;
+    std::string kind = {};  ///< of a warning, for programs: "unused", "unit_mismatch" …
+    std::string name = {};  ///< of what it is about, where it has one
 };
 
 /// The scene (or a claim file, or an option that is part of the input) is wrong. `what()` is the full text: for

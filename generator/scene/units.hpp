@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The numbers of a scene in SI units.
+///
+///     [parameters]
+///     l = { value = 200, unit = "mm" }     // is "(200)*(0.001)" afterwards, with the unit "m"
+///
+/// The number that is given for a name is in the unit of the name. An expression in other names is a quantity
+/// already, since they are in SI units: "2*l". A quantity such as "200 mm" is read as one (scene/expression.cpp).
+/// What the scene's own unit is stays in `shown`. Units of the SI, and words that are not known ("AU"), change
+/// nothing.
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+/// Adds mistakes (a unit that is no multiple of one of the SI) and warnings (a value of which it is not known
+/// whether it is in the unit) to `found`.
+void convert_units(Scene& scene, std::vector<Diagnostic>& found);
+
+/// What 1 is worth in SI units where it is given for a name: 0.001 for `l` in mm, π/180 for `theta'` in deg; 1 for
+/// names that are not known.
+double size_of_one(const Scene& scene, const std::string& name);
+
+/// A value that is typed for a name, in SI units: "(30)*(pi/180)" for "30"; as it is where it has units, or the
+/// name none.
+std::string in_si(const Scene& scene, const std::string& name, const std::string& value);
+
+/// Warns where the dimensions that the units give contradict each other: in sums and functions, and where the
+/// language says what a value is: positions, masses, forces …
+std::vector<Diagnostic> contradicting_dimensions(const Scene& scene);
+
+}  // namespace alembert
