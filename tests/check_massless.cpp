@@ -41,9 +41,11 @@ std::vector<std::string> warnings_of(const std::string& scene) {
     return d.warnings;
 }
 
-const std::string numbers = "[parameters]\nm = 1\nk = 1\nk2 = 2\nc = 0.5\n[coordinates]\nx = 0.1\ny = 0.2\n",
-                  on_x = "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n",
-                  in_between = numbers + on_x + "[[spring]]\nalong = \"x-y\"\nstiffness = \"k\"\n";
+const std::string
+    numbers =
+        "allow = [\"unused\"]\n[parameters]\nm = 1\nk = 1\nk2 = 2\nc = 0.5\n[coordinates]\nx = 0.1\ny = 0.2\n",
+    on_x = "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n",
+    in_between = numbers + on_x + "[[spring]]\nalong = \"x-y\"\nstiffness = \"k\"\n";
 
 }  // namespace
 

@@ -129,7 +129,7 @@ TEST_CASE("completion: bash completes verbs, options, methods and scenes") {
     completes("alembert simu", "simulate ");
     completes("alembert simulate some.toml --method ver", "verner76 verner98 verlet ");
     completes("alembert derive --by mag", "maggi ");
-    completes("alembert derive --st", "--steps ");
+    completes("alembert derive --ste", "--steps ");
     completes("alembert derive so", "some.toml ");
     completes("alembert derive \"\"", "some.toml ");
     completes("alembert man be", "bench ");

@@ -59,8 +59,8 @@ TEST_CASE("units: the same motion in the scene's units as in those of the SI, wh
     for (const char* kind : {"coordinates", "rates"})
         for (const char* q : {"x", "theta"})
             CHECK(std::abs(si["final"][kind][q].get<double>() - own["final"][kind][q].get<double>()) < 1e-13);
-    CHECK(own["final"]["units"]["theta"] == "rad");
-    CHECK(own["final"]["units"]["x"] == "m");
+    CHECK(own["units"]["theta"] == "rad");
+    CHECK(own["units"]["x"] == "m");
     CHECK(own["warnings"].empty());
     const std::string text = run({"simulate", in_own()}).out;
     CHECK(text.find("theta [deg]") != std::string::npos);

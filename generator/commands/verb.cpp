@@ -94,8 +94,7 @@ void Verb::callback(std::function<void()> chosen) {
 void add_scene_options(Verb& verb, SceneOptions& options) {
     verb.add_option("scene", options.scene, say("the scene, a TOML file")).type_name(values::scene).required();
     verb.add_flag("--json", options.json, say("print one JSON object"));
-    verb.add_flag("--strict", are_warnings_errors(),
-                  say("warnings end the run, with exit code 3"));
+    verb.add_flag("--strict", are_warnings_errors(), say("warnings end the run, with exit code 3"));
 }
 
 void add_by_option(Verb& verb, std::string& by) {

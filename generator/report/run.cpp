@@ -310,7 +310,7 @@ Json as_json(const Run& run) {
                        {"coordinates", by_name(run.coordinates, run.final_coordinates)},
                        {"rates", by_name(run.coordinates, run.final_rates)}};
     if (!run.speeds.empty()) result["final"]["speeds"] = by_name(run.speeds, run.final_speeds);
-    if (Json units = si_units(run.mechanism); !units.empty()) result["final"]["units"] = std::move(units);
+    if (Json units = si_units(run.mechanism); !units.empty()) result["units"] = std::move(units);
     result["method"] = s.method;
     if (!run.why_method.empty()) result["method_why"] = run.why_method;
     if (run.is_regularized) result["regularized"] = true;
