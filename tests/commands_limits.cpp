@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where double precision, the budget or the form of an expression sets a limit, the program says so.
+#include <cmath>
+
 #include "contacts.hpp"
 #include "edits.hpp"
 #include "tools.hpp"
@@ -134,6 +136,20 @@ TEST_CASE("emit: a number beyond double precision is refused in every language")
         CHECK(result.exit == 3);
         CHECK(result.err.find("too large for double precision") != std::string::npos);
     }
+}
+
+// x'' = -c x' - k x, also where the ends of the damper meet, in every form of the equations.
+TEST_CASE("simulate: a damper may pass through its own anchor") {
+    const std::string scene =
+        particle("[[damper]]\nbetween = [\"O\", \"P\"]\ndamping = 0.4\n[forces]\nx = \"-4*x\"\n");
+    const double w = std::sqrt(4 - 0.04), t = 7;
+    for (const char* method : {"auto", "dop853", "verner98", "taylor", "radau"}) {
+        const Json motion = simulated(scene, {"--duration", "7", "--tolerance", "1e-12", "--method", method});
+        CHECK(std::abs(motion["final"]["coordinates"]["x"].get<double>() -
+                       std::exp(-0.2 * t) * std::sin(w * t) / w) < 1e-10);
+        CHECK(!motion.contains("switches"));
+    }
+    CHECK(run({"eval", scene, "--at", "x=0"}).exit == 0);
 }
 
 }  // namespace commands_limits

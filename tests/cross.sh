@@ -5,4 +5,5 @@
 # Needs what ./run.sh and ./test.sh install. The exit code is 1 where anything differs; such scenes are kept in build/cross.
 set -eu
 cd "$(dirname "$0")/.."
+/usr/bin/python3 -c 'import mpmath' 2>/dev/null || { echo 'python3-mpmath is not installed'; exit "${ALEMBERT_NO_SKIP:-77}"; }
 exec /usr/bin/python3 tests/cross/cross.py --program build/release/generator/alembert --package build/release/python "$@"

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 #include "scene/dimensions.hpp"
@@ -235,6 +236,37 @@ theta = { initial = 1, unit = "rad" }
     const std::string constraint = told("[[constraint]]\nname = \"c\"\nholonomic = \"x = theta\"\n");
     CHECK_MESSAGE(holds(constraint, {"'theta' is in 1", "'x' in m"}), constraint);
     CHECK(told("[energy]\npotential = \"k*x^2/2 + m*g*l*(1 - cos(theta)) + 0.5*k*(x - 3)^2\"\n") == "0 warnings");
+}
+
+TEST_CASE(
+    "warnings: what nothing uses, inertias that never turn and sines of degrees are told, and no scene here is") {
+    const auto told = [](const std::string& scene) {
+        std::string result;
+        for (const Diagnostic& one : parse_scene(scene, "warnings.toml").warnings)
+            result += fmt::format("{} {} {}; ", one.place.line, one.kind, one.name);
+        return result;
+    };
+    CHECK(told("[parameters]\nm = 1\ng = 9.81\n[inputs]\nF = \"t\"\n[coordinates]\nx = 0\n[definitions]\nd = "
+               "\"2*x\"\n"
+               "[[frame]]\nname = \"A\"\nrotate = [[\"z\", \"x\"]]\n[[point]]\nname = \"Q\"\noffset = [\"x\", 0]\n"
+               "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n") ==
+          "3 unused g; 5 unused F; 9 unused d; 11 unused A; 14 unused Q; ");
+    CHECK(parse_scene("[parameters]\ng = 9.81\n[coordinates]\nx = 0\n", "g.toml")
+              .warnings.at(0)
+              .message.find("gravity = [0, \"-g\"]") != std::string::npos);
+    CHECK(told("[coordinates]\nq = 0\n[[body]]\nname = \"rod\"\nmass = 1\ninertia = 2\nposition = [\"cos(q)\", "
+               "\"sin(q)\"]\n") == "6 no_effect rod; ");
+    CHECK(told("[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"sin(30)*x + cos(30 deg)*x + "
+               "sin(pi/6)\"\n") == "5 suspicious_number ; ");
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator("scenes")) {
+        if (entry.path().extension() != ".toml") continue;
+        CAPTURE(entry.path().string());
+        const Scene scene = read_scene(entry.path().string());
+        CHECK(scene.warnings.empty());
+        ++scenes;
+    }
+    CHECK(scenes > 150);
 }
 
 }  // namespace scene_units
