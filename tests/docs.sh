@@ -130,7 +130,7 @@ for verb in $verbs; do
     help=$(alembert "$verb" --help)
     has=$(grep -oE '^  (-[a-z], )?--[a-z-]+' <<<"$help" | grep -oE -e '--[a-z-]+' | sort -u)
     says=$( (section 'Options of all verbs'; section "\`$verb\`") | options_in)
-    case $verb in completion | man | watch) says=$(grep -vx -e --json <<<"$says") ;; esac
+    case $verb in completion | man | watch) says=$(grep -vx -e --json -e --strict <<<"$says") ;; esac
     agree "docs/commands.md has other options of $verb" "$says" "$has"
 done
 

@@ -70,6 +70,8 @@ Scene with_claims(Scene scene, const std::string& file) {
 
 Scene with_claims(Scene scene, std::string text, std::string file) {
     Scene result = std::move(scene);
+    if (result.own_text.empty())
+        result.own_file = std::move(result.file), result.own_text = std::move(result.text);
     result.file = std::move(file);
     result.text = std::move(text);
     result.claims.clear();

@@ -112,22 +112,23 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 }
 
 std::string describe(const Scene& scene, const std::vector<Diagnostic>& diagnostics) {
-    const std::vector<std::size_t> starts = line_starts(scene.text);
-    const std::string file = escaped(scene.file, 400);
-    std::string text;
+    std::string result;
     for (std::size_t k = 0; k < diagnostics.size() && k < most_told; ++k) {
         const auto& [place, message, severity, kind, name] = diagnostics[k];
-        text += file;
-        if (place.line > 0) text += fmt::format(":{}:{}", place.line, place.column);
-        text += fmt::format(": {}{}\n", severity == Severity::warning ? say("warning: ") : "", message);
+        const bool is_warning = severity == Severity::warning, is_own = is_warning && !scene.own_text.empty();
+        const std::string& text = is_own ? scene.own_text : scene.text;
+        result += escaped(is_own ? scene.own_file : scene.file, 400);
+        if (place.line > 0) result += fmt::format(":{}:{}", place.line, place.column);
+        result += fmt::format(": {}{}\n", is_warning ? say("warning: ") : "", message);
+        const std::vector<std::size_t> starts = line_starts(text);
         const auto line = static_cast<std::size_t>(place.line);
         if (line == 0 || line > starts.size()) continue;
-        const std::size_t end = line < starts.size() ? starts[line] : scene.text.size();
-        text +=
-            excerpt(std::string_view(scene.text).substr(starts[line - 1], end - starts[line - 1]), place.column);
+        const std::size_t end = line < starts.size() ? starts[line] : text.size();
+        result += excerpt(std::string_view(text).substr(starts[line - 1], end - starts[line - 1]), place.column);
     }
-    if (diagnostics.size() > most_told) text += say("{}: and {} more\n", file, diagnostics.size() - most_told);
-    return text;
+    if (diagnostics.size() > most_told)
+        result += say("{}: and {} more\n", escaped(scene.file, 400), diagnostics.size() - most_told);
+    return result;
 }
 
 void fail(const Scene& scene, std::vector<Diagnostic> diagnostics) {

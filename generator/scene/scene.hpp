@@ -301,6 +301,8 @@ struct Scene {
 
     std::string file;  ///< the name of the file as the user gave it
     std::string text;  ///< the whole file, for messages that show its lines
+    /// The same of the scene itself where these are those of a file of claims; warnings are about it.
+    std::string own_file = {}, own_text = {};
     std::string title, source, notes;
     std::optional<Vector> gravity;
     std::vector<Parameter> parameters;

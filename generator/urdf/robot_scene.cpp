@@ -111,8 +111,9 @@ void SceneWriter::name_all() {
 }
 
 void SceneWriter::head() {
-    result_.text = fmt::format("title = {}\nsource = {}\ngravity = {}\n", scene_text(robot_.name),
-                               scene_text("imported from " + options_.source), scene_vector(robot_.gravity));
+    result_.text =
+        fmt::format("title = {}\nsource = {}\ngravity = {}\nallow = [\"unused\"]\n", scene_text(robot_.name),
+                    scene_text("imported from " + options_.source), scene_vector(robot_.gravity));
 }
 
 void SceneWriter::body(const Group& g, const std::string& placing) {

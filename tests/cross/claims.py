@@ -12,7 +12,7 @@ from reference import Reference, coordinate_names, on_constraints
 _WORD = re.compile(r"[^\W\d]\w*'*|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[-+*/^()]")
 
 
-def wrong(rng, claim, names):
+def wrong(rng, claim, names, coordinates):
     """The claim with one change: a number, a sign, sine for cosine, a name, a dot. It may still be true."""
     words = list(_WORD.finditer(claim))
     for _ in range(20):
@@ -26,7 +26,7 @@ def wrong(rng, claim, names):
             other = repr(float(text) * rng.choice([2, 0.5, 1.01]))
         elif text.endswith("'"):
             other = text[:-1] if rng.random() < 0.5 else text + "'"
-            if other.endswith("'''"):
+            if other.endswith("'''") or text.rstrip("'") not in coordinates:
                 continue
         elif text in names and claim[word.end():word.end() + 1] != "(":
             other = rng.choice(names)

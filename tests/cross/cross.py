@@ -266,7 +266,7 @@ class Examination:
         for _ in range(6):
             claim = claims.right(self.rng, equations, self.q)
             listed.append(claim)
-            listed.append(claims.wrong(self.rng, claim, names))
+            listed.append(claims.wrong(self.rng, claim, names, self.q))
         held = []
         for claim in listed:
             try:
