@@ -132,7 +132,7 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
                             .contact = static_cast<int>(cut.particles.size())});
         cut = with_rolling_released(std::move(cut), scene.rolling[r]);
     }
-    cut.on_warning = [](const std::string&) {};  // they were told for the scene itself
+    cut.on_warning = [](const Warning&) {};  // they were told for the scene itself
     Mechanism m = build(cut);
     std::vector<std::optional<Vector3>> normals;
     for (const ReleasedRolling& rolling : rollings) normals.push_back(normal_of(mechanism, m, rolling));
