@@ -25,4 +25,7 @@ def scene_file(name):
 
 
 def program(*arguments):
-    return json.loads(subprocess.run([PROGRAM, *arguments, "--json"], capture_output=True, text=True).stdout)
+    """The JSON of the command, but for its warnings, which are SceneWarning in Python."""
+    told = json.loads(subprocess.run([PROGRAM, *arguments, "--json"], capture_output=True, text=True).stdout)
+    told.pop("warnings", None)
+    return told

@@ -259,7 +259,7 @@ TEST_CASE(
     CHECK(told("[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"sin(30)*x + cos(30 deg)*x + "
                "sin(pi/6)\"\n") == "5 suspicious_number ; ");
     int scenes = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator("scenes")) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(ALEMBERT_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".toml") continue;
         CAPTURE(entry.path().string());
         const Scene scene = read_scene(entry.path().string());

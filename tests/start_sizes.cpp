@@ -96,7 +96,7 @@ std::string loop(const Bars& b, const Frame& f, double wrong) {
 /// The message, or nothing where the initial values are taken.
 std::string refusal(const std::string& text) {
     Scene scene = parse_scene(text, "loop.toml");
-    scene.on_warning = [](const std::string&) {};
+    scene.on_warning = [](const Warning&) {};
     const Derived d = derived(std::move(scene));
     Start start = start_of(d.mechanism);
     try {

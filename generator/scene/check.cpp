@@ -55,8 +55,11 @@ public:
         for (const Input& i : scene_.inputs) unused(i.name, Declared::Kind::input, say("input"));
         for (const Definition& d : scene_.definitions)
             if (!d.is_motion) unused(d.name, Declared::Kind::definition, say("definition"));
-        for (const Frame& f : scene_.frames) unused(f.name, Declared::Kind::frame, say("frame"));
-        for (const Point& p : scene_.points) unused(p.name, Declared::Kind::point, say("point"));
+        if (!scene_.particles.empty() ||
+            !scene_.bodies.empty()) {  // else frames and points are what the scene is about
+            for (const Frame& f : scene_.frames) unused(f.name, Declared::Kind::frame, say("frame"));
+            for (const Point& p : scene_.points) unused(p.name, Declared::Kind::point, say("point"));
+        }
         warn_of_still_inertia(found);
         return found;
     }
