@@ -65,7 +65,8 @@ public:
         const Texts names = texts("names");
         Json& points = options_["points"];  // one after the other
         for (std::size_t k = 0; k < points.size() && !names.empty(); ++k)
-            points[k] = points[k].get<double>() * size_of_one(scene, names[k % names.size()]);
+            if (points[k].is_number())  // what is not finite is a text, and refused later
+                points[k] = points[k].get<double>() * size_of_one(scene, names[k % names.size()]);
     }
 
     bool has(const char* name) const { return options_.contains(name); }
@@ -116,7 +117,8 @@ public:
 private:
     static void scale(Json& range, const Scene& scene) {
         for (const std::size_t k : {1, 2})
-            range[k] = range[k].get<double>() * size_of_one(scene, range[0].get<std::string>());
+            if (range[k].is_number())
+                range[k] = range[k].get<double>() * size_of_one(scene, range[0].get<std::string>());
     }
     static Axis axis_of(const Json& range, std::size_t count) {
         return {.name = range.at(0).get<std::string>(),

@@ -17,7 +17,7 @@ namespace {
 
 std::string column(const std::string& on, bool bodies = false) {
     return std::string(
-               "[parameters]\nm = 1\nl = 1\nk = 1\nP = 1\n[coordinates]\na1 = 0\na2 = 0\n"
+               "allow = [\"unused\"]\n[parameters]\nm = 1\nl = 1\nk = 1\nP = 1\n[coordinates]\na1 = 0\na2 = 0\n"
                "[[point]]\nname = \"A\"\noffset = [\"l*cos(a1)\", \"l*sin(a1)\"]\n"
                "[[particle]]\nname = \"one\"\nmass = \"2*m\"\nat = \"A\"\n"
                "[[frame]]\nname = \"F\"\nrotate = [[\"z\", \"a2\"]]\n") +
