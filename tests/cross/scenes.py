@@ -262,7 +262,52 @@ def sliding(d):
           normal=number(rng, 0.5, 3))
 
 
-KINDS = {f.__name__: f for f in (pendulums, planets, arm, top, loop, blade, made, falling, sliding)}
+def drifting(d):
+    """Motions that are easy to follow in long steps, past things that are narrow or repeat."""
+    rng = d.rng
+    c = d.centre() if d.chance(0.3) else 0.0
+    d.coordinate("x", c + number(rng, -1, 1), number(rng, 0.5, 2))
+    d.add("particle", name="P1", mass=d.amount("m", 0.5, 2), position=["x", 0])
+    away = f"(x - {c})" if c >= 0 else f"(x + {-c})"
+    force = rng.choice(["none", "spring", "far"])
+    if force == "spring":
+        d.scene["energy"] = {"potential": f"{d.amount('k', 0.5, 5)}*{away}^2/2"}
+    elif force == "far":
+        place = [float(f"{10 ** rng.uniform(2, 6):.3g}"), float(f"{10 ** rng.uniform(2, 6):.3g}")]
+        length = (place[0] ** 2 + place[1] ** 2) ** 0.5
+        d.add("point", name="far", offset=place)
+        d.add("spring", between=["far", "P1"], stiffness=0.1, length=float(f"{length:.9g}"))
+    when = rng.choice([f"cos({number(rng, 2, 20)}*{away})", f"sin({number(rng, 5, 25)}*{away} + 0.3)"])
+    event = dict(name="tick", when=when)
+    if d.chance(0.5):
+        event["impulses"] = {"x": f"{number(rng, 0.01, 0.05)}*x'"}
+    d.add("event", **event)
+
+
+def flat(d):
+    """A parallelogram that turns through its flat poses."""
+    rng = d.rng
+    d.has_constraints = True
+    l, way = number(rng, 0.5, 1.2), number(rng, 1, 2)
+    start = number(rng, 0.5, 1.2)
+    d.scene["coordinates"].update({"q0": {"initial": start, "rate": number(rng, 2, 4)}, "q1": {"guess": 0.0, "rate_guess": 0.0},
+                                   "q2": {"guess": start, "rate_guess": 3.0}})
+    d.add("particle", name="P1", mass=1, position=[f"{l}*cos(q0)", f"{l}*sin(q0)"])
+    d.add("particle", name="P2", mass=number(rng, 0.5, 2), **{"from": "P1"}, position=[f"{way}*cos(q1)", f"{way}*sin(q1)"])
+    d.add("constraint", name="across", holonomic=f"{l}*cos(q0) + {way}*cos(q1) = {way} + {l}*cos(q2)")
+    d.add("constraint", name="up", holonomic=f"{l}*sin(q0) + {way}*sin(q1) = {l}*sin(q2)")
+
+
+def bouncing(d):
+    """A ball that an event throws back."""
+    rng = d.rng
+    d.scene["gravity"] = [0, f"-{number(rng, 5, 12)}"]
+    d.coordinate("h", number(rng, 0.5, 2), 0.0)
+    d.add("particle", name="ball", mass=1, position=[0, "h"])
+    d.add("event", name="floor", when="h", direction="down", impulses={"h": f"-{number(rng, 1.6, 1.9)}*h'"})
+
+
+KINDS = {f.__name__: f for f in (pendulums, planets, arm, top, loop, blade, made, falling, sliding, drifting, flat, bouncing)}
 
 
 def _loads(d):
@@ -328,9 +373,10 @@ def make(seed):
     d = Draft(seed)
     kind = d.rng.choice(list(KINDS))
     KINDS[kind](d)
-    _loads(d)
-    _speeds(d)
-    _events(d)
+    if kind not in ("drifting", "flat", "bouncing"):
+        _loads(d)
+        _speeds(d)
+        _events(d)
     d.scene["simulation"] = {"duration": number(d.rng, 1, 4), "tolerance": 10.0 ** -d.rng.choice([7, 9, 10, 12])}
     for table in ("coordinates", "parameters"):
         if not d.scene[table]:
