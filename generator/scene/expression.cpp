@@ -26,6 +26,7 @@
 #include "scene/hints.hpp"
 #include "scene/text.hpp"
 #include "scene/tokens.hpp"
+#include "scene/typed.hpp"
 #include "scene/unit_text.hpp"
 
 namespace alembert {
@@ -353,13 +354,17 @@ Expression slice(const std::string& text, const std::vector<Place>& places, std:
 }  // namespace
 
 Expression parse_expression(std::string text, std::vector<Place> places, std::vector<Diagnostic>& diagnostics) {
+    write_plainly(text, places);
     Expression result{std::move(text), std::move(places), nullptr};
     result.tree = parse(result, false, diagnostics);
     return result;
 }
 
-Equality parse_equality(const std::string& text, const std::vector<Place>& places,
+Equality parse_equality(const std::string& typed, const std::vector<Place>& their_places,
                         std::vector<Diagnostic>& diagnostics, bool rates_before) {
+    std::string text = typed;
+    std::vector<Place> places = their_places;
+    write_plainly(text, places);
     const Expression whole{text, places, nullptr};
     const std::size_t sign = text.find('=');
     const auto refuse = [&](std::size_t offset, const std::string& message) {

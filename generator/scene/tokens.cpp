@@ -15,45 +15,16 @@ namespace {
 
 constexpr int most_digits = 400;
 
-/// What to write instead of a character that looks right but is not part of the language.
+/// What to write instead of a character that looks right but is not part of the language. (What is certain is
+/// read: scene/typed.hpp.)
 std::string replacement(char32_t c) {
     switch (c) {
-        case U'·':
-        case U'×':
-        case U'⋅':
-        case U'∗':
-        case U'∙':
-        case U'•':
-            return say("use *");
-        case U'−':
-        case U'–':
-        case U'—':
-        case U'‐':
-        case U'‑':
-            return say("use -");
-        case U'÷':
-        case U'∕':
-        case U'⁄':
-            return say("use /");
-        case U'′':
-        case U'’':
-        case U'‘':
-        case U'´':
-        case U'`':
-            return say("use '");
-        case U'″':
         case U'”':
         case U'“':
         case U'"':
             return say("use '' for a second derivative");
-        case U'²':
-            return say("use ^2");
-        case U'³':
-            return say("use ^3");
         case U'√':
             return say("use sqrt(…)");
-        case U'½':
-            return say("use 1/2");
         case U'∞':
             return say("numbers are finite");
         case U'[':
@@ -71,20 +42,6 @@ std::string replacement(char32_t c) {
             return say("there are no percentages or remainders; use /100");
         case U'!':
             return say("there are no factorials");
-        case U'\u0307':
-        case U'\u0308':
-            return say("use ' for a derivative with respect to time: x'");
-        case U'₀':
-        case U'₁':
-        case U'₂':
-        case U'₃':
-        case U'₄':
-        case U'₅':
-        case U'₆':
-        case U'₇':
-        case U'₈':
-        case U'₉':
-            return say("use plain digits in names: x1");
         default:
             return {};
     }
@@ -123,8 +80,6 @@ private:
             while (at_ < text_.size() && text_[at_] == '\'') ++at_;
             return add(Token::Kind::primes, begin);
         }
-        if (text_.compare(at_, 2, "**") == 0)
-            fail(begin, say("'**' is not an operator here; a power is written with ^"));
         if (text_.compare(at_, 2, "==") == 0)
             fail(begin, say("'==' is not part of the language; an equation has one ="));
         if (std::string_view("+-*/^(),=").find(byte) != std::string_view::npos) {
