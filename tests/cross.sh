@@ -6,4 +6,4 @@
 set -eu
 cd "$(dirname "$0")/.."
 /usr/bin/python3 -c 'import mpmath' 2>/dev/null || { echo 'python3-mpmath is not installed'; exit "${ALEMBERT_NO_SKIP:-77}"; }
-exec /usr/bin/python3 tests/cross/cross.py --program build/release/generator/alembert --package build/release/python "$@"
+exec /usr/bin/python3 -B tests/cross/cross.py --program build/release/generator/alembert --package build/release/python "$@"
