@@ -165,6 +165,7 @@ TEST_CASE("expression: what is typed otherwise is read where its meaning is cert
     CHECK(mistake("x ≤ 1").find("comparisons") != std::string::npos);
     std::vector<Diagnostic> none;
     CHECK(parse_equality("x″ ＝ −g", {}, none).rhs.text == " -g");
+    CHECK(parse_inequality("λ·x ＞ 0", {}, none).greater.text == "λ*x ");
 }
 
 TEST_CASE("expression: incomplete text is reported with its place") {

@@ -386,8 +386,11 @@ Equality parse_equality(const std::string& typed, const std::vector<Place>& thei
     return result;
 }
 
-Inequality parse_inequality(const std::string& text, const std::vector<Place>& places,
+Inequality parse_inequality(const std::string& typed, const std::vector<Place>& their_places,
                             std::vector<Diagnostic>& diagnostics) {
+    std::string text = typed;
+    std::vector<Place> places = their_places;
+    write_plainly(text, places);
     const Expression whole{text, places, nullptr};
     const std::size_t sign = text.find_first_of("<>");
     const auto refuse = [&](std::size_t offset, const std::string& message) {

@@ -10,6 +10,7 @@
 
 #include "language/say.hpp"
 #include "scene/check.hpp"
+#include "scene/dimension_check.hpp"
 #include "scene/joints_file.hpp"
 #include "scene/keys.hpp"
 #include "scene/layout.hpp"

@@ -30,8 +30,7 @@ double size_of_one(const Scene& scene, const std::string& name);
 /// name none.
 std::string in_si(const Scene& scene, const std::string& name, const std::string& value);
 
-/// Warns where the dimensions that the units give contradict each other: in sums and functions, and where the
-/// language says what a value is: positions, masses, forces …
-std::vector<Diagnostic> contradicting_dimensions(const Scene& scene);
+/// Whether an expression has a name other than pi and t, or a quantity with a unit.
+bool has_quantities(const Tree& tree);
 
 }  // namespace alembert
