@@ -139,7 +139,9 @@ TEST_CASE("expression: nearly right text gets a hint") {
     CHECK(mistake("x == 2") == "3: '==' is not part of the language; an equation has one =");
     CHECK(mistake("x = 2") == "3: '=' is not part of an expression; only a claim is an equation");
     CHECK(mistake("[x]") == "1: '[' is not part of the expression language; use parentheses");
-    CHECK(mistake("x; y") == "2: ';' is not part of the expression language");
+    CHECK(mistake("x; y") ==
+          "2: ';' is not part of the expression language; an expression stands alone; arguments "
+          "are separated by commas");
     CHECK(mistake("0,5") ==
           "2: a comma stands only between the arguments of a function; the decimal sign is a point");
     CHECK(mistake("2'") == "2: a number has no derivative");

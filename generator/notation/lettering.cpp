@@ -3,89 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <string_view>
 #include <vector>
+
+#include "scene/greek.hpp"
 
 namespace alembert {
 
 namespace {
-
-struct Greek {
-    std::string_view name, letter, latex;
-};
-
-// Greek capitals that look Latin have no command of their own.
-constexpr std::array<Greek, 56> greek{{
-    {"alpha", "α", "\\alpha"},
-    {"beta", "β", "\\beta"},
-    {"gamma", "γ", "\\gamma"},
-    {"delta", "δ", "\\delta"},
-    {"epsilon", "ε", "\\varepsilon"},
-    {"zeta", "ζ", "\\zeta"},
-    {"eta", "η", "\\eta"},
-    {"theta", "θ", "\\theta"},
-    {"iota", "ι", "\\iota"},
-    {"kappa", "κ", "\\kappa"},
-    {"lambda", "λ", "\\lambda"},
-    {"mu", "μ", "\\mu"},
-    {"nu", "ν", "\\nu"},
-    {"xi", "ξ", "\\xi"},
-    {"omicron", "ο", "o"},
-    {"pi", "π", "\\pi"},
-    {"rho", "ρ", "\\rho"},
-    {"sigma", "σ", "\\sigma"},
-    {"tau", "τ", "\\tau"},
-    {"upsilon", "υ", "\\upsilon"},
-    {"phi", "φ", "\\varphi"},
-    {"chi", "χ", "\\chi"},
-    {"psi", "ψ", "\\psi"},
-    {"omega", "ω", "\\omega"},
-    {"Gamma", "Γ", "\\Gamma"},
-    {"Delta", "Δ", "\\Delta"},
-    {"Theta", "Θ", "\\Theta"},
-    {"Lambda", "Λ", "\\Lambda"},
-    {"Xi", "Ξ", "\\Xi"},
-    {"Pi", "Π", "\\Pi"},
-    {"Sigma", "Σ", "\\Sigma"},
-    {"Upsilon", "Υ", "\\Upsilon"},
-    {"Phi", "Φ", "\\Phi"},
-    {"Psi", "Ψ", "\\Psi"},
-    {"Omega", "Ω", "\\Omega"},
-    {"Alpha", "Α", "\\mathrm{A}"},
-    {"Beta", "Β", "\\mathrm{B}"},
-    {"Epsilon", "Ε", "\\mathrm{E}"},
-    {"Zeta", "Ζ", "\\mathrm{Z}"},
-    {"Eta", "Η", "\\mathrm{H}"},
-    {"Iota", "Ι", "\\mathrm{I}"},
-    {"Kappa", "Κ", "\\mathrm{K}"},
-    {"Mu", "Μ", "\\mathrm{M}"},
-    {"Nu", "Ν", "\\mathrm{N}"},
-    {"Omicron", "Ο", "\\mathrm{O}"},
-    {"Rho", "Ρ", "\\mathrm{P}"},
-    {"Tau", "Τ", "\\mathrm{T}"},
-    {"Chi", "Χ", "\\mathrm{X}"},
-    {"varphi", "φ", "\\varphi"},
-    {"vartheta", "ϑ", "\\vartheta"},
-    {"varepsilon", "ε", "\\varepsilon"},
-    {"varrho", "ϱ", "\\varrho"},
-    {"varsigma", "ς", "\\varsigma"},
-    {"", "µ", "\\mu"},
-    {"", "ϕ", "\\phi"},
-    {"", "ϵ", "\\epsilon"},
-}};
-
-const Greek* find_name(std::string_view name) {
-    for (const Greek& entry : greek)
-        if (!name.empty() && entry.name == name) return &entry;
-    return nullptr;
-}
-
-const Greek* find_letter(std::string_view letter) {
-    for (const Greek& entry : greek)
-        if (entry.letter == letter) return &entry;
-    return nullptr;
-}
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';
@@ -106,7 +31,7 @@ std::vector<std::string_view> letters_of(std::string_view text) {
 }
 
 std::string to_greek(const std::string& word) {
-    const Greek* entry = find_name(word);
+    const GreekLetter* entry = greek_named(word);
     return entry ? std::string(entry->letter) : word;
 }
 
@@ -162,7 +87,7 @@ std::string latex_letters(const std::string& letters) {
         upright.clear();
     };
     for (const std::string_view letter : each) {
-        if (const Greek* entry = letter.size() > 1 ? find_letter(letter) : nullptr) {
+        if (const GreekLetter* entry = letter.size() > 1 ? greek_of(letter) : nullptr) {
             flush();
             result += std::string(entry->latex);
         } else {

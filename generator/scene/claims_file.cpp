@@ -9,8 +9,11 @@
 #include "language/say.hpp"
 #include "scene/check.hpp"
 #include "scene/claim_mode.hpp"
+#include "scene/known_names.hpp"
 #include "scene/source.hpp"
 #include "scene/text_file.hpp"
+#include "scene/typed.hpp"
+#include "scene/typed_words.hpp"
 
 namespace alembert {
 
@@ -44,15 +47,15 @@ std::string joined(const std::vector<Word>& words) {
 
 /// Of "near theta = 0, phi = pi/2", from the first name on.
 std::vector<std::pair<Name, Expression>> values_after(const std::string& line, std::size_t offset,
-                                                      const SourceText& source, std::size_t begin,
+                                                      const std::vector<Place>& places_of_line,
                                                       std::vector<Diagnostic>& mistakes) {
     std::vector<std::pair<Name, Expression>> result;
     for (std::size_t from = offset; from < line.size();) {
         std::size_t end = from;  // of this value: a comma outside parentheses
         for (int depth = 0; end < line.size() && (line[end] != ',' || depth > 0); ++end)
             depth += line[end] == '(' ? 1 : line[end] == ')' ? -1 : 0;
-        std::vector<Place> places;
-        for (std::size_t k = from; k <= end; ++k) places.push_back(source.place(begin + k));
+        const std::vector<Place> places(places_of_line.begin() + static_cast<std::ptrdiff_t>(from),
+                                        places_of_line.begin() + static_cast<std::ptrdiff_t>(end) + 1);
         const Equality value = parse_equality(line.substr(from, end - from), places, mistakes, false);
         std::string name = value.lhs.text;
         while (!name.empty() && is_blank(name.back())) name.pop_back();
@@ -81,10 +84,16 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
     Claim common;  // what the lines before say of the claims that follow
     std::istringstream lines(result.text);
     const SourceText source(result.text);
+    KnownNames names(result);
     std::size_t begin = 0, next = 0;
     for (std::string line; std::getline(lines, line);) {
         begin = std::exchange(next, next + line.size() + 1);
         line = line.substr(0, line.find('#'));
+        std::vector<Place> places;
+        for (std::size_t k = 0; k <= line.size(); ++k) places.push_back(source.place(begin + k));
+        const std::vector<Word> typed = words_of(line);
+        const bool is_list = !typed.empty() && (typed[0].text == "unknowns" || typed[0].text == "constants");
+        if (!is_list || line.find('=') != std::string::npos) write_in_words(line, places, names);
         while (!line.empty() && is_blank(line.back())) line.pop_back();
         const std::vector<Word> words = words_of(line);
         if (words.empty()) continue;
@@ -92,17 +101,17 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
         const bool is_equation = line.find('=') != std::string::npos;
         if (!is_equation && (first == "unknowns" || first == "constants")) {
             std::vector<Name>& list = first == "unknowns" ? common.unknowns : common.constants;
-            for (std::size_t k = 1; k < words.size(); ++k)
-                list.push_back({words[k].text, source.place(begin + words[k].offset)});
+            for (std::size_t k = 1; k < words.size(); ++k) {
+                list.push_back({words[k].text, places[words[k].offset]});
+                names.add(words[k].text);
+            }
             if (words.size() == 1)
-                mistakes.push_back(
-                    {source.place(begin), say("'{}' names nothing; expected names after it", first)});
+                mistakes.push_back({places.front(), say("'{}' names nothing; expected names after it", first)});
             continue;
         }
         if (first == "where") {
-            std::vector<Place> places;
             const std::size_t from = words[0].offset + first.size();
-            for (std::size_t k = from; k <= line.size(); ++k) places.push_back(source.place(begin + k));
+            places.erase(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(from));
             if (words.size() == 1)
                 common.where.clear();
             else
@@ -116,13 +125,11 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
         if (is_equation && first == "near" && words.size() > 1) {
             common.at = Claim::At::near;
             common.sticking = common.closed = {};
-            common.near = values_after(line, words[1].offset, source, begin, mistakes);
+            common.near = values_after(line, words[1].offset, places, mistakes);
             continue;
         }
         Claim claim = common;
-        claim.place = source.place(begin + words[0].offset);
-        std::vector<Place> places;
-        for (std::size_t k = 0; k <= line.size(); ++k) places.push_back(source.place(begin + k));
+        claim.place = places[words[0].offset];
         claim.equation = parse_equality(line, places, mistakes, claim.at == Claim::At::impact);
         result.claims.push_back(std::move(claim));
     }

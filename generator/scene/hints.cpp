@@ -60,7 +60,7 @@ void refuse_power_of_function(Words words, const Token& name) {
 
 void refuse_neighbour(const Words& words, int begin) {
     const Token& next = words.now();
-    if (next.kind == Token::Kind::primes) stop(next.offset, about_primes);
+    if (next.kind == Token::Kind::primes) stop(next.offset, translated(about_primes));
     const bool is_open = Words::is(next, '(');
     if (next.kind != Token::Kind::number && next.kind != Token::Kind::name && !is_open) return;
     std::string left = words.text.substr(begin, words.end() - begin);
@@ -81,7 +81,7 @@ void refuse_missing_operand(const Words& words) {
         stop(now.offset, say("an operand is missing between {} and {}", in_quotes(words.word(words.last())),
                              in_quotes(words.word(now))));
     }
-    if (now.kind == Token::Kind::primes) stop(now.offset, about_primes);
+    if (now.kind == Token::Kind::primes) stop(now.offset, translated(about_primes));
     stop(now.offset, say("an operand is missing before {}", in_quotes(words.word(now))));
 }
 
@@ -90,7 +90,7 @@ void refuse_word(const Words& words) {
     if (words.at_symbol(')')) stop(now.offset, say("this parenthesis closes nothing: none is open here"));
     if (words.at_symbol('='))
         stop(now.offset, say("'=' is not part of an expression; only a claim is an equation"));
-    if (words.at_symbol(',')) stop(now.offset, about_commas);
+    if (words.at_symbol(',')) stop(now.offset, translated(about_commas));
     stop(now.offset, say("{} is not expected here", in_quotes(words.word(now))));
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "language/say.hpp"
+#include "scene/advice.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/quaternions.hpp"
 #include "scene/tables.hpp"
@@ -17,6 +18,12 @@ void read_type(const Table& table, Joint& joint) {
     const Name type = table.needed_name("type");
     if (type.place.line == 0) return;
     if (const std::optional<Joint::Type> known = joint_type_named(type.text)) {
+        joint.type = *known;
+        return;
+    }
+    std::string small = bare(type.text);
+    if (const std::string_view meant = joint_type_meant(type.text); !meant.empty()) small = meant;
+    if (const std::optional<Joint::Type> known = joint_type_named(small)) {
         joint.type = *known;
         return;
     }
@@ -84,19 +91,20 @@ void read_armatures(const Table& table, const Joint& joint, Scene& scene) {
         return [&name](const Name& one) { return one.text == name; };
     };
     for (const Entry& entry : table.entries()) {
-        Armature rotor{{entry.key, entry.place},
+        const std::string name = table.reading().names.spelled(entry.key);
+        Armature rotor{{name, entry.place},
                        read_expression(table.reading(), *entry.node, labelled(say("the armature of"), entry.key))};
-        if (std::none_of(joint.coordinates.begin(), joint.coordinates.end(), is_name(entry.key)))
+        if (std::none_of(joint.coordinates.begin(), joint.coordinates.end(), is_name(name)))
             table.reading().complain(entry.place, say("{} is no coordinate of joint {}; a rotor turns with one",
-                                                      in_quotes(entry.key), in_quotes(joint.name.text)));
-        else if (std::any_of(quaternion.begin(), quaternion.end(), is_name(entry.key)))
+                                                      in_quotes(name), in_quotes(joint.name.text)));
+        else if (std::any_of(quaternion.begin(), quaternion.end(), is_name(name)))
             table.reading().complain(
                 entry.place, say("{} is part of a quaternion, whose rate turns no rotor; give the joint 'angles'",
-                                 in_quotes(entry.key)));
-        else if (!is_among(scene.coordinates, entry.key))
+                                 in_quotes(name)));
+        else if (!is_among(scene.coordinates, name))
             table.reading().complain(
                 entry.place, say("the motion of {} is prescribed, so that its rotor changes nothing; leave it out",
-                                 in_quotes(entry.key)));
+                                 in_quotes(name)));
         else
             scene.armatures.push_back(std::move(rotor));
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "language/say.hpp"
+#include "scene/advice.hpp"
 #include "scene/functions.hpp"
 #include "scene/text.hpp"
 
@@ -18,6 +19,16 @@ constexpr int most_suggestions = 200;  // a limit, because finding them takes ti
 
 constexpr const char* no_derivative =
     to_say("a vector has no plain derivative; the rate of pos(P) is vel(P), that of vel(P) is acc(P)");
+
+struct RateSpelling {
+    std::string_view before, after, primes;
+};
+/// Spellings that are not certain.
+constexpr RateSpelling spellings_of_rates[] = {
+    {"dd", "", "''"},  {"d", "", "'"},      {"", "_dd", "''"}, {"", "_d", "'"},     {"", "dd", "''"},
+    {"", "d", "'"},    {"", "_tt", "''"},   {"", "_t", "'"},   {"", "_pp", "''"},   {"", "_p", "'"},
+    {"", "pp", "''"},  {"", "p", "'"},      {"", "_dot", "'"}, {"", "dot", "'"},    {"", "_ddot", "''"},
+    {"dot_", "", "'"}, {"ddot_", "", "''"}, {"v_", "", "'"},   {"omega_", "", "'"}, {"a_", "", "''"}};
 
 std::string order_name(int order) {
     return order == 1 ? say("rates") : say("accelerations");
@@ -115,7 +126,7 @@ Quantities::Rank Quantities::rank(Context& context, const Tree& tree, int raised
         case Kind::name:
             meet_name(context, tree, raised);
             if (!vectors_.contains(tree.text)) return Rank::number;
-            if (tree.primes > 0) complain(context, tree, no_derivative);
+            if (tree.primes > 0) complain(context, tree, translated(no_derivative));
             return Rank::vector;
         case Kind::call:
             return rank_of_call(context, tree, raised);
@@ -132,7 +143,7 @@ Quantities::Rank Quantities::rank(Context& context, const Tree& tree, int raised
                 refuse_vector(*arg, 0, say("a vector in a power; its square is dot(u, u)"));
             return Rank::number;
         case Kind::derivative:
-            return refuse_vector(*tree.args[0], tree.primes, no_derivative);
+            return refuse_vector(*tree.args[0], tree.primes, translated(no_derivative));
     }
     return Rank::number;
 }
@@ -182,6 +193,18 @@ Quantities::Rank Quantities::rank_of_product(Context& context, const Tree& tree,
     return product;
 }
 
+/// diff(x, t) holds x constant, and is hardly meant.
+void Quantities::refuse_rate_by_diff(Context& context, const Tree& call) {
+    if (call.args.size() < 2 || call.args[1]->kind != Kind::name || call.args[1]->text != "t") return;
+    const Tree& of = *call.args[0];
+    const Declared* const declared = of.kind == Kind::name ? NameSpaces::find(names_.values, of.text) : nullptr;
+    if (declared == nullptr || declared->kind != Declared::Kind::coordinate) return;
+    const bool is_twice = call.args.size() > 2 && call.args[2]->text != "1";
+    complain(context, call,
+             say("diff is a partial derivative, which holds {0} constant; its rate: write {0}{1}",
+                 of.text + std::string(static_cast<std::size_t>(of.primes), '\''), is_twice ? "''" : "'"));
+}
+
 Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, int raised) {
     const Function* const function = find_function(tree.text);
     if (!function) {
@@ -210,6 +233,7 @@ Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, in
                 check_place(arg->text, context.expression.place(arg->offset), "frame");
                 break;
         }
+    if (tree.text == "diff") refuse_rate_by_diff(context, tree);
     if (function->takes == Function::Takes::points || function->takes == Function::Takes::frames)
         meet(context, tree, {.order = function->order}, raised);
     return function->gives_vector ? Rank::vector : Rank::number;
@@ -227,6 +251,8 @@ void Quantities::meet_function(Context& context, const Tree& tree) {
             opening < end && end - opening <= 24 ? escaped(text.substr(opening, end - opening)) : "(…)";
         std::vector<std::string> known = function_names();
         for (const UnspecifiedFunction& f : names_.functions) known.push_back(f.name.text);
+        if (const std::string advice = advice_on_function(tree.text); !advice.empty())
+            return complain(context, tree, say("unknown function {}; {}", in_quotes(tree.text), advice));
         const std::string meant = nearest(tree.text, known);
         return complain(
             context, tree,
@@ -336,6 +362,25 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
                      found.input_order == 1 ? say("first") : say("second"), word));
 }
 
+/// What to write in place of a name that the scene does not have, where it is known from elsewhere.
+std::string Quantities::advice_on(const std::string& word) const {
+    const auto moves = [&](const std::string& name) {
+        const Declared* const declared = NameSpaces::find(names_.values, name);
+        return declared != nullptr &&
+               (declared->kind == Declared::Kind::coordinate || declared->kind == Declared::Kind::input ||
+                declared->kind == Declared::Kind::speed);
+    };
+    for (const auto& [before, after, primes] : spellings_of_rates) {
+        if (word.size() <= before.size() + after.size() || !word.starts_with(before) || !word.ends_with(after))
+            continue;
+        const std::string name = word.substr(before.size(), word.size() - before.size() - after.size());
+        if (moves(name)) return say("; the rate of {0} is written {0}{1}", name, primes);
+    }
+    if (const std::string advice = advice_on_name(word); !advice.empty()) return say("; write {}", advice);
+    if (word == "g") return say("; [parameters] has no g: write g = 9.81 there");
+    return {};
+}
+
 void Quantities::meet_unknown(Context& context, const Tree& tree) {
     if (context.legal.claim &&
         (begins_with(tree.text, "p_") || begins_with(tree.text, "lambda") || is_given_by_derive(tree.text)))
@@ -348,6 +393,8 @@ void Quantities::meet_unknown(Context& context, const Tree& tree) {
         message += say("; {} is {}, not a number", tree.text, described(frame->kind));
     } else if (const Function* const function = find_function(tree.text)) {
         message += say("; the function needs its argument in parentheses: {}", function->usage);
+    } else if (const std::string advice = advice_on(tree.text); !advice.empty()) {
+        message += advice;
     } else {
         message += suggestion(tree.text, values_);
     }

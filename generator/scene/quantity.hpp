@@ -95,11 +95,13 @@ private:
     Rank rank_of_product(Context& context, const Tree& tree, int raised);
     void doubt_angle(const Context& context, const Tree& call);
     void refuse_ambiguous_unit(Context& context, const Tree& tree);
+    void refuse_rate_by_diff(Context& context, const Tree& call);
     Rank rank_of_call(Context& context, const Tree& tree, int raised);
     void meet_function(Context& context, const Tree& tree);
     void meet_name(Context& context, const Tree& tree, int raised);
     void meet_unknown(Context& context, const Tree& tree);
     void meet(Context& context, const Tree& tree, Contents found, int raised);
+    std::string advice_on(const std::string& word) const;
     void check_place(const std::string& name, Place place, const std::string& kind);
 };
 

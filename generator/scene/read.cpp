@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "language/say.hpp"
+#include "scene/advice.hpp"
 #include "scene/check.hpp"
 #include "scene/dimension_check.hpp"
+#include "scene/file_names.hpp"
 #include "scene/joints_file.hpp"
 #include "scene/keys.hpp"
 #include "scene/layout.hpp"
@@ -20,6 +22,7 @@
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 #include "scene/text_file.hpp"
+#include "scene/typed_toml.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {
@@ -80,25 +83,47 @@ Place header_of(const Entry& entry) {
     return place.line > 0 ? std::min(place, entry.place) : entry.place;
 }
 
+/// The table of the other form whose name is this one's in the plural or the singular: "force" for "forces".
+std::string_view other_form(std::string_view name, TableKeys::Shape shape) {
+    for (const TableKeys& one : table_keys)
+        if (one.shape == shape && (one.table == std::string(name) + "s" || name == std::string(one.table) + "s"))
+            return one.table;
+    return {};
+}
+
+std::string list_given(std::string_view name) {
+    const std::string_view list = other_form(name, TableKeys::Shape::list);
+    return list.empty() ? say("there is one [{0}] in a scene, not a list; write [{0}]", name)
+                        : say("there is one [{0}] in a scene, not a list; write [[{1}]] for each, or [{0}] for "
+                              "values along coordinates",
+                              name, list);
+}
+
+std::string table_given(std::string_view name) {
+    const std::string_view one = other_form(name, TableKeys::Shape::one);
+    return one.empty() ? say("there may be many of these in a scene; write [[{}]] for each", name)
+                       : say("there may be many of these in a scene; write [[{}]] for each, or [{}] for values "
+                             "along coordinates",
+                             name, one);
+}
+
 void read_section(const Reading& reading, const Section& section, const Entry& entry, Scene& scene) {
     if (table_named(section.name).shape != TableKeys::Shape::list) {
         if (const toml::table* const table = entry.node->as_table())
             return section.read(Table(reading, *table, fmt::format("[{}]", section.name), header_of(entry)),
                                 scene);
-        const bool is_list = entry.node->is_array_of_tables();
-        return reading.complain(
-            header_of(entry),
-            is_list ? say("there is one [{0}] in a scene, not a list; write [{0}]", section.name)
-                    : say("'{0}' is {1}; expected a table: [{0}]", section.name, kind_of(*entry.node)));
+        return reading.complain(header_of(entry), entry.node->is_array_of_tables()
+                                                      ? list_given(section.name)
+                                                      : say("'{0}' is {1}; expected a table: [{0}]", section.name,
+                                                            kind_of(*entry.node)));
     }
     const toml::array* const list = entry.node->as_array();
     if (!list) {
-        return reading.complain(
-            header_of(entry),
-            entry.node->is_table()
-                ? say("there may be many of these in a scene; write [[{}]] for each", section.name)
-                : say("'{0}' is {1}; expected a list of tables: write [[{0}]] for each", section.name,
-                      kind_of(*entry.node)));
+        return reading.complain(header_of(entry),
+                                entry.node->is_table()
+                                    ? table_given(section.name)
+                                    : say("'{0}' is {1}; expected a list of tables: write [[{0}]] for each",
+                                          section.name, kind_of(*entry.node)));
     }
     for (const toml::node& node : *list)
         if (const toml::table* const table = node.as_table())
@@ -109,15 +134,31 @@ void read_section(const Reading& reading, const Section& section, const Entry& e
                                  section.name, kind_of(node)));
 }
 
+/// "; write [[body]]": what the word of another program is here.
+std::string advice_on_table(const std::string& word) {
+    const std::string_view meant = table_meant(word);
+    if (meant.empty()) return {};
+    if (meant == "gravity") return say("; gravity is a vector above the first table: gravity = [0, \"-g\"]");
+    const TableKeys* const table = std::find_if(std::begin(table_keys), std::end(table_keys),
+                                                [&](const TableKeys& one) { return one.table == meant; });
+    if (table == std::end(table_keys)) return say("; write {} = \"…\"", meant);
+    const bool is_list = table->shape == TableKeys::Shape::list;
+    return is_list ? say("; write [[{}]] for each", meant) : say("; write [{}]", meant);
+}
+
 void refuse_unknown(const Reading& reading, const Entry& entry) {
     const std::span<const std::string_view> own = keys_of("");
     std::vector<std::string> known(own.begin(), own.end());
     for (const Section& section : sections) known.emplace_back(section.name);
     const bool is_table = entry.node->is_table() || entry.node->is_array_of_tables();
-    const std::string meant = nearest(entry.key, known);
+    std::string advice = advice_on_table(entry.key);
+    if (advice.empty())
+        if (const std::string meant = nearest(entry.key, known); !meant.empty())
+            advice = say("; did you mean '{}'?", meant);
+    if (advice.empty() && !is_table)
+        advice = say("; a key stands below the header of its table, such as [parameters]");
     reading.complain(header_of(entry),
-                     say("unknown {} {}{}", is_table ? say("table") : say("key"), in_quotes(entry.key),
-                         meant.empty() ? "" : say("; did you mean '{}'?", meant)));
+                     say("unknown {} {}{}", is_table ? say("table") : say("key"), in_quotes(entry.key), advice));
 }
 
 void read_tables(const Reading& reading, const toml::table& root, Scene& scene) {
@@ -170,6 +211,15 @@ std::optional<toml::table> parse_toml(Layout layout, const SourceText& source, s
     return {};
 }
 
+/// Takes the warnings out of what was found.
+std::vector<Diagnostic> warnings_of(std::vector<Diagnostic>& found) {
+    const auto first = std::stable_partition(
+        found.begin(), found.end(), [](const Diagnostic& one) { return one.severity == Severity::error; });
+    std::vector<Diagnostic> warnings(first, found.end());
+    found.erase(first, found.end());
+    return warnings;
+}
+
 /// Numbers in SI units; what units contradict is warned of.
 void take_units(Scene& scene, std::vector<Diagnostic>& mistakes) {
     std::vector<Diagnostic> found;
@@ -189,13 +239,15 @@ Scene filled(std::string text, std::string file, const Fill& fill) {
     if (std::vector<Diagnostic> mistakes = check_bytes(scene.text); !mistakes.empty())
         fail(scene, std::move(mistakes));
 
-    const SourceText source(scene.text);
+    const std::string plain = with_plain_signs(scene.text);
+    const SourceText source(plain);
     Layout layout = survey(source);
     std::vector<Diagnostic> mistakes = std::move(layout.mistakes);
     if (layout.is_too_deep) fail(scene, std::move(mistakes));
     const std::optional<toml::table> root = parse_toml(std::move(layout), source, mistakes);
     if (!root) fail(scene, std::move(mistakes));
-    fill(Reading{source, mistakes, root->contains("joint")}, *root, scene);
+    const KnownNames names = names_in(*root);
+    fill(Reading{source, mistakes, root->contains("joint"), names}, *root, scene);
     if (!mistakes.empty()) fail(scene, std::move(mistakes));
     return scene;
 }
@@ -206,8 +258,9 @@ Scene parse_scene(std::string text, std::string file) {
     return filled(std::move(text), std::move(file),
                   [](const Reading& reading, const toml::table& root, Scene& scene) {
                       read_tables(reading, root, scene);
+                      std::vector<Diagnostic> warnings = warnings_of(reading.diagnostics);
                       place_by_joints(scene, reading.diagnostics);
-                      std::vector<Diagnostic> warnings, more = check_scene(scene, warnings);
+                      std::vector<Diagnostic> more = check_scene(scene, warnings);
                       reading.diagnostics.insert(reading.diagnostics.end(), more.begin(), more.end());
                       scene.warnings = std::move(warnings);
                       if (reading.diagnostics.empty()) take_units(scene, reading.diagnostics);

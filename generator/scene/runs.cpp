@@ -7,9 +7,11 @@
 
 #include "alembert/methods.hpp"
 #include "language/say.hpp"
+#include "scene/advice.hpp"
 #include "scene/claim_mode.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
+#include "scene/typed_words.hpp"
 
 namespace alembert {
 namespace {
@@ -29,11 +31,16 @@ bool is_not_positive(const Tree& tree) {
 }
 
 std::optional<Name> read_method(const Table& table) {
-    const std::optional<Name> given = table.name("method");
+    std::optional<Name> given = table.name("method");
     if (!given) return {};
     const std::vector<std::string> words = method_words();
-    if (std::find(words.begin(), words.end(), given->text) == words.end()) {
-        const std::string meant = nearest(given->text, words);
+    const auto word = std::find_if(words.begin(), words.end(),
+                                   [&](const std::string& known) { return bare(known) == bare(given->text); });
+    if (word != words.end()) {
+        given->text = *word;
+    } else {
+        std::string meant(method_meant(given->text));
+        if (meant.empty()) meant = nearest(given->text, words);
         table.reading().complain(given->place, say("unknown method {}; {}", in_quotes(given->text),
                                                    meant.empty() ? say("there are {}", fmt::join(words, ", "))
                                                                  : say("did you mean '{}'?", meant)));
@@ -119,7 +126,7 @@ std::vector<std::pair<Name, Expression>> values_by_name(const Table& table, std:
     const Table inner(table.reading(), *node, table.what(key), entry->place);
     std::vector<std::pair<Name, Expression>> result;
     for (const Entry& one : inner.entries())
-        result.emplace_back(Name{one.key, one.place},
+        result.emplace_back(Name{written_name(one.key, table.reading().names), one.place},
                             read_expression(table.reading(), *one.node, labelled(each, one.key)));
     return result;
 }

@@ -10,6 +10,7 @@
 
 #include "language/libraries.hpp"
 #include "language/say.hpp"
+#include "scene/file_mistakes.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -58,17 +59,31 @@ std::optional<Value> value_around(std::string_view text, std::size_t offset) {
     std::size_t end = std::min(text.find_first_of(in_array ? "\r\n#,]}" : "\r\n#}", begin), text.size());
     while (end > begin && (text[end - 1] == ' ' || text[end - 1] == '\t')) --end;
     const std::string_view value = text.substr(begin, end - begin);
-    if (value.empty() || value.find_first_of("\"'[]{}=") != std::string_view::npos) return {};
+    const bool is_other_bracket = value.starts_with('<') || value.starts_with('(');
+    if (value.empty() || (!is_other_bracket && value.find_first_of("\"'[]{}=") != std::string_view::npos))
+        return {};
     return Value{begin, value};
 }
 
-bool is_number_like(std::string_view text) {
-    return text.find_first_of("0123456789") != std::string_view::npos &&
-           text.find_first_not_of("+-.0123456789eE_") == std::string_view::npos;
+/// What a value is that stands without quotes and is no number; empty if it may be an expression.
+std::string known_value(std::string_view value) {
+    if (const std::string number = advice_on_comma(value); !number.empty()) return number;
+    if (value.starts_with("‘") || value.starts_with("’")) return say("a string stands in plain quotes: \"…\"");
+    if (value.find("//") != std::string_view::npos) return say("a comment begins with #");
+    if (value.ends_with(';')) return say("a line ends without a sign; leave out the semicolon");
+    if (value.ends_with(',')) return say("a line ends without a sign; leave out the comma");
+    for (const std::string_view word : {"True", "TRUE", "yes", "Yes", "on", "On"})
+        if (value == word) return say("write true");
+    for (const std::string_view word : {"False", "FALSE", "no", "No", "off", "Off"})
+        if (value == word) return say("write false");
+    if (value.starts_with('<') || value.starts_with('('))
+        return say("the components of a vector stand between square brackets: [0, \"-g\"]");
+    return {};
 }
 
 std::string about_value(std::string_view value, std::string_view message) {
     const std::string shown = escaped(value, 40);
+    if (const std::string known = known_value(value); !known.empty()) return known;
     if (message.find("64 bits") != std::string_view::npos || message.find("interpreted") != std::string_view::npos)
         return say("the number {} is beyond the range of {}", shown,
                    value.find_first_of(".eE") == std::string_view::npos
@@ -99,9 +114,14 @@ Diagnostic syntax_mistake(const toml::parse_error& error, const Layout& layout, 
                     say("the table [{}] is given twice; first on line {}", escaped(name), header->second.line)};
     }
     const auto says = [&](std::string_view words) { return message.find(words) != std::string::npos; };
+    if (auto header = mistake_in_header(source, source.offset(place))) return *std::move(header);
+    if (says("unescaped control characters") && has_typographic_quote(source, source.offset(place)))
+        return {place, say("this string is not closed: a typographic quote is no end of one that begins with \"")};
     if (std::any_of(std::begin(of_values), std::end(of_values), says))
         if (const auto value = value_around(source.text(), source.offset(place)))
             return {source.place(value->begin), about_value(value->text, message)};
+    if (auto familiar = familiar_mistake(message, layout, source, source.offset(place)))
+        return *std::move(familiar);
     for (const auto& [theirs, ours] : rewordings)
         if (says(theirs)) return {place, say("not valid TOML: {}", translated(ours))};
     return {place, say("not valid TOML: {}", escaped(translated_from_toml(message), 200))};

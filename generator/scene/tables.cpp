@@ -16,6 +16,11 @@ template <typename Item>
 Item read_item(const Table& table, const Entry& entry, const std::string& what, std::string_view keys_as) {
     Item item{.name = {entry.key, entry.place}, .value = {}, .unit = {}, .about = {}};
     const toml::table* const inner = entry.node->as_table();
+    if (entry.key == "gravity" && entry.node->is_array()) {
+        table.reading().complain(entry.place,
+                                 say("gravity belongs to the whole scene; write it above the first table"));
+        return item;
+    }
     if (!inner) {
         item.value = read_expression(table.reading(), *entry.node, what);
         return item;
@@ -49,6 +54,10 @@ Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
     Coordinate coordinate{
         .name = {entry.key, entry.place}, .initial = {}, .rate = zero(entry.place), .unit = {}, .about = {}};
     const toml::table* const inner = entry.node->as_table();
+    if (entry.key == "gravity" && entry.node->is_array()) {
+        reading.complain(entry.place, say("gravity belongs to the whole scene; write it above the first table"));
+        return coordinate;
+    }
     if (!inner) {
         coordinate.initial = read_expression(reading, *entry.node, what);
         return coordinate;
@@ -162,14 +171,14 @@ void read_dissipation(const Table& table, Scene& scene) {
 void read_forces(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.generalized_forces.push_back(
-            {{entry.key, entry.place},
+            {{table.reading().names.spelled(entry.key), entry.place},
              read_expression(table.reading(), *entry.node, labelled(say("the force along"), entry.key))});
 }
 
 void read_impulses(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.generalized_impulses.push_back(
-            {{entry.key, entry.place},
+            {{table.reading().names.spelled(entry.key), entry.place},
              read_expression(table.reading(), *entry.node, labelled(say("the impulse along"), entry.key))});
 }
 

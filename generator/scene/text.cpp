@@ -39,6 +39,12 @@ bool is_name(std::string_view text) {
     return true;
 }
 
+std::string_view word_at(std::string_view text, std::size_t begin) {
+    std::size_t end = begin;
+    while (end < text.size() && (text[end] | 0x20) >= 'a' && (text[end] | 0x20) <= 'z') ++end;
+    return text.substr(std::min(begin, text.size()), end - begin);
+}
+
 bool is_disturbing(char32_t c) {
     return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || c == 0x61C || c == 0x180E ||
            (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) ||

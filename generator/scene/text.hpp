@@ -29,6 +29,9 @@ inline bool is_digit(char32_t c) {
 /// A letter or `_`, then letters, digits, `_`.
 bool is_name(std::string_view text);
 
+/// The letters of ASCII that stand at `begin`.
+std::string_view word_at(std::string_view text, std::size_t begin);
+
 /// Characters that would disturb a terminal: control characters, marks of writing direction, invisible characters.
 bool is_disturbing(char32_t c);
 

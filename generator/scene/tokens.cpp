@@ -38,6 +38,20 @@ std::string replacement(char32_t c) {
         case U'≥':
         case U'≠':
             return say("comparisons are not part of the language");
+        case U'.':
+            return say("a rate is written with a prime, x', and a decimal point stands between digits");
+        case U';':
+            return say("an expression stands alone; arguments are separated by commas");
+        case U':':
+            return say("a quotient is written with /");
+        case U'|':
+            return say("use abs(…)");
+        case U'\\':
+            return say("write functions and Greek letters without a backslash");
+        case U'&':
+        case U'$':
+        case U'@':
+            return say("use names, numbers and + - * / ^");
         case U'%':
             return say("there are no percentages or remainders; use /100");
         case U'!':

@@ -89,4 +89,11 @@ void write_plainly(std::string& text, std::vector<Place>& places) {
     Writing(text, places).write();
 }
 
+std::string plain_name(const std::string& name) {
+    std::string plain = name;
+    std::vector<Place> none;
+    write_plainly(plain, none);
+    return is_name(plain) ? plain : name;
+}
+
 }  // namespace alembert

@@ -16,4 +16,7 @@ namespace alembert {
 /// Text and places stay as they are where there is nothing of this kind.
 void write_plainly(std::string& text, std::vector<Place>& places);
 
+/// A name in plain signs, "m1" for "m₁"; text that is no name then stays as it is.
+std::string plain_name(const std::string& name);
+
 }  // namespace alembert

@@ -9,8 +9,11 @@
 #include <utility>
 
 #include "language/say.hpp"
+#include "scene/advice.hpp"
 #include "scene/keys.hpp"
 #include "scene/text.hpp"
+#include "scene/typed.hpp"
+#include "scene/typed_words.hpp"
 
 namespace alembert {
 namespace {
@@ -43,6 +46,33 @@ Literal read_literal(const Reading& reading, const toml::node& node) {
     const std::string& text = node.as_string()->get();
     Literal literal = read_string(reading.source, reading.source.offset(place_of(node)));
     if (literal.text != text) literal = {text, std::vector<Place>(text.size() + 1, place_of(node))};
+    return literal;
+}
+
+/// Commands of LaTeX in a string with double quotes, in which a backslash begins a sign of TOML: "\theta" is a tab
+/// and "heta". False if there is one.
+bool check_backslashes(const Reading& reading, const toml::node& node) {
+    const std::string_view text = reading.source.text();
+    std::size_t at = reading.source.offset(place_of(node));
+    if (at >= text.size() || text[at] != '"') return true;
+    for (++at; at < text.size() && text[at] != '"' && text[at] != '\n'; ++at) {
+        if (text[at] != '\\') continue;
+        const std::string_view command = word_at(text, at + 1);
+        const std::string advice = advice_on_command(command);
+        if (!advice.empty())
+            return reading.complain(
+                       reading.source.place(at),
+                       say("a backslash in \"…\" begins a sign of TOML; for \\{} write {}", command, advice)),
+                   false;
+        ++at;
+    }
+    return true;
+}
+
+/// A string as an expression is read from it: in the words and signs of the language.
+Literal read_words(const Reading& reading, const toml::node& node) {
+    Literal literal = read_literal(reading, node);
+    write_in_words(literal.text, literal.places, reading.names);
     return literal;
 }
 
@@ -86,7 +116,8 @@ std::string kind_of(const toml::node& node) {
 
 Expression read_expression(const Reading& reading, const toml::node& node, const std::string& what) {
     if (node.is_string()) {
-        Literal literal = read_literal(reading, node);
+        if (!check_backslashes(reading, node)) return {};
+        Literal literal = read_words(reading, node);
         return parse_expression(std::move(literal.text), std::move(literal.places), reading.diagnostics);
     }
     if (const auto* number = node.as_floating_point(); number && !std::isfinite(number->get())) {
@@ -102,7 +133,8 @@ Expression read_expression(const Reading& reading, const toml::node& node, const
 }
 
 Equality read_equality(const Reading& reading, const toml::node& node, bool rates_before) {
-    const Literal literal = read_literal(reading, node);
+    if (!check_backslashes(reading, node)) return {};
+    const Literal literal = read_words(reading, node);
     return parse_equality(literal.text, literal.places, reading.diagnostics, rates_before);
 }
 
@@ -115,7 +147,8 @@ std::vector<Inequality> read_inequalities(const Reading& reading, const toml::no
                              mismatch(what, one, say("an inequality in quotes, or an array of them")));
             return;
         }
-        const Literal literal = read_literal(reading, one);
+        if (!check_backslashes(reading, one)) return;
+        const Literal literal = read_words(reading, one);
         result.push_back(parse_inequality(literal.text, literal.places, reading.diagnostics));
     };
     if (const toml::array* const array = node.as_array())
@@ -136,7 +169,7 @@ std::optional<Name> read_name(const Reading& reading, const toml::node& node, co
         return {};
     }
     const Literal literal = read_literal(reading, node);
-    return Name{literal.text, literal.places.front()};
+    return Name{reading.names.spelled(plain_name(literal.text)), literal.places.front()};
 }
 
 std::vector<Name> read_names(const Reading& reading, const toml::node& node, const std::string& what) {
@@ -152,31 +185,80 @@ std::vector<Name> read_names(const Reading& reading, const toml::node& node, con
     return names;
 }
 
+namespace {
+
+/// [0, -9,81]: a comma between digits may be a decimal one where others have a blank behind them.
+std::optional<Diagnostic> doubt_of_commas(const Reading& reading, const toml::array& array) {
+    const std::string_view text = reading.source.text();
+    bool has_blanks = false;
+    std::size_t suspicious = 0;
+    for (std::size_t i = 0; i + 1 < array.size(); ++i) {
+        const std::size_t next = reading.source.offset(place_of(*array.get(i + 1)));
+        const bool is_tight = next > 1 && text[next - 1] == ',';
+        has_blanks = has_blanks || !is_tight;
+        const bool has_digits = is_tight && is_digit(static_cast<unsigned char>(text[next - 2])) &&
+                                is_digit(static_cast<unsigned char>(text[next]));
+        const auto* const digits = array.get(i + 1)->as_integer();
+        if (has_digits && array.get(i)->is_integer() && digits && digits->get() != 0) suspicious = i + 1;
+    }
+    if (!has_blanks || suspicious == 0 || array.size() < 3) return {};
+    const toml::node& first = *array.get(suspicious - 1);
+    return Diagnostic{place_of(first),
+                      say("{0},{1} is two components; as one number it is {0}.{1}",
+                          read_number(reading, first).text, read_number(reading, *array.get(suspicious)).text),
+                      Severity::warning, "suspicious_number"};
+}
+
+}  // namespace
+
 Vector read_vector(const Reading& reading, const toml::node& node, const std::string& what) {
     Vector vector;
     vector.place = place_of(node);
     const toml::array* array = node.as_array();
     if (!array) {
-        reading.complain(vector.place, mismatch(what, node, say("a vector: an array of two or three components")));
+        const bool is_number = node.is_number();
+        const std::string number = is_number ? read_number(reading, node).text : "";
+        reading.complain(
+            vector.place,
+            mismatch(what, node, say("a vector: an array of two or three components")) +
+                (is_number ? say(", as in [0, {}{}]", number.starts_with('-') ? "" : "-", number) : ""));
         return vector;
     }
     if (array->size() < 2 || array->size() > 3) {
-        reading.complain(vector.place, say("{} has {} component{}; a vector has two or three", what, array->size(),
-                                           array->size() == 1 ? "" : "s"));
+        std::string message = say("{} has {} component{}; a vector has two or three", what, array->size(),
+                                  array->size() == 1 ? "" : "s");
+        if (const auto doubt = doubt_of_commas(reading, *array)) message += "; " + doubt->message;
+        reading.complain(vector.place, message);
         return vector;
     }
+    if (const auto doubt = doubt_of_commas(reading, *array)) reading.diagnostics.push_back(*doubt);
     for (std::size_t i = 0; i < array->size(); ++i)
         vector.component[i] = read_expression(reading, *array->get(i), say("a component of {}", what));
     if (array->size() == 2) vector.component[2] = zero(vector.place);
     return vector;
 }
 
+namespace {
+
+/// What to write in place of a key that the table does not have.
+std::string advice_on_key(std::string_view table, const std::string& key) {
+    const std::span<const std::string_view> known = keys_of(table), top = keys_of("");
+    std::string meant(key_meant(table, key));
+    if (meant.empty() && std::find(top.begin(), top.end(), key) != top.end())
+        return say("it belongs to the whole scene; write it above the first table");
+    if (meant.empty()) meant = nearest(key, {known.begin(), known.end()});
+    return meant.empty() ? say("it may have {}", fmt::join(known, ", ")) : say("did you mean '{}'?", meant);
+}
+
+}  // namespace
+
 Table::Table(const Reading& reading, const toml::table& table, std::string title, Place place)
     : reading_(&reading), title_(std::move(title)), place_(place) {
     for (const auto& [key, node] : table) {
         const toml::source_position begin = key.source().begin;
-        entries_.push_back(
-            {std::string(key.str()), {static_cast<int>(begin.line), static_cast<int>(begin.column)}, &node});
+        entries_.push_back({plain_name(std::string(key.str())),
+                            {static_cast<int>(begin.line), static_cast<int>(begin.column)},
+                            &node});
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.place < b.place; });
 }
@@ -185,10 +267,8 @@ void Table::allow(std::string_view name) const {
     const std::span<const std::string_view> known = keys_of(name);
     for (const Entry& entry : entries_) {
         if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
-        const std::string meant = nearest(entry.key, {known.begin(), known.end()});
-        const std::string hint =
-            meant.empty() ? say("it may have {}", fmt::join(known, ", ")) : say("did you mean '{}'?", meant);
-        reading_->complain(entry.place, say("unknown key {} in {}; {}", in_quotes(entry.key), title_, hint));
+        reading_->complain(entry.place, say("unknown key {} in {}; {}", in_quotes(entry.key), title_,
+                                            advice_on_key(name, entry.key)));
     }
 }
 
@@ -211,8 +291,19 @@ void Table::entitle(const Name& name) {
     if (!name.text.empty()) title_ = labelled(title_, name.text);
 }
 
+/// Whether a key that was refused already stands in place of this one.
+bool Table::is_given_otherwise(std::string_view key) const {
+    const std::vector<Diagnostic>& told = reading_->diagnostics;
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+        const bool is_meant = is_key_meant(entry.key, key) || nearest(entry.key, {std::string(key)}) == key;
+        return is_meant && std::any_of(told.begin(), told.end(),
+                                       [&](const Diagnostic& one) { return one.place == entry.place; });
+    });
+}
+
 void Table::need(std::string_view key) const {
-    if (!has(key)) reading_->complain(place_, say("{} needs '{}'", title_, key));
+    if (has(key) || is_given_otherwise(key)) return;
+    reading_->complain(place_, say("{} needs '{}'", title_, key));
 }
 
 std::string Table::text(std::string_view key) const {

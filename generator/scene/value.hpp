@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/known_names.hpp"
 #include "scene/scene.hpp"
 #include "scene/source.hpp"
 #include "scene/toml.hpp"
@@ -23,7 +24,8 @@ namespace alembert {
 struct Reading {
     const SourceText& source;
     std::vector<Diagnostic>& diagnostics;
-    bool has_joints = false;  ///< if true, bodies may be placed by joints
+    bool has_joints;          ///< if true, bodies may be placed by joints
+    const KnownNames& names;  ///< what the file declares
 
     void complain(Place place, std::string message) const { diagnostics.push_back({place, std::move(message)}); }
 };
@@ -98,6 +100,7 @@ private:
     Place place_;
     std::vector<Entry> entries_;
 
+    bool is_given_otherwise(std::string_view key) const;
     void need(std::string_view key) const;
 };
 
