@@ -108,7 +108,7 @@ TEST_CASE("command line: mistakes in verbs, options and formalisms are reported 
     says({"derive", scene, "--by", "nonsense"}, "expected one of: lagrange, ");
     says({"completion", "tcsh"}, "expected bash, zsh or fish");
     says({"man", "simulat"}, "there is no verb 'simulat'");
-    says({"derive"}, "scene is required");
+    says({"derive"}, "derive needs SCENE");
 }
 
 TEST_CASE("completion: bash completes verbs, options, methods and scenes") {

@@ -28,7 +28,7 @@ mixed=$(awk 'BEGIN { RS = "" } { sub(/.*\nmsgstr/, ""); gsub(/[{][{]|[}][}]/, ""
 texts() { # FILE...: the strings of C++ files, one a line
     xgettext --language=C++ --from-code=UTF-8 --no-wrap --output=- "$@" 2>/dev/null | sed -n 's/^\(msgid \)\?"\(.*\)"$/\2/p'
 }
-sed '/CLI11/,$d' generator/language/libraries.cpp >"$work/patterns.cpp"
+sed '/toml++, and/,$d' generator/language/libraries.cpp >"$work/patterns.cpp"
 texts -a lib/alembert/*.?pp >"$work/runtime"
 texts --keyword --keyword=to_say:1 "$work/patterns.cpp" | sed 's/\\n/\n/g; s/{[^}]*}/\n/g' >"$work/parts"
 [ "$(wc -l <"$work/parts")" -ge 60 ] || fail 'the patterns of the runtime are not found'
@@ -59,7 +59,7 @@ has '估计误差' simulate $textbook/double_pendulum.toml --duration 1
 has '退出码' derive --help
 has '没有这个文件' derive missing.toml
 has '未知命令' deriv
-has '必须给出 scene' derive
+has 'derive 需要 SCENE' derive
 has '次右端求值不足' simulate $textbook/double_pendulum.toml --budget 10
 "$program" report $textbook/double_pendulum.toml --language zh --no-motion -o "$work/page.html" >/dev/null &&
     grep -q '<html lang="zh-CN">' "$work/page.html" && grep -q '坐标与参数' "$work/page.html" ||

@@ -11,6 +11,7 @@
 
 #include "alembert/error.hpp"
 #include "commands/help.hpp"
+#include "commands/help_mistakes.hpp"
 #include "commands/language.hpp"
 #include "commands/streams.hpp"
 #include "commands/terminal.hpp"

@@ -7,9 +7,7 @@
 #include <algorithm>
 
 #include "commands/values.hpp"
-#include "language/libraries.hpp"
 #include "language/say.hpp"
-#include "scene/scene.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -144,25 +142,6 @@ std::string help_of_program(const CLI::App& app) {
     return joined(lines);
 }
 
-std::string meant(const std::string& word, const std::vector<std::string>& known) {
-    const std::string near = nearest(word, known);
-    return near.empty() ? "" : say("; did you mean {}?", near);
-}
-
-std::string mistake_in_options(const CLI::App& verb, const std::vector<std::string>& words) {
-    std::vector<std::string> known;
-    for (const OptionText& option : options_of(verb))
-        if (!option.positional) known.insert(known.end(), option.names.begin(), option.names.end());
-    for (std::size_t k = 1; k < words.size(); ++k) {
-        const std::string name = words[k].substr(0, words[k].find('='));
-        if (name == "--") break;
-        if (!name.starts_with("--") || std::find(known.begin(), known.end(), name) != known.end()) continue;
-        return say("{} has no option {}{}\n'alembert {} --help' lists its options\n", verb.get_name(),
-                   in_quotes(name), meant(name, known), verb.get_name());
-    }
-    return {};
-}
-
 }  // namespace
 
 std::vector<OptionText> options_of(const CLI::App& app) {
@@ -202,24 +181,6 @@ std::string help_of(const CLI::App& app) {
 
 void set_help(CLI::App& app) {
     app.formatter_fn([](const CLI::App* asked, std::string, CLI::AppFormatMode) { return help_of(*asked); });
-}
-
-std::string failure_message(const CLI::App* app, const CLI::Error& error) {
-    const std::vector<CLI::App*> chosen = app->get_subcommands();
-    return say("{}\n'alembert {}--help' says more\n", translated_from_library(error.what()),
-               chosen.empty() ? "" : chosen[0]->get_name() + " ");
-}
-
-std::string mistake_in(const CLI::App& app, const std::vector<std::string>& words) {
-    std::vector<std::string> verbs;
-    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-    if (words.empty())
-        return say("expected a verb, as in: {}\n'alembert --help' lists the verbs\n", app.get_footer());
-    if (words[0].starts_with('-')) return {};
-    for (const CLI::App* verb : app.get_subcommands({}))
-        if (verb->get_name() == words[0]) return mistake_in_options(*verb, words);
-    return say("unknown verb {}{}\n'alembert --help' lists the verbs\n", in_quotes(words[0]),
-               meant(words[0], verbs));
 }
 
 std::vector<std::string> filled(const std::string& words, std::size_t width) {

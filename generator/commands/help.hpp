@@ -34,12 +34,6 @@ std::string help_of(const CLI::App& app);
 /// Makes help_of the `--help` of an application and of all verbs that are added afterwards.
 void set_help(CLI::App& app);
 
-/// The mistake that CLI11 found, and a reference to the help.
-std::string failure_message(const CLI::App* app, const CLI::Error& error);
-
-/// The mistake in the verb or the option names of a command line; empty if there is none.
-std::string mistake_in(const CLI::App& app, const std::vector<std::string>& words);
-
 /// `words` as lines of at most `width` columns.
 std::vector<std::string> filled(const std::string& words, std::size_t width);
 

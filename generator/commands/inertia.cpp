@@ -17,7 +17,8 @@ struct InertiaVerb : SceneOptions {
 int run(const InertiaVerb& verb) {
     Scene scene = scene_of(verb.scene);
     const Overrides at = overrides_of(verb.at, scene);
-    const SceneInertia found = inertia(std::move(scene), {.of = names_of(verb.of), .about = verb.about, .at = at});
+    const std::vector<std::string> of = names_of(in_words_of(scene, verb.of));
+    const SceneInertia found = inertia(std::move(scene), {.of = of, .about = verb.about, .at = at});
     warn(found.warnings);
     if (verb.json)
         show(as_json(found));

@@ -18,8 +18,9 @@ struct KinematicsVerb : SceneOptions {
 int run(const KinematicsVerb& verb) {
     Scene scene = scene_of(verb.scene);
     const Overrides at = overrides_of(verb.at, scene);
-    const SceneKinematics found = kinematics(
-        std::move(scene), {.of = names_of(verb.of), .at = at, .steps = verb.steps, .jacobian = verb.jacobian});
+    const std::vector<std::string> of = names_of(in_words_of(scene, verb.of));
+    const SceneKinematics found =
+        kinematics(std::move(scene), {.of = of, .at = at, .steps = verb.steps, .jacobian = verb.jacobian});
     warn(found.warnings);
     if (verb.json)
         show(as_json(found, verb.steps));

@@ -18,7 +18,8 @@ void add_run_options(Verb& verb, RunVerb& options) {
         .type_name(values::number)
         .positive();
     verb.add_option("--method", w.method, say("the integrator; default: auto, which chooses"))
-        .type_name(values::method);
+        .type_name(values::method)
+        .in_words(value_kind(values::method)->words);
     verb.add_option("--step", w.step, say("fixed step, for methods without step control"))
         .type_name(values::seconds)
         .positive();

@@ -32,16 +32,16 @@ int run(const SimulateVerb& verb) {
     need_table_form(verb.output);
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
-    wishes.columns = shown_names(verb.show);
-    wishes.sensitivity = names_of(verb.sensitivity);
-    wishes.sensitivity_of = names_of(verb.wanted);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     Scene scene = scene_of(verb.scene);
+    wishes.columns = shown_names(in_words_of(scene, verb.show));
+    wishes.sensitivity = names_of(in_words_of(scene, verb.sensitivity));
+    wishes.sensitivity_of = names_of(in_words_of(scene, verb.wanted));
     if (!verb.section.empty()) {
         Prepared begun = prepared(std::move(scene));
         scene = std::move(begun.scene);
-        add_section(scene, begun.mechanism, verb.section);
+        add_section(scene, begun.mechanism, in_words_of(scene, verb.section));
     }
     Run run = simulate(std::move(scene), wishes);
     const SectionOfRun section{verb.section, take_crossings(run)};

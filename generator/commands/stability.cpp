@@ -31,7 +31,7 @@ StabilityOptions options_of(const StabilityVerb& verb, const Scene& scene) {
             .at = overrides_of(verb.at, scene),
             .exact_at = exact_overrides_of(verb.at, scene),
             .period = verb.period,
-            .lyapunov = verb.lyapunov};
+            .lyapunov = in_words_of(scene, verb.lyapunov)};
 }
 
 void need_alone(const StabilityVerb& verb) {

@@ -76,7 +76,7 @@ std::vector<std::string> asked_along(const SweepVerb& verb) {
 std::unique_ptr<Sweeper> sweeper_of(const SweepVerb& verb, Scene scene) {
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
-    wishes.columns = shown_names(verb.show);
+    wishes.columns = shown_names(in_words_of(scene, verb.show));
     Grid points = points_of(verb, scene);
     return std::make_unique<Sweeper>(std::move(scene), std::move(points), wishes, asked_along(verb));
 }

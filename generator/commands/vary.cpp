@@ -40,7 +40,7 @@ Axis axis_of(const std::string& option, const std::string& item, std::optional<s
                       second = first == range.npos ? range.npos : range.find(':', first + 1);
     const bool is_counted = second != range.npos;
     if (first == range.npos || (!is_counted && !missing)) throw wrong(say("'{}' is no range", range));
-    Axis axis{.name = item.substr(0, equals)};
+    Axis axis{.name = in_words_of(scene, item.substr(0, equals))};
     const std::string_view from = range.substr(0, first), to = range.substr(first + 1, second - first - 1),
                            count = is_counted ? range.substr(second + 1) : std::string_view();
     for (const auto& [text, value] : {std::pair{from, &axis.from}, std::pair{to, &axis.to}}) {

@@ -2,8 +2,10 @@
 #include "commands/verb.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -13,6 +15,9 @@
 #include "commands/values.hpp"
 #include "language/say.hpp"
 #include "model/constant.hpp"
+#include "scene/advice.hpp"
+#include "scene/known_names.hpp"
+#include "scene/typed_words.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {
@@ -61,12 +66,36 @@ AddedOption& AddedOption::nonnegative() {
 }
 
 AddedOption& AddedOption::between(int least, int most) {
-    option_->check(CLI::Range(least, most).description(""));
+    option_->check(CLI::Validator(
+        [least, most](const std::string& text) {
+            char* end = nullptr;
+            const double x = std::strtod(text.c_str(), &end);
+            return *end == '\0' && !text.empty() && std::floor(x) == x && x >= least && x <= most
+                       ? std::string()
+                       : say("{}: expected a whole number from {} to {}", text, least, most);
+        },
+        ""));
     return *this;
 }
 
 AddedOption& AddedOption::one_of(std::initializer_list<std::string> words) {
-    option_->check(CLI::IsMember(std::vector<std::string>(words)).description(""));
+    const std::vector<std::string> known(words);
+    in_words(known);
+    option_->check(CLI::Validator(
+        [known](const std::string& text) {
+            const bool is_known = std::find(known.begin(), known.end(), text) != known.end();
+            return is_known ? std::string() : say("{}: expected {}", text, fmt::join(known, ", "));
+        },
+        ""));
+    return *this;
+}
+
+AddedOption& AddedOption::in_words(const std::vector<std::string>& words) {
+    option_->transform([words](const std::string& text) {
+        const auto known = std::find_if(words.begin(), words.end(),
+                                        [&](const std::string& word) { return bare(word) == bare(text); });
+        return known == words.end() ? text : *known;
+    });
     return *this;
 }
 
@@ -98,7 +127,9 @@ void add_scene_options(Verb& verb, SceneOptions& options) {
 }
 
 void add_by_option(Verb& verb, std::string& by) {
-    verb.add_option("--by", by, say("the formalism; default: the program chooses")).type_name(values::formalism);
+    verb.add_option("--by", by, say("the formalism; default: the program chooses"))
+        .type_name(values::formalism)
+        .in_words(value_kind(values::formalism)->words);
 }
 
 Verb add_verb(CLI::App& app, const VerbText& text) {
@@ -131,6 +162,10 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
         add(app, chosen);
 }
 
+std::string in_words_of(const Scene& scene, const std::string& text) {
+    return text.empty() ? text : written_name(text, KnownNames(scene));
+}
+
 std::vector<std::string> names_of(const std::string& list) {
     std::vector<std::string> result;
     if (list.empty()) return result;
@@ -147,12 +182,13 @@ std::vector<std::string> names_of(const std::string& list) {
 
 ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scene& scene) {
     ExactOverrides result;
-    for (const std::string& item : at) {
+    for (const std::string& typed : at) {
+        const std::string item = in_words_of(scene, typed);
         const std::size_t equals = item.find('=');
         if (equals == std::string::npos || equals == 0 || equals + 1 == item.size())
             throw ModelError(say(
-                "--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", item));
-        const std::string name = item.substr(0, equals);
+                "--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", typed));
+        const std::string name = item.substr(0, item.find_last_not_of(' ', equals - 1) + 1);
         result.emplace_back(name, in_si(scene, name, item.substr(equals + 1)));
     }
     return result;

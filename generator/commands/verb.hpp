@@ -76,6 +76,9 @@ Overrides overrides_of(const std::vector<std::string>& at, const Scene& scene);
 /// The same as typed, as expressions in SI units.
 ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scene& scene);
 
+/// Names, or an expression, in the words of the scene: "theta1'" for "θ1dot" (scene/typed_words.hpp).
+std::string in_words_of(const Scene& scene, const std::string& text);
+
 /// B1,B2 …: names between commas.
 std::vector<std::string> names_of(const std::string& list);
 
@@ -93,7 +96,9 @@ public:
     AddedOption& positive();                       ///< requires a number above zero; CLI11's own check accepts NaN
     AddedOption& nonnegative();
     AddedOption& between(int least, int most);
-    AddedOption& one_of(std::initializer_list<std::string> words);
+    AddedOption& one_of(std::initializer_list<std::string> words);  ///< in small letters or capitals
+    /// Takes a word that differs from one of these in capitals and dashes for that one; others stay.
+    AddedOption& in_words(const std::vector<std::string>& words);
 
 private:
     CLI::Option* option_;

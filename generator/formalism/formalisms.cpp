@@ -17,6 +17,7 @@
 #include "formalism/routhian.hpp"
 #include "formalism/schiehlen.hpp"
 #include "language/say.hpp"
+#include "scene/advice.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
 
@@ -104,10 +105,11 @@ std::string formalism_names() {
 
 const Formalism& formalism(const std::string& name) {
     for (const Formalism& f : formalisms())
-        if (f.name == name) return f;
+        if (bare(f.name) == bare(name)) return f;
     std::vector<std::string> names;
     for (const Formalism& f : formalisms()) names.push_back(f.name);
-    const std::string meant = nearest(name, names);
+    std::string meant(formalism_meant(name));
+    if (meant.empty()) meant = nearest(name, names);
     throw ModelError(say("there is no formalism {}{}; expected one of: {}", in_quotes(name),
                          meant.empty() ? "" : say(" (did you mean '{}'?)", meant), formalism_names()));
 }

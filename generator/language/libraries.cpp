@@ -100,15 +100,6 @@ constexpr std::array patterns{
     to_say("{}={}: expected a whole number above zero"),
     to_say("{}={}: expected a whole number of zero or more"),
     to_say("sample = {}: more than {} rows"),
-    // CLI11.
-    to_say("The following argument was not expected: {}"),
-    to_say("The following arguments were not expected: {}"),
-    to_say("Could not convert: {} = {}"),
-    to_say("{}: Value {} not in range [{} - {}]"),
-    to_say("{}: {} not in {}"),
-    to_say("{}: 1 required {} missing"),
-    to_say("{} requires {}"),
-    to_say("{} is required"),
 };
 
 /// toml++, and the words that it puts into its messages.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Messages of libraries that know no catalogue: the runtime (lib/alembert) and CLI11. Each is recognized by its
+/// Messages of libraries that know no catalogue: the runtime (lib/alembert) and toml++. Each is recognized by its
 /// English text and translated with the values in it; what is not recognized stays as it is.
 
 #include <string>

@@ -20,6 +20,7 @@
 #include "run/separable.hpp"
 #include "run/solver_code.hpp"
 #include "run/sundials_methods.hpp"
+#include "scene/advice.hpp"
 
 namespace alembert {
 
@@ -165,6 +166,8 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& d) 
     const auto known = method_named(given);
     if (is_sundials(given))
         throw ModelError(say("method '{}' is one of 'simulate' alone; take bdf or radau", given));
+    if (!known && !method_meant(given).empty())
+        throw ModelError(say("unknown method '{}'; did you mean '{}'?", given, method_meant(given)));
     if (!known)
         throw ModelError(say("unknown method '{}'; expected {}, {}; or {}", given, automatic_method,
                              method_names(), fmt::join(sundials_methods(), ", ")));

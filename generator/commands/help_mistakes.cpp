@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/help_mistakes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "commands/help.hpp"
+#include "commands/values.hpp"
+#include "language/say.hpp"
+#include "scene/advice.hpp"
+#include "scene/scene.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+
+namespace {
+
+struct Word {
+    std::string_view typed, meant;
+};
+
+/// Verbs of other programs, in small letters without what separates parts of a word.
+constexpr Word verbs_meant[] = {{"run", "simulate"},
+                                {"sim", "simulate"},
+                                {"solve", "simulate"},
+                                {"integrate", "simulate"},
+                                {"motion", "simulate"},
+                                {"animate", "watch"},
+                                {"view", "watch"},
+                                {"open", "watch"},
+                                {"serve", "watch"},
+                                {"plot", "simulate"},
+                                {"verify", "check"},
+                                {"prove", "check"},
+                                {"test", "check"},
+                                {"validate", "check"},
+                                {"grade", "check"},
+                                {"eom", "derive"},
+                                {"equations", "derive"},
+                                {"lagrange", "derive"},
+                                {"kane", "derive"},
+                                {"compare", "agree"},
+                                {"linearise", "linearize"},
+                                {"linear", "linearize"},
+                                {"eigenvalues", "linearize"},
+                                {"modes", "linearize"},
+                                {"stable", "stability"},
+                                {"rest", "equilibrium"},
+                                {"equilibria", "equilibrium"},
+                                {"balance", "equilibrium"},
+                                {"evaluate", "eval"},
+                                {"compute", "eval"},
+                                {"generate", "emit"},
+                                {"codegen", "emit"},
+                                {"export", "fmu"},
+                                {"code", "emit"},
+                                {"html", "report"},
+                                {"page", "report"},
+                                {"urdf", "import"},
+                                {"convert", "import"},
+                                {"mjcf", "import"},
+                                {"collision", "impact"},
+                                {"benchmark", "bench"},
+                                {"constraints", "audit"},
+                                {"scan", "sweep"},
+                                {"vary", "sweep"},
+                                {"id", "inverse"},
+                                {"inversedynamics", "inverse"},
+                                {"fit", "identify"},
+                                {"estimate", "identify"}};
+
+constexpr Word options_meant[] = {{"tol", "--tolerance"},
+                                  {"rtol", "--tolerance"},
+                                  {"atol", "--tolerance"},
+                                  {"reltol", "--tolerance"},
+                                  {"abstol", "--tolerance"},
+                                  {"eps", "--tolerance"},
+                                  {"precision", "--tolerance"},
+                                  {"accuracy", "--tolerance"},
+                                  {"time", "--duration"},
+                                  {"tend", "--duration"},
+                                  {"tmax", "--duration"},
+                                  {"tfinal", "--duration"},
+                                  {"end", "--duration"},
+                                  {"stoptime", "--duration"},
+                                  {"until", "--duration"},
+                                  {"t", "--duration"},
+                                  {"dt", "--step"},
+                                  {"h", "--step"},
+                                  {"timestep", "--step"},
+                                  {"stepsize", "--step"},
+                                  {"out", "--output"},
+                                  {"outfile", "--output"},
+                                  {"file", "--output"},
+                                  {"save", "--output"},
+                                  {"csv", "--output"},
+                                  {"dir", "--output"},
+                                  {"o", "--output"},
+                                  {"solver", "--method"},
+                                  {"integrator", "--method"},
+                                  {"ode", "--method"},
+                                  {"formalism", "--by"},
+                                  {"using", "--by"},
+                                  {"with", "--by"},
+                                  {"method", "--by"},
+                                  {"set", "--at"},
+                                  {"state", "--at"},
+                                  {"initial", "--at"},
+                                  {"init", "--at"},
+                                  {"ic", "--at"},
+                                  {"param", "--at"},
+                                  {"params", "--at"},
+                                  {"parameter", "--at"},
+                                  {"parameters", "--at"},
+                                  {"value", "--at"},
+                                  {"lang", "--language"},
+                                  {"locale", "--language"},
+                                  {"tex", "--format"},
+                                  {"latex", "--format"},
+                                  {"mathml", "--format"},
+                                  {"svg", "--plot"},
+                                  {"figure", "--plot"},
+                                  {"graph", "--plot"},
+                                  {"draw", "--show"},
+                                  {"range", "--vary"},
+                                  {"forces", "--reactions"},
+                                  {"verbose", "--steps"},
+                                  {"step-by-step", "--steps"},
+                                  {"n", "--samples"},
+                                  {"maxsteps", "--budget"},
+                                  {"usage", "--help"}};
+
+template <std::size_t count>
+std::string_view word_in(const Word (&table)[count], std::string_view word) {
+    const auto found =
+        std::find_if(std::begin(table), std::end(table), [&](const Word& w) { return w.typed == word; });
+    return found == std::end(table) ? std::string_view() : found->meant;
+}
+
+std::string did_you_mean(const std::string& word) {
+    return word.empty() ? "" : say("; did you mean {}?", word);
+}
+
+bool is_among(const std::vector<std::string>& words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string about_verb(const CLI::App& verb) {
+    return say("'alembert {} --help' lists its options", verb.get_name());
+}
+
+std::vector<std::string> names_of_options(const CLI::App& verb) {
+    std::vector<std::string> names;
+    for (const OptionText& option : options_of(verb))
+        if (!option.positional) names.insert(names.end(), option.names.begin(), option.names.end());
+    return names;
+}
+
+/// The option that is meant by one that the verb does not have: of another program, a beginning, or misspelled.
+std::string option_meant(const std::string& typed, const std::vector<std::string>& known) {
+    const std::string stem = typed.substr(std::min(typed.find_first_not_of('-'), typed.size()));
+    if (is_among(known, "--" + stem)) return "--" + stem;
+    const std::string_view other = word_in(options_meant, bare(stem));
+    if (!other.empty() && is_among(known, other)) return std::string(other);
+    std::string whole;
+    int begun = 0;
+    for (const std::string& name : known)
+        if (stem.size() > 1 && name.starts_with("--" + stem)) whole = name, ++begun;
+    return begun == 1 ? whole : nearest("--" + stem, known);
+}
+
+/// Dashes that a word processor has made long are read as two.
+std::string with_plain_dash(std::string word) {
+    for (const std::string_view dash : {"—", "–", "−"})
+        if (word.starts_with(dash)) return "--" + word.substr(dash.size());
+    return word;
+}
+
+std::string mistake_in_options(const CLI::App& verb, const std::vector<std::string>& words) {
+    const std::vector<std::string> known = names_of_options(verb);
+    for (std::size_t k = 1; k < words.size() && words[k] != "--"; ++k) {
+        const std::string typed = words[k].substr(0, words[k].find('=')), name = with_plain_dash(typed);
+        const bool is_long = name.starts_with("--") && name.size() > 2;
+        const bool is_short_for_long =
+            !is_long && name.starts_with('-') && name.size() > 2 && is_among(known, "-" + name);
+        if (!is_short_for_long && (!is_long || (name == typed && is_among(known, name)))) continue;
+        return say("{} has no option {}{}\n", verb.get_name(), in_quotes(typed),
+                   did_you_mean(option_meant(name, known))) +
+               about_verb(verb) + "\n";
+    }
+    return {};
+}
+
+/// An option as its help shows it: "--tolerance NUMBER".
+std::string shown(const OptionText& option) {
+    return option.names.back() + (option.value.empty() || option.positional ? "" : " " + option.value);
+}
+
+/// The option that a message of CLI11 names at its beginning or after a mark; nothing if it names none.
+std::optional<OptionText> option_named(const CLI::App& verb, const std::string& name) {
+    for (const CLI::Option* const option : verb.get_options({})) {
+        if (option->get_name(false, true) != name && option->get_name() != name) continue;
+        for (OptionText& text : options_of(verb)) {
+            const bool is_it =
+                text.positional ? text.names[0] == option->get_type_name() : option->check_name(text.names.back());
+            if (is_it && text.positional == option->get_positional()) return std::move(text);
+        }
+    }
+    return {};
+}
+
+/// What stands in a text between two parts of it; nothing if it is not of this form.
+std::optional<std::string> between(std::string_view text, std::string_view before, std::string_view after) {
+    const std::size_t begin = text.find(before);
+    if (begin == std::string_view::npos) return {};
+    const std::size_t from = begin + before.size();
+    const std::size_t end = after.empty() ? text.size() : text.find(after, from);
+    if (end == std::string_view::npos) return {};
+    return std::string(text.substr(from, end - from));
+}
+
+std::string as_in(const CLI::App& verb) {
+    return say("as in: {}", verb.get_footer());
+}
+
+std::string missing(const CLI::App& verb, const std::string& name) {
+    const std::optional<OptionText> option = option_named(verb, name);
+    if (!option) return say("something is missing, {}", as_in(verb));
+    return say("{} needs {}: {}, {}", verb.get_name(), shown(*option), option->about, as_in(verb));
+}
+
+std::string not_convertible(const CLI::App& verb, const std::string& name, const std::string& value) {
+    const std::optional<OptionText> option = option_named(verb, name);
+    const bool is_whole = option && option->value == values::count;
+    return say("{} {}: expected {}", name, escaped(value), is_whole ? say("a whole number") : say("a number"));
+}
+
+/// What CLI11 says is recognized by its class and taken apart; its own words are never shown.
+std::string mistake_of(const CLI::App& verb, const CLI::Error& error) {
+    const std::string text = error.what(), kind = error.get_name();
+    if (kind == "RequiredError")
+        if (const auto name = between(text, "", " is required")) return missing(verb, *name);
+    if (const auto words = between(text, " not expected: ", ""))
+        return say("{} is not expected here; write: {}", in_quotes(*words), usage_of(verb));
+    if (kind == "ConversionError") {
+        const auto name = between(text, "Could not convert: ", " = "), value = between(text, " = ", "");
+        if (name && value) return not_convertible(verb, *name, *value);
+    }
+    if (kind == "ValidationError")
+        if (const auto name = between(text, "", ": ")) return *name + " " + text.substr(name->size() + 2);
+    if (kind == "RequiresError")
+        if (const auto name = between(text, "", " requires "))
+            return say("{} goes with {}; give both", *name, *between(text, " requires ", ""));
+    if (kind == "ExcludesError")
+        if (const auto name = between(text, "", " excludes "))
+            return say("{} does not go with {}; give one of them", *name, *between(text, " excludes ", ""));
+    if (kind == "ArgumentMismatch") {
+        const auto name = between(text, "", ":");
+        const std::optional<OptionText> option = name ? option_named(verb, *name) : std::nullopt;
+        if (option && text.find("missing") != std::string::npos)
+            return say("{} needs a value: {}", *name, shown(*option));
+        if (option && text.find("At Most") != std::string::npos)
+            return say("{} is given more than once; give it once", *name);
+    }
+    if (const auto name = between(text, "", " was given")) return say("{} takes no value", *name);
+    if (const auto name = between(text, "", ": "); name && option_named(verb, *name))
+        return say("{} takes no value", *name);
+    return say("these words are not understood; write: {}", usage_of(verb));
+}
+
+}  // namespace
+
+std::string mistake_in(const CLI::App& app, const std::vector<std::string>& words) {
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+    if (words.empty())
+        return say("expected a verb, as in: {}\n'alembert --help' lists the verbs\n", app.get_footer());
+    if (words[0] == "--help" || words[0] == "-h" || words[0] == "--version") return {};
+    for (const CLI::App* verb : app.get_subcommands({}))
+        if (verb->get_name() == words[0]) return mistake_in_options(*verb, words);
+    const std::string& typed = words[0];
+    if (typed == "help" || typed == "version")
+        return say("unknown verb {}; did you mean --{}?\n", in_quotes(typed), typed);
+    if (typed.ends_with(".toml"))
+        return say(
+            "{} is a scene; a verb stands before it, as in: alembert derive {}\n'alembert --help' lists the "
+            "verbs\n",
+            in_quotes(typed), typed);
+    if (typed.starts_with('-'))
+        return say("{} stands where a verb is expected, as in: {}\n'alembert --help' lists the verbs\n",
+                   in_quotes(typed), app.get_footer());
+    std::string meant(word_in(verbs_meant, bare(typed)));
+    if (meant.empty()) meant = nearest(typed, verbs);
+    if (is_among(verbs, bare(typed))) meant = bare(typed);
+    return say("unknown verb {}{}\n'alembert --help' lists the verbs\n", in_quotes(typed), did_you_mean(meant));
+}
+
+std::string failure_message(const CLI::App* app, const CLI::Error& error) {
+    const std::vector<CLI::App*> chosen = app->get_subcommands();
+    const CLI::App& verb = chosen.empty() ? *app : *chosen[0];
+    return mistake_of(verb, error) + "\n" +
+           (chosen.empty() ? say("'alembert --help' lists the verbs") : about_verb(verb)) + "\n";
+}
+
+}  // namespace alembert
