@@ -86,12 +86,12 @@ Run in_folder(const std::string& script, const std::vector<std::string>& options
         export ASAN_OPTIONS=detect_leaks=0 # MPI's libraries do not free everything
         quiet() { "$ALEMBERT" sweep "$@" -o quiet.csv >/dev/null; }
         # begun PROCESS: waits until it has done something, but not all, or has ended.
-        begun() { until [ "$(stat -c %s t.csv.unfinished 2>/dev/null || echo 0)" -gt 60 ] || grep -q ') Z' /proc/$1/stat; do sleep 0.005; done; }
+        begun() { until [ "$(stat -c %s t.csv.unfinished 2>/dev/null || echo 0)" -gt 60 ] || ! grep -q ') [^Z]' /proc/$1/stat 2>/dev/null; do sleep 0.005; done; }
         )sh" + script,
                      words);
 }
 
-const std::vector<std::string> some{"--vary", "theta=0.1:2:40", "--vary", "n=1:60:30"};
+const std::vector<std::string> some{"--vary", "theta=0.1:2:40", "--vary", "n=1:300:30"};
 
 /// What is left of a sweep that a signal ends, and what goes on from there.
 const std::string interrupted = R"sh(

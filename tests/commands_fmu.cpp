@@ -362,4 +362,33 @@ TEST_CASE("fmu: what a unit cannot follow is refused, with what to do") {
     CHECK(named.err.find("call it NAME.fmu") != std::string::npos);
 }
 
+TEST_CASE("fmu: a unit says in which units the scene gives its variables") {
+    const std::string scene = temporary("own_units.toml", R"toml(
+[parameters]
+k = { value = 0.4, unit = "N/mm" }
+[coordinates]
+x = { initial = 30, rate = -100, unit = "mm" }
+phi = { initial = 30, unit = "deg" }
+[[particle]]
+name = "cart"
+mass = 2
+position = ["x", 0]
+[energy]
+kinetic = "0.1*phi'^2"
+[[spring]]
+along = "x"
+stiffness = "k"
+)toml");
+    for (const int version : {2, 3}) {
+        const Unit unit = exported(scene, version);
+        CHECK(unit.description.at("phi", "unit") == "rad");
+        CHECK(unit.description.at("phi", "displayUnit") == "deg");
+        CHECK(unit.description.at("der(x)", "displayUnit") == "mm/s");
+        CHECK(unit.description.at("k", "displayUnit") == "N/mm");
+        const std::string& text = unit.files.at("modelDescription.xml");
+        CHECK(text.find("<DisplayUnit name=\"mm\" factor=\"1000\"/>") != std::string::npos);
+        check_rules(text, version);
+    }
+}
+
 }  // namespace commands_fmu

@@ -86,6 +86,58 @@ TEST_CASE("units: values of --at, --vary and tables are in the unit of the name,
     CHECK(first({"--vary-from", table}) == doctest::Approx(0.04).epsilon(1e-14));
 }
 
+TEST_CASE("units: pictures and texts of sweeps and charts are in the units of the scene") {
+    const std::string own = in_own(), svg = temporary("units_sweep.svg", "");
+    REQUIRE(run({"sweep", own, "--vary", "theta=20:80:4", "--svg", svg, "--duration", "0.1"}).exit == 0);
+    const std::string picture = contents(svg);
+    CHECK(picture.find("initial theta in deg") != std::string::npos);
+    CHECK(picture.find("final x in mm") != std::string::npos);
+    for (const char* tick : {">20<", ">40<", ">80<"}) CHECK_MESSAGE(picture.find(tick) != std::string::npos, tick);
+    const std::string locus = run({"stability", own, "--at", "theta=0", "--locus", "l=100:300"}).out;
+    CHECK_MESSAGE(locus.find("l [mm] from 100 to 300") != std::string::npos, locus);
+    const std::string branches = run({"equilibrium", own, "--follow", "l=100:300"}).out;
+    CHECK_MESSAGE(branches.find("l [mm] from 100 to 300") != std::string::npos, branches);
+}
+
+TEST_CASE("units: derive --dimensions tells what the units give and what follows") {
+    const auto dimensions = [](const std::string& scene) {
+        const Json all = Json::parse(run({"derive", scene, "--dimensions", "--json"}).out)["dimensions"];
+        std::string text;
+        for (const auto& [name, one] : all.items())
+            text += name + ":" + (one["unit"].is_null() ? "?" : one["unit"].get<std::string>()) +
+                    (one["is_given"] ? " given; " : "; ");
+        return text;
+    };
+    CHECK(dimensions(in_own()) == "theta:1 given; x:m given; ");
+    CHECK(dimensions(temporary("units_concluded.toml", R"toml([parameters]
+l = { value = 1, unit = "m" }
+m = { value = 1, unit = "kg" }
+w = { value = 2, unit = "rad/s" }
+[coordinates]
+x = 0.6
+y = 0.8
+s = 0
+phi = 0
+free = 0
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+[[particle]]
+name = "Q"
+mass = "m"
+position = ["s + l*cos(phi)", 0]
+[energy]
+kinetic = "0.37*free'^2"
+[[constraint]]
+name = "rod"
+holonomic = "x^2 + y^2 = l^2"
+[[constraint]]
+name = "drive"
+nonholonomic = "phi' = w"
+)toml")) == "free:?; lambda_drive:kg*m^2/s^2; lambda_rod:kg/s^2; phi:1; s:m; x:m; y:m; ");
+}
+
 TEST_CASE("units: --strict makes a warning a mistake, and allow silences a kind") {
     const std::string wrong =
         "[parameters]\nk = { value = 5, unit = \"N/m\" }\n[coordinates]\nx = { initial = 1, unit = \"m\" }\n"

@@ -59,10 +59,11 @@ TEST_CASE("force: places that are fixed in a body, a frame or the ground need no
     for (const char* const point : {"offset = [\"x\", 0]", "offset = [\"x + 2*l*cos(a)\", \"2*l*sin(a)\"]",
                                     "from = \"B\"\noffset = [1, 2]\naxes = \"F\"", "offset = [1, 2]"}) {
         CAPTURE(point);
-        CHECK(derived(parse_scene(scene + "[[point]]\nname = \"P\"\n" + point +
-                                      "\n[[force]]\nat = \"P\"\nvector = [1, 2]\n",
-                                  "places.toml"))
-                  .warnings.empty());
+        const Derived d = derived(
+            parse_scene(scene + "[[point]]\nname = \"P\"\n" + point + "\n[[force]]\nat = \"P\"\nvector = [1, 2]\n",
+                        "places.toml"));
+        // A force on the ground moves nothing, which is another matter.
+        for (const std::string& warning : d.warnings) CHECK(warning.find("fixed in no body") == std::string::npos);
     }
 }
 

@@ -23,7 +23,7 @@ int run(const DeriveVerb& options) {
     warn(d.warnings);
     if (!options.draw.empty()) write_file(options.draw, figure_of(d.scene), {options.scene});
     if (options.json)
-        show(as_json(d));
+        show(as_json(d, options.page.dimensions));
     else
         options.page.format == "text" ? show_formulas(as_page(d, options.page)) : show(as_page(d, options.page));
     return 0;
@@ -44,6 +44,8 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                 .one_of({"text", "latex", "mathml"});
             verb.add_flag("--steps", options.page.steps,
                           say("also coordinates, T, V, generalized forces, own steps"));
+            verb.add_flag("--dimensions", options.page.dimensions,
+                          say("also the dimension of each coordinate and multiplier"));
             verb.add_option("--draw", options.draw, say("SVG figure of the system")).type_name(values::file);
             add_reactions_option(verb, options.reactions);
         });

@@ -7,6 +7,7 @@
 
 #include "alembert/process_time.hpp"
 #include "audit/audit.hpp"
+#include "derive/start_check.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
 #include "formalism/joint_tree.hpp"
@@ -129,7 +130,10 @@ Derived derived(Scene scene, const DeriveOptions& options) {
                 "others at every pose, and numbers lose accuracy near such poses; give the scene generalized "
                 "speeds, "
                 "[speeds]\n"));
-    if (options.use == Use::shown) d.warn(warnings_of_unresisted(d.scene, d.mechanism, d.equations));
+    if (options.use == Use::shown) {
+        d.warn(warnings_of_unresisted(d.scene, d.mechanism, d.equations));
+        d.warn(warnings_of_start(d.mechanism, options.at));
+    }
     d.seconds = process_seconds() - start;
     return d;
 }

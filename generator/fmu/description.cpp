@@ -145,9 +145,20 @@ private:
                 if (const auto found = meaning->exponents.find(base); found != meaning->exponents.end())
                     add(" {}=\"{}\"", base, std::lround(found->second));
             if (meaning->factor != 1) add(" factor=\"{}\"", shortest(meaning->factor));
-            add("/>\n    </Unit>\n");
+            add("/>\n");
+            for (const auto& [shown, size] : shown_in(unit))
+                add("      <DisplayUnit name=\"{}\" factor=\"{}\"/>\n", xml_text(shown), shortest(1 / size));
+            add("    </Unit>\n");
         }
         add("  </UnitDefinitions>\n");
+    }
+
+    /// The units in which the scene gives variables of this unit, and their sizes.
+    std::map<std::string, double> shown_in(const std::string& unit) const {
+        std::map<std::string, double> result;
+        for (const UnitVariable& v : variables_)
+            if (v.unit == unit && v.shown.size != 1) result[v.shown.unit] = v.shown.size;
+        return result;
     }
 
     std::string type_of(const std::string& unit) const {
@@ -196,6 +207,7 @@ private:
         const std::string type = type_of(v.unit);
         std::string own = type.empty() ? attribute("unit", v.unit)
                                        : fmt::format(" declaredType=\"{}\"", type) + attribute("unit", v.unit);
+        if (v.shown.size != 1) own += attribute("displayUnit", v.shown.unit);
         if (v.start) own += fmt::format(" start=\"{}\"", shortest(*v.start));
         if (v.derivative_of >= 0) own += fmt::format(" derivative=\"{}\"", v.derivative_of + (is_2_ ? 1 : 0));
         if (v.jumps) own += " reinit=\"true\"";

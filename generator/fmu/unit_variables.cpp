@@ -11,6 +11,7 @@
 #include "fmu/dependence.hpp"
 #include "scene/dimensions.hpp"
 #include "scene/unit_text.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -51,15 +52,12 @@ private:
 
     /// Whether every unit of the scene is one of the SI, and there are some.
     bool is_si() const {
-        bool some = false;
-        for (const auto* quantities : {&p_.parameters, &p_.coordinates})
-            for (const Quantity& q : *quantities) {
-                if (q.unit.empty()) continue;
-                const auto meaning = meaning_of_unit(q.unit);
-                if (!meaning || !meaning->is_si() || meaning->factor != 1) return false;
-                some = some || meaning->exponents.contains("kg") || meaning->exponents.contains("m");
-            }
-        return some;
+        const auto is_mechanical = [](const Quantity& q) {
+            const auto meaning = meaning_of_unit(q.unit);
+            return meaning && (meaning->exponents.contains("kg") || meaning->exponents.contains("m"));
+        };
+        return is_in_si(m_.scene) && (std::any_of(p_.parameters.begin(), p_.parameters.end(), is_mechanical) ||
+                                      std::any_of(p_.coordinates.begin(), p_.coordinates.end(), is_mechanical));
     }
 
     std::string about_coordinate(const std::string& name) const {
@@ -84,6 +82,7 @@ private:
                  .name = name,
                  .about = about_coordinate(q.name),
                  .unit = q.unit,
+                 .shown = unit_of_name(m_.scene, q.name),
                  .start = m_.start.q[i],
                  .is_output = true,
                  .jumps = are_moved});
@@ -99,10 +98,12 @@ private:
                 const Quantity& q = p_.coordinates[static_cast<std::size_t>(of)];
                 variable.name = fmt::format("der({})", ascii_identifier(q.name));
                 variable.unit = per_second(q.unit);
+                variable.shown = unit_of_name(m_.scene, q.name + "'");
                 variable.derivative_of = 1 + of;
             } else {
                 variable.name = ascii_identifier(p_.speeds[k].name);
                 variable.unit = p_.speeds[k].unit;
+                variable.shown = unit_of_name(m_.scene, p_.speeds[k].name);
             }
             add(std::move(variable));
         }
@@ -168,6 +169,7 @@ private:
                                                     .name = ascii_identifier(p_.parameters[k].name),
                                                     .about = about[p_.parameters[k].name],
                                                     .unit = p_.parameters[k].unit,
+                                                    .shown = unit_of_name(m_.scene, p_.parameters[k].name),
                                                     .start = m_.start.parameters[k]});
     }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fmu/unit_model.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -22,6 +23,7 @@ struct UnitVariable {
     Kind kind = Kind::output;
     int place = 0;  ///< within its kind; of an input 3 times its number plus the order of the derivative
     std::string name = {}, about = {}, unit = {};
+    UnitOfName shown = {};             ///< in which tools show it; a size of 1 where that is `unit`
     std::optional<double> start = {};  ///< of states, inputs and parameters
     bool is_output = false;            ///< whether it can be connected: states, outputs and energies
     bool jumps = false;                ///< for a state, whether an event may change it

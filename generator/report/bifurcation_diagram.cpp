@@ -5,6 +5,7 @@
 #include "language/say.hpp"
 #include "report/branches.hpp"
 #include "report/page.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -22,11 +23,11 @@ struct Range {
         from -= room, to += room;
     }
     double part(double x) const { return (x - from) / (to - from); }
-    /// A round number of which five to ten fit into the range.
-    double tick() const {
-        const double raw = (to - from) / 6, power = std::pow(10.0, std::floor(std::log10(raw)));
+    /// A number, round in a unit of that size, of which five to ten fit into the range.
+    double tick(double unit) const {
+        const double raw = (to - from) / 6 / unit, power = std::pow(10.0, std::floor(std::log10(raw)));
         const double times = raw / power;
-        return power * (times < 1.5 ? 1 : times < 3.5 ? 2 : times < 7.5 ? 5 : 10);
+        return unit * power * (times < 1.5 ? 1 : times < 3.5 ? 2 : times < 7.5 ? 5 : 10);
     }
 };
 
@@ -62,7 +63,8 @@ const char* colour_of(PointKind kind) {
 struct Panel {
     const Branches& found;
     std::size_t coordinate;
-    double y0;  ///< the height of its upper edge
+    double y0;                  ///< the height of its upper edge
+    UnitOfName p_unit, q_unit;  ///< of the numbers at the ticks
     Range p = {}, q = {};
 
     double shown(double value) const {
@@ -80,23 +82,24 @@ struct Panel {
     }
 
     void frame(std::string& svg, bool last) const {
-        for (double at = std::ceil(p.from / p.tick()) * p.tick(); at <= p.to * (1 + 1e-12); at += p.tick()) {
+        const double p_tick = p.tick(p_unit.size), q_tick = q.tick(q_unit.size);
+        for (double at = std::ceil(p.from / p_tick) * p_tick; at <= p.to * (1 + 1e-12); at += p_tick) {
             put(svg, "<path d='M{0:.1f} {1}V{2}' stroke='#e4e4e4'/>", x(at), y0, y0 + panel);
             if (last)
                 put(svg, "<text x='{:.1f}' y='{}' text-anchor='middle'>{:.6g}</text>\n", x(at), y0 + panel + 18,
-                    at + 0.0);
+                    at / p_unit.size + 0.0);
         }
-        for (double at = std::ceil(q.from / q.tick()) * q.tick(); at <= q.to; at += q.tick())
+        for (double at = std::ceil(q.from / q_tick) * q_tick; at <= q.to; at += q_tick)
             put(svg,
                 "<path d='M{0} {1:.1f}H{2}' stroke='#e4e4e4'/><text x='{3}' y='{4:.1f}' "
                 "text-anchor='end'>{5:.6g}</text>\n",
-                left, y(at), width - right, left - 7, y(at) + 4, std::abs(at) < 1e-9 * q.tick() ? 0.0 : at);
+                left, y(at), width - right, left - 7, y(at) + 4,
+                std::abs(at) < 1e-9 * q_tick ? 0.0 : at / q_unit.size);
         put(svg, "<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#888'/>\n", left, y0,
             width - left - right, panel);
-        const std::string unit = found.mechanism.units[coordinate];
         put(svg, "<text transform='translate(18 {}) rotate(-90)' text-anchor='middle'>{}{}</text>\n",
             y0 + panel / 2, escaped(found.mechanism.q[coordinate].get_name()),
-            unit.empty() ? "" : ", " + escaped(unit));
+            q_unit.unit.empty() ? "" : ", " + escaped(q_unit.unit));
     }
 
     /// Draws a line for each stretch of equal stability. An angle that leaves at one edge comes back at the other.
@@ -164,9 +167,14 @@ std::string as_svg(const Branches& found) {
         "font-family='sans-serif' font-size='12'>\n<rect width='{0}' height='{1}' fill='white'/>\n<text x='{2}' "
         "y='24' font-size='15' font-weight='bold'>{3}</text>\n",
         width, height, left, escaped(title));
+    const UnitOfName parameter = unit_of_name(found.scene, found.parameter);
     double y0 = top;
     for (const std::size_t coordinate : coordinates) {
-        Panel one{.found = found, .coordinate = coordinate, .y0 = y0};
+        Panel one{.found = found,
+                  .coordinate = coordinate,
+                  .y0 = y0,
+                  .p_unit = parameter,
+                  .q_unit = unit_of_name(found.scene, found.mechanism.q[coordinate].get_name())};
         one.measure();
         one.frame(svg, coordinate == coordinates.back());
         for (const Branch& branch : found.branches) one.curve(svg, branch);
@@ -176,7 +184,7 @@ std::string as_svg(const Branches& found) {
         y0 += panel + gap;
     }
     put(svg, "<text x='{}' y='{}' text-anchor='middle'>{}</text>\n", (left + width - right) / 2, height - 14,
-        escaped(found.parameter));
+        escaped(parameter.label(found.parameter)));
     add_legend(svg, found);
     return svg + "</svg>\n";
 }

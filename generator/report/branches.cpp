@@ -4,6 +4,8 @@
 #include "language/say.hpp"
 #include "report/equilibria.hpp"
 #include "report/page.hpp"
+#include "report/shown_unit.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -36,23 +38,29 @@ Json as_json(const Branches& found) {
 
 std::string as_text(const Branches& found) {
     const Mechanism& m = found.mechanism;
+    const UnitOfName unit = unit_of_name(found.scene, found.parameter);
+    const std::string parameter = unit.label(found.parameter);
     std::string page;
     if (!found.scene.title.empty()) put(page, "{}\n\n", found.scene.title);
     say_on(page, "{} branch{} of equilibria for {} from {} to {}\n", found.branches.size(),
-           found.branches.size() == 1 ? "" : "es", found.parameter, found.from, found.to);
+           found.branches.size() == 1 ? "" : "es", parameter, found.from / unit.size, found.to / unit.size);
     for (std::size_t k = 0; k < found.branches.size(); ++k) {
         const Branch& branch = found.branches[k];
         double low = HUGE_VAL, high = -HUGE_VAL;
         for (const BranchPoint& point : branch.points)
             low = std::min(low, point.parameter), high = std::max(high, point.parameter);
-        say_on(page, "  {:>2}. {} from {:.10g} to {:.10g}, {} points{}\n", k + 1, found.parameter, low, high,
-               branch.points.size(), branch.closed ? say(", closed") : "");
+        say_on(page, "  {:>2}. {} from {:.10g} to {:.10g}, {} points{}\n", k + 1, parameter, low / unit.size,
+               high / unit.size, branch.points.size(), branch.closed ? say(", closed") : "");
     }
     put(page, "\n");
     for (const SpecialPoint& point : found.points) {
-        say_on(page, "{} at {} = {:.12g}\n", translated(name_of(point.kind)), found.parameter, point.parameter);
-        for (int i = 0; i < m.size(); ++i)
-            if (found.essential[i]) put(page, "     {} = {:.10g}\n", m.q[i].get_name(), point.q[i] + 0.0);
+        say_on(page, "{} at {} = {:.12g}\n", translated(name_of(point.kind)), parameter,
+               point.parameter / unit.size);
+        for (int i = 0; i < m.size(); ++i) {
+            if (!found.essential[i]) continue;
+            const ShownUnit shown(m.shown_units[static_cast<std::size_t>(i)]);
+            put(page, "     {} = {:.10g}\n", shown.label(m.q[i].get_name()), shown.value(point.q[i] + 0.0));
+        }
     }
     if (found.points.empty()) say_on(page, "no folds or bifurcations\n");
     if (found.cut) say_on(page, "At least one branch was given up before its end.\n");

@@ -7,6 +7,7 @@
 #include "notation/latex.hpp"
 #include "notation/text.hpp"
 #include "report/formula_page.hpp"
+#include "scene/concluded_dimensions.hpp"
 
 namespace alembert {
 
@@ -70,7 +71,32 @@ std::string scaling(const Phrase& row, const Phrase& divisor, const Notation& n)
 
 }  // namespace
 
-Json as_json(const DerivedScene& d) {
+namespace {
+
+/// "Dimensions: x: m; phi: 1, concluded."
+Block dimensions_of(const Scene& scene) {
+    std::string list;
+    for (const ConcludedDimension& one : concluded_dimensions(scene)) {
+        if (!list.empty()) list += "; ";
+        list += one.name + ": ";
+        list += !one.dimension ? say("does not follow from the units")
+                : one.is_given ? alembert::text_of(*one.dimension)
+                               : say("{}, concluded", alembert::text_of(*one.dimension));
+    }
+    return {say("Dimensions in base units: {}.", list), {}};
+}
+
+Json dimensions_as_json(const Scene& scene) {
+    Json all = Json::object();
+    for (const ConcludedDimension& one : concluded_dimensions(scene))
+        all[one.name] = {{"unit", one.dimension ? Json(alembert::text_of(*one.dimension)) : Json()},
+                         {"is_given", one.is_given}};
+    return all;
+}
+
+}  // namespace
+
+Json as_json(const DerivedScene& d, bool dimensions) {
     const Derivation& shown = d.shown;
     const Mechanism& m = d.mechanism;
     Json result;
@@ -129,6 +155,7 @@ Json as_json(const DerivedScene& d) {
     for (const Statement& s : d.joint_loads) result["joint_reactions"][s.of][s.letter] = text(s.value);
     for (const Statement& s : d.normal_reactions)
         result["normal_reactions"]["lambda_" + s.of + "_normal"] = text(s.value);
+    if (dimensions) result["dimensions"] = dimensions_as_json(d.scene);
     return result;
 }
 
@@ -247,6 +274,7 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
 std::string as_page(const DerivedScene& d, const PageOptions& options) {
     const Notation n = notation_of(options.format);
     std::vector<Block> blocks = blocks_of(d, n, options.steps);
+    if (options.dimensions) blocks.push_back(dimensions_of(d.scene));
     if (options.format == "text" && !d.scene.title.empty()) blocks.insert(blocks.begin(), {d.scene.title, {}});
     return n.page(blocks);
 }

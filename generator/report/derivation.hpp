@@ -7,10 +7,12 @@
 
 namespace alembert {
 
-Json as_json(const DerivedScene& derived);
+/// With `dimensions`, also those of coordinates, speeds and multipliers.
+Json as_json(const DerivedScene& derived, bool dimensions = false);
 
 struct PageOptions {
     std::string format = "text";  ///< text, latex or mathml
+    bool dimensions = false;      ///< whether to tell the dimensions of coordinates, speeds and multipliers
     bool steps = false;  ///< whether to show coordinates, energies and generalized forces before the equations
 };
 

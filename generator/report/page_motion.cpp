@@ -9,6 +9,7 @@
 #include "report/page_plot.hpp"
 #include "report/run.hpp"
 #include "report/shown_unit.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -16,30 +17,10 @@ namespace {
 
 constexpr std::size_t lines_in_plot = 6, plots_of_a_kind = 4, portraits = 4;
 
-/// Are the units that the scene gives those of SI? Then the time is in s and energies are in J.
-bool is_in_SI(const Scene& scene) {
-    static const std::vector<std::string> known{"m", "kg", "s",  "rad", "N", "J",   "W", "Pa", "V", "T",
-                                                "C", "A",  "Hz", "deg", "1", "mol", "K", "Wb", "F", "H"};
-    bool all = true;
-    const auto look = [&](const std::string& unit) {
-        std::string word;
-        for (const char c : unit + " ")
-            if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
-                word += c;
-            } else {
-                all = all && (word.empty() || std::find(known.begin(), known.end(), word) != known.end());
-                word.clear();
-            }
-    };
-    for (const Parameter& p : scene.parameters) look(p.unit);
-    for (const Coordinate& q : scene.coordinates) look(q.unit);
-    return all;
-}
-
 class Plots {
 public:
     Plots(PageParts& page, const Overview& all, const WatchedMotion& motion)
-        : page_(page), all_(all), motion_(motion), rows_(motion.run.rows), si_(is_in_SI(all.scene)) {
+        : page_(page), all_(all), motion_(motion), rows_(motion.run.rows), si_(is_in_si(all.scene)) {
         times_ = column(0);
         page_.data["values"] = Json::array();
         Json times = Json::array();

@@ -56,11 +56,11 @@ std::string as_svg(const RootLocus& locus) {
         }
     if (circle) low_x = std::min(low_x, -1.0), high_x = std::max(high_x, 1.0), high_y = std::max(high_y, 1.0);
     low_x = std::min(low_x, 0.0), high_x = std::max(high_x, 0.0);
-    PlotSheet sheet{
-        .width = locus_left + locus_width + 130,
-        .title = locus.title.empty() ? say("Root locus") : locus.title,
-        .about = say("Roots in the complex plane over {}.", locus.name),
-        .captions = {say("{} from {:g} (circles) to {:g} (crosses)", locus.name, locus.from, locus.to)}};
+    PlotSheet sheet{.width = locus_left + locus_width + 130,
+                    .title = locus.title.empty() ? say("Root locus") : locus.title,
+                    .about = say("Roots in the complex plane over {}.", locus.name),
+                    .captions = {say("{} from {:g} (circles) to {:g} (crosses)", locus.unit.label(locus.name),
+                                     locus.from / locus.unit.size, locus.to / locus.unit.size)}};
     const double top = plot_top(sheet) + 10;
     sheet.height = top + locus_height + 56;
     std::string svg = plot_begin(sheet);
@@ -88,7 +88,9 @@ std::string as_svg(const RootLocus& locus) {
     for (const RootLocus::Crossing& one : locus.crossings) {
         const double x = area.x.at(one.root.real()), y = area.y.at(one.root.imag());
         put(svg, "<circle cx='{:.2f}' cy='{:.2f}' r='3' fill='#222'/>\n", x, y);
-        svg += plot_text(x + 7, y - 6, fmt::format("{} = {:.6g}", locus.name, one.value), {.halo = true});
+        svg += plot_text(x + 7, y - 6,
+                         fmt::format("{} = {:.6g}", locus.unit.label(locus.name), one.value / locus.unit.size),
+                         {.halo = true});
     }
     return svg + plot_end();
 }
@@ -132,13 +134,15 @@ Json as_json(const RootLocus& locus) {
 std::string as_text(const RootLocus& locus) {
     std::string page;
     if (!locus.title.empty()) put(page, "{}\n\n", locus.title);
-    say_on(page, "Roots over {} from {:g} to {:g}, in floating point, at {} values.\n", locus.name, locus.from,
-           locus.to, locus.values.size());
+    say_on(page, "Roots over {} from {:g} to {:g}, in floating point, at {} values.\n",
+           locus.unit.label(locus.name), locus.from / locus.unit.size, locus.to / locus.unit.size,
+           locus.values.size());
     if (locus.crossings.empty()) say_on(page, "None crosses {}.\n", edge_in_words(locus.of));
     for (const RootLocus::Crossing& one : locus.crossings)
-        say_on(page, "{} = {:.15g}: {} cross{} {} ({}), beyond it are {} before and {} after\n", locus.name,
-               one.value, shown_root(one.root), one.root.imag() == 0 ? "es" : "", edge_in_words(locus.of),
-               translated(name_of(one.kind)), one.before, one.after);
+        say_on(page, "{} = {:.15g}: {} cross{} {} ({}), beyond it are {} before and {} after\n",
+               locus.unit.label(locus.name), one.value / locus.unit.size, shown_root(one.root),
+               one.root.imag() == 0 ? "es" : "", edge_in_words(locus.of), translated(name_of(one.kind)),
+               one.before, one.after);
     return page;
 }
 

@@ -129,7 +129,10 @@ std::string as_svg(const StabilityChart& chart) {
     svg += cells_of_chart(chart, area);
     for (const StabilityChart::Piece& piece : chart.pieces)
         put(svg, "<path fill='{}' d='{}z'/>\n", colour_of_kind(piece.kind), path_of(piece.polygon, area));
-    svg += plot_axes(area, {.x = chart.x.name, .y = chart.y.name});
+    const double x_size = chart.x_unit.size, y_size = chart.y_unit.size;
+    svg += plot_axes({linear_scale(chart.x.from / x_size, chart.x.to / x_size, left, left + chart_width),
+                      linear_scale(chart.y.from / y_size, chart.y.to / y_size, top + chart_height, top)},
+                     {.x = chart.x_unit.label(chart.x.name), .y = chart.y_unit.label(chart.y.name)});
     for (const std::vector<ChartPoint>& line : chart.boundaries)
         put(svg, "<path fill='none' stroke='#222' stroke-width='1.2' d='{}'/>\n", path_of(line, area));
     double row = top + 14;

@@ -11,6 +11,7 @@
 #include "alembert/error.hpp"
 #include "language/say.hpp"
 #include "report/plot_panels.hpp"
+#include "scene/units.hpp"
 
 namespace alembert {
 
@@ -29,36 +30,34 @@ std::vector<std::size_t> varying(const Grid& grid) {
     return axes;
 }
 
-std::string unit_of(const std::string& name, const Mechanism& m) {
-    const bool is_rate = name.ends_with('\'');
-    const std::string stem = is_rate ? name.substr(0, name.size() - 1) : name;
-    for (std::size_t k = 0; k < m.q.size(); ++k)
-        if (m.q[k].get_name() == stem) return is_rate && !m.units[k].empty() ? m.units[k] + "/s" : m.units[k];
-    for (const Mechanism::Speed& u : m.speeds)
-        if (u.u.get_name() == name) return u.unit;
-    for (const Mechanism::Parameter& p : m.parameters)
-        if (p.symbol.get_name() == name) return p.unit;
-    return name == "t" ? "s" : "";
-}
-
 std::string with_unit(const std::string& name, const std::string& unit) {
     return unit.empty() ? name : say("{} in {}", name, unit);
 }
 
 /// The varied quantity in words: "initial theta1 in rad", "l1 in m".
-std::string varied(const Axis& axis, const Mechanism& m) {
-    const bool is_parameter =
-        std::any_of(m.parameters.begin(), m.parameters.end(),
-                    [&](const Mechanism::Parameter& p) { return p.symbol.get_name() == axis.name; });
-    return with_unit(is_parameter ? axis.name : say("initial {}", axis.name), unit_of(axis.name, m));
+std::string varied(const Axis& axis, const Sweep& s) {
+    const std::vector<Mechanism::Parameter>& all = s.mechanism.parameters;
+    const bool is_parameter = std::any_of(
+        all.begin(), all.end(), [&](const Mechanism::Parameter& p) { return p.symbol.get_name() == axis.name; });
+    return with_unit(is_parameter ? axis.name : say("initial {}", axis.name),
+                     unit_of_name(s.scene, axis.name).unit);
 }
 
-/// The values of one column at the ends of all motions.
+/// In the unit of the picture.
+Axis shown(Axis axis, const Sweep& s) {
+    const double size = unit_of_name(s.scene, axis.name).size;
+    axis.from /= size;
+    axis.to /= size;
+    return axis;
+}
+
+/// The values of one column at the ends of all motions, in the unit of the picture.
 std::vector<double> ends(const Sweep& s, const std::string& name) {
     const std::vector<std::string> columns = end_columns(s);
     const auto k = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
+    const double size = unit_of_name(s.scene, name).size;
     std::vector<double> values;
-    for (const SweptMotion& m : s.members) values.push_back(m.failed ? std::nan("") : end_values(m)[k]);
+    for (const SweptMotion& m : s.members) values.push_back(m.failed ? std::nan("") : end_values(m)[k] / size);
     return values;
 }
 
@@ -149,22 +148,23 @@ std::string map_of(const Sweep& s, const PlotMap& map, const std::string& name, 
     const PlotArea area{cells_of(map.x, left, left + map_width), cells_of(map.y, top + map_height, top)};
     const auto [least, most] = plot_range(map.values);
     const PlotScale scale = linear_scale(least, most, 0, 1);
-    std::string svg =
-        plot_text(left, top - 8, with_unit(say("final {}", name), unit_of(name, s.mechanism)), {.bold = true});
+    std::string svg = plot_text(left, top - 8, with_unit(say("final {}", name), unit_of_name(s.scene, name).unit),
+                                {.bold = true});
     svg += fmt::format("<rect x='{:g}' y='{:g}' width='{:g}' height='{:g}' fill='#bbb'/>\n", left, top, map_width,
                        map_height);
-    svg += plot_axes(area, {.x = varied(map.x, s.mechanism), .y = varied(map.y, s.mechanism)});
+    svg += plot_axes(area, {.x = varied(map.x, s), .y = varied(map.y, s)});
     return svg + cells(map, area, scale) + colour_bar(left + map_width + 18, area, scale);
 }
 
 std::string maps(const Sweep& s, const std::vector<std::size_t>& axes, const std::vector<std::string>& names,
                  PlotSheet sheet) {
-    const Axis &x = s.grid.axes[axes[0]], &y = s.grid.axes[axes[1]];
+    const Axis x = shown(s.grid.axes[axes[0]], s), y = shown(s.grid.axes[axes[1]], s);
     std::vector<PlotMap> all;
     for (const std::string& name : names) {
         all.push_back({x, y, ends(s, name)});
         const auto [least, most] = plot_range(all.back().values);
-        sheet.about += say(" {}: between {:.4g} and {:.4g} {}.", name, least, most, unit_of(name, s.mechanism));
+        sheet.about +=
+            say(" {}: between {:.4g} and {:.4g} {}.", name, least, most, unit_of_name(s.scene, name).unit);
     }
     if (all.front().stride(x) > 1 || all.front().stride(y) > 1)
         sheet.captions.push_back(say("of {} × {} values every {} × {} is drawn", x.count, y.count,
@@ -180,16 +180,17 @@ std::string maps(const Sweep& s, const std::vector<std::size_t>& axes, const std
 
 std::string lines(const Sweep& s, std::size_t axis, const std::vector<std::string>& names,
                   const PlotSheet& sheet) {
+    const double size = unit_of_name(s.scene, s.grid.axes[axis].name).size;
     std::vector<PlottedLine> all;
     for (const std::string& name : names) {
-        PlottedLine line{.name = say("final {}", name), .unit = unit_of(name, s.mechanism), .points = {}};
+        PlottedLine line{.name = say("final {}", name), .unit = unit_of_name(s.scene, name).unit, .points = {}};
         const std::vector<double> values = ends(s, name);
         for (std::size_t k = 0; k < values.size(); ++k)
-            line.points.emplace_back(s.members[k].varied[axis], values[k]);
+            line.points.emplace_back(s.members[k].varied[axis] / size, values[k]);
         if (line.unit.empty()) line.group = static_cast<int>(all.size()) + 1;  // outputs may have any meaning
         all.push_back(std::move(line));
     }
-    return plot_panels(sheet, all, varied(s.grid.axes[axis], s.mechanism), {});
+    return plot_panels(sheet, all, varied(s.grid.axes[axis], s), {});
 }
 
 }  // namespace

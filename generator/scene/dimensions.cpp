@@ -16,10 +16,6 @@ namespace alembert {
 
 namespace {
 
-Dimension over_time(Dimension dimension, int times) {
-    return multiplied(std::move(dimension), {{"s", 1}}, -times);
-}
-
 bool consists_of_numbers(const Tree& tree) {
     using Kind = Tree::Kind;
     if (tree.kind == Kind::name || tree.kind == Kind::call || !tree.unit.empty()) return false;
@@ -29,6 +25,12 @@ bool consists_of_numbers(const Tree& tree) {
 
 /// What a whole number up to this size is in a formula: a coefficient, as in 1/2 or 3*x^2.
 constexpr double most_pure = 12;
+
+const std::set<std::string>& functions_of_numbers() {
+    static const std::set<std::string> names{"sin",  "cos",  "tan",  "asin", "acos", "atan",
+                                             "sinh", "cosh", "tanh", "exp",  "log"};
+    return names;
+}
 
 const std::map<std::string, Dimension>& dimensions_of_geometry() {
     static const std::map<std::string, Dimension> table{{"pos", {{"m", 1}}},
@@ -51,6 +53,10 @@ std::optional<Dimension> dimension_of_unit(const std::string& unit) {
     Dimension result = meaning->exponents;
     result.erase("rad");
     return result;
+}
+
+Dimension over_time(Dimension dimension, int times) {
+    return multiplied(std::move(dimension), {{"s", 1}}, -times);
 }
 
 std::string text_of(const Dimension& dimension) {
@@ -220,14 +226,12 @@ std::optional<Dimension> Dimensions::of_power(const Tree& tree) {
 }
 
 std::optional<Dimension> Dimensions::of_call(const Tree& tree) {
-    static const std::set<std::string> of_numbers{"sin",  "cos",  "tan",  "asin", "acos", "atan",
-                                                  "sinh", "cosh", "tanh", "exp",  "log"};
     if (const auto known = dimensions_of_geometry().find(tree.text); known != dimensions_of_geometry().end())
         return known->second;
     std::vector<Known> args;
     for (const TreePtr& arg : tree.args) args.push_back(of(*arg));
     if (tree.text == "sign" || tree.text == "atan2") return Dimension{};
-    if (of_numbers.contains(tree.text)) {
+    if (functions_of_numbers().contains(tree.text)) {
         if (args.size() == 1 && args[0] && !args[0]->empty())
             contradictions_.push_back({current_->place(tree.offset),
                                        say("the argument of {} is a number or an angle; {} is in {}", tree.text,
@@ -240,6 +244,81 @@ std::optional<Dimension> Dimensions::of_call(const Tree& tree) {
         return multiplied(*args[0], *args[1]);
     if (tree.text == "sqrt" && args.size() == 1 && args[0]) return multiplied({}, *args[0], 0.5);
     return {};
+}
+
+std::optional<Dimension> Dimensions::of_name(const std::string& name) {
+    return of_name(Tree{.kind = Tree::Kind::name, .text = name});
+}
+
+bool Dimensions::learn(const std::string& name, const Dimension& dimension) {
+    return names_.emplace(name, dimension).second;
+}
+
+bool Dimensions::learn(const Expression& expression, const std::optional<Dimension>& wanted) {
+    const Expression* const before = std::exchange(current_, &expression);
+    const bool is_new = learn(*expression.tree, wanted);
+    current_ = before;
+    return is_new;
+}
+
+/// Of a product in which all factors but one are known, that one.
+bool Dimensions::learn_factor(const Tree& product, const Dimension& wanted) {
+    Dimension rest = wanted;
+    const Tree* unknown = nullptr;
+    for (const TreePtr& arg : product.args) {
+        if (const Known factor = of(*arg)) {
+            rest = multiplied(std::move(rest), *factor, -1);
+            continue;
+        }
+        if (unknown != nullptr) return false;
+        unknown = arg.get();
+    }
+    return unknown != nullptr && learn(*unknown, rest);
+}
+
+bool Dimensions::learn(const Tree& tree, const Known& wanted) {
+    using Kind = Tree::Kind;
+    bool is_new = false;
+    const auto learn_all = [&](const Known& dimension) {
+        for (const TreePtr& arg : tree.args) is_new = learn(*arg, dimension) || is_new;
+    };
+    switch (tree.kind) {
+        case Kind::number:
+            return false;
+        case Kind::name:
+            return wanted && !of(tree) && learn(tree.text, over_time(*wanted, -tree.primes));
+        case Kind::negate:
+            return learn(*tree.args[0], wanted);
+        case Kind::derivative:
+            return learn(*tree.args[0], wanted ? Known(over_time(*wanted, -tree.primes)) : Known());
+        case Kind::reciprocal:
+            return learn(*tree.args[0], wanted ? Known(multiplied({}, *wanted, -1)) : Known());
+        case Kind::product:
+            if (!tree.unit.empty()) return false;
+            learn_all({});
+            return (wanted && learn_factor(tree, *wanted)) || is_new;
+        case Kind::sum: {
+            const Known common = wanted ? wanted : of(tree);
+            learn_all(common);
+            return is_new;
+        }
+        case Kind::power: {
+            const Tree& exponent = *tree.args[1];
+            const bool is_known = wanted && exponent.kind == Kind::number && std::stod(exponent.text) != 0;
+            return learn(*tree.args[0],
+                         is_known ? Known(multiplied({}, *wanted, 1 / std::stod(exponent.text))) : Known());
+        }
+        case Kind::call:
+            if (functions_of_numbers().contains(tree.text)) {
+                learn_all(Dimension{});
+            } else if (tree.text == "abs") {
+                learn_all(wanted);
+            } else if (tree.text == "sqrt") {
+                learn_all(wanted ? Known(multiplied({}, *wanted, 2)) : Known());
+            }
+            return is_new;
+    }
+    return is_new;
 }
 
 std::optional<std::string> si_unit_of(const Expression& expression, const Scene& scene) {

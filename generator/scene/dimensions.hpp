@@ -25,6 +25,9 @@ using Dimension = UnitExponents;  ///< without rad
 /// "kg*m^2/s^2"; "1" for a number.
 std::string text_of(const Dimension& dimension);
 
+/// That of a quantity differentiated so many times by time: m → m/s.
+Dimension over_time(Dimension dimension, int times = 1);
+
 /// That of the text of a unit; nothing if it is empty or none.
 std::optional<Dimension> dimension_of_unit(const std::string& unit);
 
@@ -38,6 +41,15 @@ public:
 
     /// Nothing where it is not known. What contradicts itself in the expression is kept in `contradictions`.
     std::optional<Dimension> of(const Expression& expression);
+
+    /// That of a name of the scene, under the same condition.
+    std::optional<Dimension> of_name(const std::string& name);
+
+    /// Concludes what names are: the expression is in `wanted`, if that is known, and where it has a sum, a sine
+    /// or a product of which all but one factor is known, this tells the rest. Returns whether anything was new.
+    bool learn(const Expression& expression, const std::optional<Dimension>& wanted);
+    /// Takes the dimension of a name for known; returns whether it is new.
+    bool learn(const std::string& name, const Dimension& dimension);
 
     /// The two sides and all terms in them are terms of one sum.
     void hold(const Equality& equation);
@@ -68,6 +80,8 @@ private:
     Known of_product(const Tree& tree);
     Known of_power(const Tree& tree);
     Known of_call(const Tree& tree);
+    bool learn(const Tree& tree, const Known& wanted);
+    bool learn_factor(const Tree& product, const Dimension& wanted);
     std::string text(const Tree& tree) const;
 
     const Scene& scene_;

@@ -107,9 +107,38 @@ void convert_units(Scene& scene, std::vector<Diagnostic>& found) {
     Converting(scene, found).convert();
 }
 
+bool is_in_si(const Scene& scene) {
+    const auto are = [](const auto& items) {
+        return std::all_of(items.begin(), items.end(), [](const auto& item) {
+            const auto meaning = meaning_of_unit(item.unit);
+            return !meaning || meaning->is_si();
+        });
+    };
+    return are(scene.parameters) && are(scene.inputs) && are(scene.coordinates) && are(scene.speeds);
+}
+
 double size_of_one(const Scene& scene, const std::string& name) {
     const std::string unit = given_unit(scene, name);
     return unit.empty() ? 1 : meaning_of_unit(unit)->factor;
+}
+
+UnitOfName unit_of_name(const Scene& scene, const std::string& name) {
+    const bool is_rate = name.ends_with('\'');
+    const std::string stem = name.substr(0, name.find('\''));
+    const auto in = [&](const auto& items) -> std::optional<UnitOfName> {
+        for (const auto& item : items) {
+            if (item.name.text != stem) continue;
+            UnitOfName found{item.shown.unit.empty() ? item.unit : item.shown.unit, item.shown.size};
+            if (is_rate && !found.unit.empty()) found.unit += "/s";
+            return found;
+        }
+        return {};
+    };
+    if (const auto found = in(scene.coordinates)) return *found;
+    if (is_rate) return {};
+    if (const auto found = in(scene.speeds)) return *found;
+    if (const auto found = in(scene.parameters)) return *found;
+    return {name == "t" ? "s" : "", 1};
 }
 
 std::string in_si(const Scene& scene, const std::string& name, const std::string& value) {

@@ -26,9 +26,23 @@ void convert_units(Scene& scene, std::vector<Diagnostic>& found);
 /// names that are not known.
 double size_of_one(const Scene& scene, const std::string& name);
 
+/// The unit in which texts and pictures show a name, a rate's too: that of the scene, or that of the SI.
+struct UnitOfName {
+    std::string unit = {};  ///< "deg/s"; empty for none
+    double size = 1;        ///< what 1 of it is worth in SI units
+
+    /// "phi [deg]"; only the name where the unit is of the SI.
+    std::string label(const std::string& name) const { return size == 1 ? name : name + " [" + unit + "]"; }
+};
+UnitOfName unit_of_name(const Scene& scene, const std::string& name);
+
 /// A value that is typed for a name, in SI units: "(30)*(pi/180)" for "30"; as it is where it has units, or the
 /// name none.
 std::string in_si(const Scene& scene, const std::string& name, const std::string& value);
+
+/// Whether all units of the scene are of the SI once they are converted. Where words such as "AU" are among them,
+/// its lengths need not be metres.
+bool is_in_si(const Scene& scene);
 
 /// Whether an expression has a name other than pi and t, or a quantity with a unit.
 bool has_quantities(const Tree& tree);

@@ -244,9 +244,11 @@ StabilityChart stability_chart(Scene scene, const Axis& x, const Axis& y, const 
     check_axis(x);
     check_axis(y);
     if (x.name == y.name) throw ModelError(say("{} is varied twice; expected two parameters", x.name));
+    const UnitOfName x_unit = unit_of_name(scene, x.name), y_unit = unit_of_name(scene, y.name);
     const Spectra spectra(std::move(scene), options.stability, {x.name, y.name},
                           {x.from + 0.47 * (x.to - x.from), y.from + 0.53 * (y.to - y.from)});
-    StabilityChart chart{.title = spectra.title(), .of = spectra.of(), .x = x, .y = y};
+    StabilityChart chart{
+        .title = spectra.title(), .of = spectra.of(), .x = x, .y = y, .x_unit = x_unit, .y_unit = y_unit};
     Charting(chart, spectra, options).go();
     return chart;
 }

@@ -12,6 +12,7 @@
 /// chart_height pixels). In floating point: a picture and no proof. What is smaller than a cell may be missed.
 
 #include "run/grid.hpp"
+#include "scene/units.hpp"
 #include "stability/spectra.hpp"
 
 namespace alembert {
@@ -26,6 +27,7 @@ struct StabilityChart {
     std::string title = {};
     SpectrumOf of = SpectrumOf::eigenvalues;
     Axis x = {}, y = {};
+    UnitOfName x_unit = {}, y_unit = {};   ///< in which pictures show them
     std::vector<SpectrumKind> kinds = {};  ///< of the nodes, y the faster
     std::vector<double> beyond = {};       ///< of the nodes: the largest real part, or |multiplier| − 1; NaN
     std::vector<std::vector<ChartPoint>> boundaries = {};

@@ -156,10 +156,15 @@ RootLocus root_locus(Scene scene, const Axis& axis, const ChartOptions& options)
     argument::need_positive_if_given("period", options.stability.period);
     if (!(std::isfinite(axis.from) && std::isfinite(axis.to)) || axis.from == axis.to || axis.count < 2)
         throw ModelError(say("{}: expected a range of two different numbers, and at least two values", axis.name));
+    const UnitOfName unit = unit_of_name(scene, axis.name);
     const Spectra spectra(std::move(scene), options.stability, {axis.name},
                           {axis.from + 0.47 * (axis.to - axis.from)});
-    RootLocus locus{
-        .title = spectra.title(), .name = axis.name, .of = spectra.of(), .from = axis.from, .to = axis.to};
+    RootLocus locus{.title = spectra.title(),
+                    .name = axis.name,
+                    .of = spectra.of(),
+                    .from = axis.from,
+                    .to = axis.to,
+                    .unit = unit};
     Following following(locus, spectra);
     for (std::size_t k = 0; k < axis.count; ++k) {
         const double part = static_cast<double>(k) / static_cast<double>(axis.count - 1);

@@ -16,6 +16,7 @@ struct RootLocus {
     std::string title = {}, name = {};
     SpectrumOf of = SpectrumOf::eigenvalues;
     double from = 0, to = 0;
+    UnitOfName unit = {};  ///< in which texts and pictures show the parameter
     std::vector<double> values = {};
     std::vector<Spectra::Roots> roots =
         {};  ///< at each value; the k-th of each is one branch. Empty: none found there

@@ -5,6 +5,7 @@
 
 #include "language/say.hpp"
 #include "state/inertia_check.hpp"
+#include "state/likely_mistakes.hpp"
 #include "state/redundancy.hpp"
 #include "state/touching.hpp"
 
@@ -107,6 +108,7 @@ Prepared prepared(Scene scene, const Overrides& at, bool on_sheets, Coordinates 
     result.warn(warnings_of_moving_places(result));
     result.sheets = std::move(built.sheets);
     result.warn(check_bodies(result.scene, result.mechanism, at));
+    result.warn(likely_mistakes(result.scene, result.mechanism, at));
     return result;
 }
 

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "state/likely_mistakes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <random>
+
+#include "language/say.hpp"
+#include "lower/lower.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// A mass in g or an inertia in kg mm² that is taken as kg or kg m² is wrong by more than these factors.
+constexpr double suspicious_mass_ratio = 1e5, suspicious_gyration_ratio = 300;
+
+/// Whether a load acts is asked at so many random states, and of scenes with at most so many coordinates.
+constexpr int states_tried = 3, most_coordinates = 200;
+
+/// Below this share of the sum of the sizes of its terms, a sum is rounding.
+constexpr double rounding_share = 1e-12;
+
+class LikelyMistakes {
+public:
+    LikelyMistakes(const Scene& scene, const Mechanism& mechanism, const Start& start)
+        : scene_(scene), m_(mechanism), start_(start) {}
+
+    std::vector<Diagnostic> found() {
+        find_idle_loads();
+        find_unlike_masses();
+        find_stretched_springs();
+        return std::move(found_);
+    }
+
+private:
+    using Numbers = std::vector<double>;
+
+    void tell(Place place, std::string message, std::string kind, std::string name) {
+        found_.push_back({place, std::move(message), Severity::warning, std::move(kind), std::move(name)});
+    }
+
+    struct Given {
+        Place place;
+        const Name& on;
+        const Vector& vector;
+    };
+    std::optional<Given> given(const Origin& origin) const {
+        const auto given_in = [&](const auto& loads, auto on) {
+            const auto& load = loads[static_cast<std::size_t>(origin.index)];
+            return Given{load.place, load.*on, load.vector};
+        };
+        if (origin.kind == Origin::Kind::force) return given_in(scene_.forces, &Force::at);
+        if (origin.kind == Origin::Kind::torque) return given_in(scene_.torques, &Torque::on);
+        return {};
+    }
+
+    State<double> random_state(std::mt19937_64& random) const {
+        std::uniform_real_distribution<double> near(-1, 1);
+        State<double> state = start_.state();
+        state.t += near(random);
+        for (double& q : state.q) q += 0.3 * near(random);
+        state.qdot.resize(state.q.size());
+        for (double& rate : state.qdot) rate = near(random);
+        return state;
+    }
+
+    /// The velocities of the pairs by each rate in turn: the columns of their Jacobian.
+    std::vector<Numbers> columns(const Program& program, State<double> state,
+                                 const std::vector<int>& nodes) const {
+        std::fill(state.qdot.begin(), state.qdot.end(), 0);
+        const Numbers drift = interpret(program, state);
+        std::vector<Numbers> result(state.qdot.size());
+        for (std::size_t i = 0; i < result.size(); ++i) {
+            state.qdot[i] = 1;
+            const Numbers value = interpret(program, state);
+            state.qdot[i] = 0;
+            for (const int node : nodes)
+                result[i].push_back(value[static_cast<std::size_t>(node)] - drift[static_cast<std::size_t>(node)]);
+        }
+        return result;
+    }
+
+    enum class Acts { no, yes, unknown };
+
+    /// Whether the force has a part along any velocity: Q_i = Σ F ∂v/∂q'_i.
+    static Acts acts(const Numbers& force, const std::vector<Numbers>& velocity) {
+        double size = 0, speed = 0;
+        for (const double f : force) size += std::abs(f);
+        for (const Numbers& column : velocity)
+            for (const double v : column) speed += std::abs(v);
+        if (!std::isfinite(size) || !std::isfinite(speed)) return Acts::unknown;
+        if (size == 0) return Acts::unknown;
+        for (const Numbers& column : velocity) {
+            double sum = 0;
+            for (std::size_t k = 0; k < force.size(); ++k) sum += force[k] * column[k];
+            if (std::abs(sum) > rounding_share * size * speed) return Acts::yes;
+        }
+        return Acts::no;
+    }
+
+    void find_idle_loads() {
+        if (m_.q.empty() || m_.size() > most_coordinates) return;
+        std::mt19937_64 random(1);
+        for (const Load& load : m_.loads) {
+            const std::optional<Given> load_given = given(load.origin);
+            if (!load_given || !is_idle(load, load_given->vector, random)) continue;
+            const std::string& name = load_given->on.text;
+            tell(load_given->place,
+                 load.origin.kind == Origin::Kind::force
+                     ? say("the force at '{}' has no effect on the motion: nothing moves along it; look at its "
+                           "direction and its place",
+                           name)
+                     : say("the torque on '{}' has no effect on the motion: nothing turns along it; look at its "
+                           "direction and its frame",
+                           name),
+                 "no_effect", name);
+        }
+    }
+
+    bool is_idle(const Load& load, const Vector& vector, std::mt19937_64& random) const {
+        // Where a component of the force or of the velocity is zero, there is no pair.
+        if (load.pairs.empty())
+            return std::any_of(vector.component.begin(), vector.component.end(), [](const Expression& e) {
+                return e.text.find_first_not_of("0. ") != std::string::npos;
+            });
+        std::vector<GiNaC::ex> velocities, forces;
+        for (const Load::Pair& pair : load.pairs) {
+            velocities.push_back(pair.velocity);
+            forces.push_back(pair.force);
+        }
+        Program program = begun(m_);
+        const std::vector<int> of_velocity = lower_expressions(program, m_, velocities),
+                               of_force = lower_expressions(program, m_, forces);
+        for (int k = 0; k < states_tried; ++k) {
+            const State<double> state = random_state(random);
+            const Numbers value = interpret(program, state);
+            Numbers force;
+            for (const int node : of_force) force.push_back(value[static_cast<std::size_t>(node)]);
+            if (acts(force, columns(program, state, of_velocity)) != Acts::no) return false;
+        }
+        return true;
+    }
+
+    void find_unlike_masses() {
+        std::vector<GiNaC::ex> wanted;
+        for (const MassElement& element : m_.masses) {
+            wanted.push_back(element.mass);
+            for (const GiNaC::ex& x : element.position) wanted.push_back(x);
+            for (int k = 0; k < 3; ++k) wanted.push_back(element.rotation ? element.rotation->inertia[k] : 0);
+        }
+        Program program = begun(m_);
+        const std::vector<int> nodes = lower_expressions(program, m_, wanted);
+        const Numbers value = interpret(program, start_.state());
+        constexpr std::size_t each = 7;
+        const auto at = [&](std::size_t element, std::size_t k) {
+            return value[static_cast<std::size_t>(nodes[element * each + k])];
+        };
+        if (scene_.gravity) find_unlike_mass(at);
+        find_unlike_inertias(at);
+    }
+
+    Name name_of(const Origin& origin) const {
+        const auto index = static_cast<std::size_t>(origin.index);
+        return origin.kind == Origin::Kind::body ? scene_.bodies[index].name : scene_.particles[index].name;
+    }
+
+    template <typename At>
+    void find_unlike_mass(const At& at) {
+        std::size_t heaviest = 0;
+        double next = 0;
+        for (std::size_t k = 1; k < m_.masses.size(); ++k) {
+            const bool is_heavier = at(k, 0) > at(heaviest, 0);
+            next = std::max(next, is_heavier ? at(heaviest, 0) : at(k, 0));
+            if (is_heavier) heaviest = k;
+        }
+        if (!(next > 0) || !(at(heaviest, 0) > suspicious_mass_ratio * next)) return;
+        const Name name = name_of(m_.masses[heaviest].origin);
+        tell(name.place,
+             say("the mass of '{}' is {:.3g} kg, {:.0e} times that of the next heaviest; is its unit right?",
+                 name.text, at(heaviest, 0), at(heaviest, 0) / next),
+             "suspicious_number", name.text);
+    }
+
+    /// Held against the distances of all masses from the origin.
+    template <typename At>
+    void find_unlike_inertias(const At& at) {
+        double size = 0;
+        for (std::size_t k = 0; k < m_.masses.size(); ++k)
+            size = std::max({size, std::hypot(at(k, 1), at(k, 2), at(k, 3))});
+        if (!(size > 0)) return;
+        for (std::size_t k = 0; k < m_.masses.size(); ++k) {
+            const Origin& origin = m_.masses[k].origin;
+            if (origin.kind != Origin::Kind::body || !m_.masses[k].rotation || !(at(k, 0) > 0)) continue;
+            const Body& body = scene_.bodies[static_cast<std::size_t>(origin.index)];
+            const double moment = std::max({at(k, 4), at(k, 5), at(k, 6)}), radius = std::sqrt(moment / at(k, 0));
+            if (!body.inertia || !(radius > suspicious_gyration_ratio * size)) continue;
+            tell(
+                body.inertia->place,
+                say("the moment of inertia of '{}', {:.3g} kg m^2, is that of its mass at a distance of {:.3g} m, "
+                    "{:.0e} times the size of the scene; is its unit right?",
+                    body.name.text, moment, radius, radius / size),
+                "suspicious_number", body.name.text);
+        }
+    }
+
+    /// Where the vector between the ends is linear in the coordinates, a spring without a length is the usual
+    /// linear one, along a line or isotropic in a plane.
+    static bool is_linear(const std::function<std::array<double, 3>(double)>& between) {
+        const std::array<double, 3> here = between(0), there = between(1), beyond = between(2);
+        double bend = 0, size = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            bend = std::max(bend, std::abs(here[k] - 2 * there[k] + beyond[k]));
+            size = std::max({size, std::abs(here[k]), std::abs(beyond[k])});
+        }
+        return bend <= rounding_share * size;
+    }
+
+    void find_stretched_springs() {
+        std::mt19937_64 random(2);
+        for (const SpringElement& spring : m_.springs) {
+            if (!spring.between || spring.extension) continue;
+            const Link& given = scene_.springs[static_cast<std::size_t>(spring.origin.index)];
+            if (given.length.place() != given.place) continue;  // a missing one has the place of the table
+            std::vector<GiNaC::ex> between;
+            for (std::size_t k = 0; k < 3; ++k)
+                between.push_back(spring.between->second[k] - spring.between->first[k]);
+            Program program = begun(m_);
+            const std::vector<int> nodes = lower_expressions(program, m_, between);
+            const std::vector<double> way = random_state(random).qdot;
+            const auto at = [&](double part) {
+                State<double> state = start_.state();
+                for (std::size_t i = 0; i < way.size(); ++i) state.q[i] += part * way[i];
+                const Numbers value = interpret(program, state);
+                std::array<double, 3> result;
+                for (std::size_t k = 0; k < 3; ++k) result[k] = value[static_cast<std::size_t>(nodes[k])];
+                return result;
+            };
+            const std::array<double, 3> start = at(0);
+            const double distance = std::hypot(start[0], start[1], start[2]);
+            if (!(distance > 0) || !std::isfinite(distance) || is_linear(at)) continue;
+            tell(
+                given.place,
+                say("this spring has no length, so that it pulls wherever its ends are apart; they start {:.3g} m "
+                    "apart; give it length = …, or length = 0 if that is meant",
+                    distance),
+                "no_length", given.between->first.text);
+        }
+    }
+
+    const Scene& scene_;
+    const Mechanism& m_;
+    const Start& start_;
+    std::vector<Diagnostic> found_;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> likely_mistakes(const Scene& scene, const Mechanism& mechanism, const Overrides& at) {
+    // What depends on open functions has no numbers.
+    if (mechanism.masses.empty() || !mechanism.symbols->functions().empty()) return {};
+    const Start start = start_of(mechanism, at);
+    return LikelyMistakes(scene, mechanism, start).found();
+}
+
+}  // namespace alembert
