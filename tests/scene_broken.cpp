@@ -224,6 +224,27 @@ TEST_CASE("broken scenes: the steps that a flood of anything takes grow in propo
     }
 }
 
+TEST_CASE("broken scenes: a misspelled key is told, and nothing that follows from it") {
+    const std::string whole = test::contents(ALEMBERT_SOURCE_DIR "/tests/whole.toml");
+    std::size_t told_of = 0;
+    for (std::size_t line = 0; line < whole.size(); line = whole.find('\n', line) + 1) {
+        const std::size_t end = whole.find('\n', line), equals = whole.find(" = ", line);
+        if (end == std::string::npos) break;
+        if (whole[line] == '[' || whole[line] == '#' || equals >= end || equals < line + 4) continue;
+        if (whole.compare(line, 8, "unknowns") == 0) continue;  // what it would name stands above it
+        std::string text = whole;
+        text.erase(line + 1, 1);
+        CAPTURE(text.substr(line, end - line - 1));
+        const std::vector<Diagnostic> found = told(text);
+        for (const Diagnostic& one : found)
+            if (one.message.starts_with("unknown key")) {
+                ++told_of;
+                CHECK(found.front().message == one.message);
+            }
+    }
+    CHECK(told_of > 40);
+}
+
 TEST_CASE("broken scenes: every mutation of a scene is read or refused") {
     std::string whole = test::contents(ALEMBERT_SOURCE_DIR "/tests/whole.toml");
     REQUIRE(told(whole).empty());

@@ -26,7 +26,7 @@ Position read_position(const Table& table, std::string_view key, bool has_at) {
     }
     if (has_at && !table.has(key)) {
         if (!table.reading().has_joints)
-            table.reading().complain(table.place(), say("{} needs 'at' or '{}': where it is", table.title(), key));
+            table.complain_of_missing({"at", key}, say("{} needs 'at' or '{}': where it is", table.title(), key));
     } else {
         position.offset = table.needed_vector(key);
     }
@@ -153,7 +153,8 @@ void read_frame(Table table, Scene& scene) {
     } else if (table.has("rotate")) {
         frame.rotations = read_rotations(table, "rotate");
     } else {
-        table.complain("rotate", say("{} needs 'rotate' or 'quaternion'", table.title()));
+        table.complain_of_missing({"rotate", "quaternion"},
+                                  say("{} needs 'rotate' or 'quaternion'", table.title()));
     }
     scene.frames.push_back(std::move(frame));
 }

@@ -156,8 +156,8 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
 }  // namespace
 
 void read_joint(Table table, Scene& scene) {
-    table.allow("joint");
     const std::size_t mistakes = table.reading().diagnostics.size();
+    table.allow("joint");
     Joint joint;
     joint.name = table.needed_name("name");
     table.entitle(joint.name);

@@ -17,8 +17,9 @@ Link read_link(const Table& table, std::string_view constant) {
     if (between && table.has("along"))
         table.complain("along", say("{} has both 'between' and 'along'; give one", table.title()));
     else if (!between && !table.has("along"))
-        table.reading().complain(table.place(),
-                                 say("{} needs 'between' (two points) or 'along' (an expression)", table.title()));
+        table.complain_of_missing(
+            {"between", "along"},
+            say("{} needs 'between' (two points) or 'along' (an expression)", table.title()));
     if (between) {
         std::vector<Name> ends = table.names("between");
         if (const auto* array = between->node->as_array(); array && array->size() != 2)
@@ -93,8 +94,8 @@ void read_constraint(Table table, Scene& scene) {
     table.entitle(rule.name);
     rule.multiplier = table.name("multiplier");
     if (table.has("holonomic") == table.has("nonholonomic"))
-        return table.reading().complain(table.place(),
-                                        say("{} needs one of 'holonomic' and 'nonholonomic'", table.title()));
+        return table.complain_of_missing({"holonomic", "nonholonomic"},
+                                         say("{} needs one of 'holonomic' and 'nonholonomic'", table.title()));
     rule.holonomic = table.has("holonomic");
     const std::string_view key = rule.holonomic ? "holonomic" : "nonholonomic";
     const toml::node& node = *table.find(key)->node;
@@ -159,10 +160,10 @@ void read_friction(Table table, Scene& scene) {
     rule.resting = table.expression("static");
     read_slip(table, rule);
     if (table.has("on") == table.has("normal"))
-        return table.reading().complain(
-            table.place(), say("{} needs one of 'on' (the constraint or contact whose reaction is the "
-                               "normal force) and 'normal' (the normal force)",
-                               table.title()));
+        return table.complain_of_missing(
+            {"on", "normal"}, say("{} needs one of 'on' (the constraint or contact whose reaction is the "
+                                  "normal force) and 'normal' (the normal force)",
+                                  table.title()));
     rule.on = table.name("on");
     rule.normal = table.expression("normal");
     rule.restitution = table.expression("restitution");

@@ -181,7 +181,7 @@ void read_claim(Table table, Scene& scene) {
         claim.at = Claim::At::near;
     }
     if (const Entry* const equation = table.find("equation"); !equation)
-        table.reading().complain(table.place(), say("{} needs '{}'", table.title(), "equation"));
+        table.complain_of_missing({"equation"}, say("{} needs '{}'", table.title(), "equation"));
     else if (!equation->node->is_string())
         table.reading().complain(place_of(*equation->node), say("{} is {}; expected an equation in quotes",
                                                                 table.what("equation"), kind_of(*equation->node)));

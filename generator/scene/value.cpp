@@ -291,19 +291,20 @@ void Table::entitle(const Name& name) {
     if (!name.text.empty()) title_ = labelled(title_, name.text);
 }
 
-/// Whether a key that was refused already stands in place of this one.
-bool Table::is_given_otherwise(std::string_view key) const {
+void Table::complain_of_missing(std::initializer_list<std::string_view> keys, const std::string& message) const {
     const std::vector<Diagnostic>& told = reading_->diagnostics;
-    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-        const bool is_meant = is_key_meant(entry.key, key) || nearest(entry.key, {std::string(key)}) == key;
+    const auto stands_for_one = [&](const Entry& entry) {
+        const bool is_meant = std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+            return is_key_meant(entry.key, key) || nearest(entry.key, {std::string(key)}) == key;
+        });
         return is_meant && std::any_of(told.begin(), told.end(),
                                        [&](const Diagnostic& one) { return one.place == entry.place; });
-    });
+    };
+    if (std::none_of(entries_.begin(), entries_.end(), stands_for_one)) reading_->complain(place_, message);
 }
 
 void Table::need(std::string_view key) const {
-    if (has(key) || is_given_otherwise(key)) return;
-    reading_->complain(place_, say("{} needs '{}'", title_, key));
+    if (!has(key)) complain_of_missing({key}, say("{} needs '{}'", title_, key));
 }
 
 std::string Table::text(std::string_view key) const {

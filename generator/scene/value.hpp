@@ -8,6 +8,7 @@
 ///     table.allow("particle");
 ///     particle.mass = table.needed_expression("mass");
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,6 +77,9 @@ public:
     const Entry* find(std::string_view key) const;
     bool has(std::string_view key) const { return find(key) != nullptr; }
     void complain(std::string_view key, const std::string& message) const;
+    /// Complains of keys that are missing, at the table, unless a key that was refused already stands in place of
+    /// one.
+    void complain_of_missing(std::initializer_list<std::string_view> keys, const std::string& message) const;
 
     std::string text(std::string_view key) const;
     bool flag(std::string_view key) const;
@@ -100,7 +104,6 @@ private:
     Place place_;
     std::vector<Entry> entries_;
 
-    bool is_given_otherwise(std::string_view key) const;
     void need(std::string_view key) const;
 };
 
