@@ -12,6 +12,7 @@
 #include "formalism/joint_tree.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/recursive.hpp"
+#include "link_scenes.hpp"
 #include "lower/choose.hpp"
 #include "mechanisms.hpp"
 #include "program/flatten.hpp"
@@ -247,20 +248,10 @@ axes = "blade"
 inertia = [0.001, 0.002, 0.003]
 )toml";
 
-}  // namespace
-
-TEST_CASE(
-    "recursive: a branched planar mechanism with a cart, a slider and frames turned against N accelerates as by "
-    "Lagrange, exactly") {
-    check_exactly(from_text(absolute_frames));
-}
-
 // The angles of aligned axes are arcus tangents, which arithmetic modulo a prime does not know: exactly by
 // expressions, in long double by nodes.
-TEST_CASE(
-    "recursive: oblique, universal, cylindrical and sliding joints and a prescribed turn accelerate as by "
-    "Lagrange") {
-    const Mechanism m = from_text(oblique);
+void check_in_long_double(const std::string& scene) {
+    const Mechanism m = from_text(scene);
     const Equations e = recursive(m);
     CHECK(agree({lagrange(m), e}, m).verdict == Agreement::Verdict::proved);
     const Program expected = lower(m, lagrange(m), energy_of(m));
@@ -290,6 +281,24 @@ TEST_CASE(
             for (std::size_t i = 0; i < a.size(); ++i) CHECK(std::abs(a[i] - b[i]) < 1e-14L * largest);
         }
     }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "recursive: a branched planar mechanism with a cart, a slider and frames turned against N accelerates as by "
+    "Lagrange, exactly") {
+    check_exactly(from_text(absolute_frames));
+}
+
+TEST_CASE(
+    "recursive: oblique, universal, cylindrical and sliding joints and a prescribed turn accelerate as by "
+    "Lagrange") {
+    check_in_long_double(oblique);
+}
+
+TEST_CASE("recursive: every form follows points on curves and positions at sines and cosines as Lagrange does") {
+    check_in_long_double(test::on_curves);
 }
 
 TEST_CASE("recursive: chains and trees accelerate as by Lagrange, exactly") {
@@ -434,8 +443,8 @@ TEST_CASE("recursive: scenes that are no tree of joints are refused, and the mes
         }
         return "";
     };
-    CHECK(reason("scenes/textbook/double_pendulum.toml")
-              .find("is on a point shifted by 'l1*sin(theta1)', which is not linear") != std::string::npos);
+    CHECK(reason("scenes/textbook/rising_plane.toml")
+              .find("is on a point shifted by 'r*cos(omega*t)', which is not linear") != std::string::npos);
 }
 
 TEST_CASE(

@@ -11,6 +11,7 @@
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
 #include "formalism/recursive.hpp"
+#include "link_scenes.hpp"
 #include "lower/choose.hpp"
 #include "lower/perturbed_tree.hpp"
 #include "program/differentiate.hpp"
@@ -268,8 +269,8 @@ vector = ["-0.1*c'", "k*f1", 0.3]
 )toml";
 
 TEST_CASE("derivatives: those of the articulated bodies of a tree are dual numbers' along any axes") {
-    for (const std::string& text :
-         {branching_tree(9, true), branching_tree(8, false), chain(5), std::string(floating_tree)}) {
+    for (const std::string& text : {branching_tree(9, true), branching_tree(8, false), chain(5),
+                                    std::string(floating_tree), std::string(test::on_curves)}) {
         const Mechanism m = prepared(parse_scene(text, "tree.toml")).mechanism;
         const Equations equations = formalism("recursive").derive(m);
         const Program program = choose(m, equations).program;

@@ -61,6 +61,8 @@ TEST_CASE("inverse: the loads are M q'' - f, with speeds, constraints, quaternio
     for (const char* name : {"six_joint_arm", "four_bar_joints", "rssr", "gimballed_gyroscope",
                              "universal_double_pendulum", "furuta_joints"})
         files.push_back(test::source_path(std::string("scenes/gallery/") + name + ".toml"));
+    for (const char* name : {"definitions", "geometry_in_definitions"})  // no trees
+        files.push_back(test::source_path(std::string("tests/odd/") + name + ".toml"));
     const unsigned seed = 20261121;
     CAPTURE(seed);
     std::mt19937_64 random(seed);

@@ -6,12 +6,12 @@
 ///     const BodyTree<double> tree = regrouped(bare_tree);
 ///     tree.outward_to_parent(tree.links[2], v);                 // along the axes of its parent
 ///
-/// A joint has one rate w: it turns about the z axis of its link, or shifts along `slide`. A joint with more
-/// freedom becomes several joints, with massless links between them. All vectors are physical vectors, and
-/// accelerations are those of points. Therefore components may be taken along any axes: along axes that turn with
-/// the link or, in a chain of parallel axes, along axes that do not turn (`still`). In the latter case a
-/// transformation is only a shift, and the chain's angles add up. The gravity field is an acceleration −g of the
-/// ground.
+/// A joint has one rate w: it turns about the z axis of its link, or shifts along `slide`, on a line or on a
+/// curve. A joint with more freedom becomes several joints, with massless links between them. All vectors are
+/// physical vectors, and accelerations are those of points. Therefore components may be taken along any axes:
+/// along axes that turn with the link or, in a chain of parallel axes, along axes that do not turn (`still`). In
+/// the latter case a transformation is only a shift, and the chain's angles add up. The gravity field is an
+/// acceleration −g of the ground.
 ///
 /// A body is described by its mass m, first moment h = m c and second moments P = ∫ r rᵀ dm about the link's
 /// origin. A shift by r changes h to h + m r and P to P + r kᵀ + k rᵀ, with k = h + m r/2.
@@ -39,7 +39,7 @@ struct TreeLink {
     Matrix<S> R{Triple<S>{S(1), S(0), S(0)}, Triple<S>{S(0), S(1), S(0)}, Triple<S>{S(0), S(0), S(1)}};
     Triple<S> p = no_vector<S>();  ///< R, p: the link's axes and origin in the parent's own axes when the joint is
                                    ///< at 0; constant
-    Triple<S> slide = no_vector<S>();  ///< the direction of a sliding link, in its own axes; constant
+    Triple<S> slide = no_vector<S>();  ///< the direction of a sliding link, in its own axes; constant on a line
     bool has_rotor = false;
     S rotor = S(0);       ///< the inertia about or along the joint of what moves with w alone; a motor
     RigidBody<S> body{};  ///< along the link's own axes; constant
@@ -49,8 +49,11 @@ struct TreeLink {
       sine = S(0);                ///< of the joint's angle, or of the sum of angles if `still`
     S shift = S(0), rate = S(0);  ///< displacement of the joint, in units of `slide`; w
     S drift = S(0);               ///< w' at q'' = 0
-    bool still = false;           ///< whether components are along axes that do not turn with the link,
-    bool continues = false;       ///< … and whether these axes are also the parent's
+    /// Of a link that slides along a curve, in its own axes: its displacement, whose derivative is `slide`, and
+    /// the second time derivative of the displacement at w' = 0.
+    Triple<S> way = no_vector<S>(), bend = no_vector<S>();
+    bool still = false;      ///< whether components are along axes that do not turn with the link,
+    bool continues = false;  ///< … and whether these axes are also the parent's
     /// Whether w counts from the ground, so that neighbours exchange nothing about turns about z.
     bool absolute = false;
 };
@@ -95,7 +98,7 @@ struct BodyTree {
     }
     /// The vector from the parent's origin to the link's, along the parent's axes.
     Triple<S> arm(const TreeLink<S>& link) const {
-        const Triple<S> r = link.slides ? link.p + link.R * (link.shift * link.slide) : link.p;
+        const Triple<S> r = link.slides ? link.p + link.R * (link.shift * link.slide + link.way) : link.p;
         return parent_is_still(link) ? turned_about_z(links[link.parent].cosine, links[link.parent].sine, r) : r;
     }
     /// Converts components along the link's own axes to components along the axes that are used for it.

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "formalism/ball_joint.hpp"
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
+#include "model/links.hpp"
 #include "model/parameter_values.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
@@ -44,9 +46,15 @@ struct Seat {
     NamedVector at{0, 0, 0};
 };
 
+/// Whether points may move along curves, or along lines only.
+enum class Curves { allowed, refused };
+
 class Finder {
 public:
-    explicit Finder(const Mechanism& m) : m_(m), z_(*m.z) { tree_.coordinates = m.size(); }
+    Finder(const Mechanism& m, const Skeleton& skeleton, Curves curves)
+        : m_(m), skeleton_(skeleton), curves_(curves), z_(*m.z) {
+        tree_.coordinates = m.size();
+    }
 
     Possible<JointTree> find() {
         for (int k = 0; k < 3; ++k) tree_.gravity[k] = named(m_.gravity[k]);
@@ -118,13 +126,13 @@ private:
     };
     const Fixed& fixed(int f) {
         if (const auto found = fixed_.find(f); found != fixed_.end()) return found->second;
-        const Skeleton::Turn& turn_step = m_.skeleton.frames[f];
+        const Skeleton::Turn& turn_step = skeleton_.frames[f];
         if (f == 0 || turn_step.by_quaternion || moves(turn_step.angle)) return fixed_[f] = {f, unity()};
         const Fixed above = fixed(turn_step.parent);
         return fixed_[f] = {above.frame, above.R * turn(turn_step.axis, turn_step.angle)};
     }
     /// The next moving frame above.
-    int above(int frame) { return fixed(m_.skeleton.frames[frame].parent).frame; }
+    int above(int frame) { return fixed(skeleton_.frames[frame].parent).frame; }
 
     std::vector<int> ancestors(int frame) {
         std::vector<int> list{frame};
@@ -255,7 +263,7 @@ private:
         };
         const std::vector<int> up = ancestors(from), down = ancestors(to);
         const auto common = std::find_first_of(up.begin(), up.end(), down.begin(), down.end());
-        const auto step = [&](int frame) -> const Skeleton::Turn& { return m_.skeleton.frames[frame]; };
+        const auto step = [&](int frame) -> const Skeleton::Turn& { return skeleton_.frames[frame]; };
         const auto by_quaternion = [&](int frame) { return step(frame).by_quaternion; };
         const auto last = std::find(down.begin(), down.end(), *common);
         if (std::any_of(up.begin(), common, by_quaternion) || std::any_of(down.begin(), last, by_quaternion)) {
@@ -265,13 +273,16 @@ private:
                 label_));
             return seat;
         }
+        // Where both last turns begin in one fixed frame, its constant rotation is undone and done again.
+        const bool meet = common != up.begin() && last != down.begin() &&
+                          step(*std::prev(common)).parent == step(*std::prev(last)).parent;
         for (auto f = up.begin(); f != common; ++f) {
             push({step(*f).axis, -step(*f).angle, std::nullopt});
-            push({{}, 0, transposed(fixed(step(*f).parent).R)});
+            if (!meet || std::next(f) != common) push({{}, 0, transposed(fixed(step(*f).parent).R)});
         }
         for (auto f = last; f != down.begin();) {
             --f;
-            push({{}, 0, fixed(step(*f).parent).R});
+            if (!meet || std::next(f) != last) push({{}, 0, fixed(step(*f).parent).R});
             push({step(*f).axis, step(*f).angle, std::nullopt});
         }
         Rotation3 R = unity();
@@ -287,11 +298,45 @@ private:
         return seat;
     }
 
+    /// Moves the seat by a step that is not linear in the coordinates, with a joint for each of these; false if
+    /// time moves it, too. `R` converts to the axes of the seat.
+    bool add_curve(const Vector3& offset, Seat& seat, const Rotation3& R) {
+        const std::vector<ex> step{z_.name(offset[0]), z_.name(offset[1]), z_.name(offset[2])};
+        for (const ex& rate : m_.explicit_time_derivative(step))
+            if (!rate.is_zero()) return false;
+        const auto into_link = [&](const std::vector<ex>& v) {
+            return seat.to_link * (R * NamedVector{named(v[0]), named(v[1]), named(v[2])});
+        };
+        const NamedVector bend = into_link(m_.time_derivative_without_acceleration(m_.time_derivative(step)));
+        NamedVector way = into_link(step);
+        for (int i = 0; i < m_.size(); ++i) {
+            if (!z_.depends(step[0], {m_.q[i]}) && !z_.depends(step[1], {m_.q[i]}) &&
+                !z_.depends(step[2], {m_.q[i]}))
+                continue;
+            TreeJoint joint;
+            joint.link.parent = seat.link;
+            joint.link.slides = true;
+            joint.link.p = seat.at;
+            joint.link.slide = into_link(z_.push_forward(step, {{m_.q[i], 1}}));
+            joint.link.way = way;
+            joint.parallel = seat.link >= 0;
+            joint.position = joint.drift = 0;
+            joint.rate = m_.qdot[i];
+            joint.row.assign(static_cast<std::size_t>(m_.size()), 0);
+            joint.row[static_cast<std::size_t>(i)] = 1;
+            tree_.joints.push_back(std::move(joint));
+            seat.link = static_cast<int>(tree_.joints.size()) - 1;
+            seat.at = way = {0, 0, 0};
+        }
+        tree_.joints.back().link.bend = bend;
+        return true;
+    }
+
     /// The seat of a point, from the step that leads to it, and the moving frame along whose axes that step is
     /// given.
     std::pair<int, Seat> own_seat(int point) {
         if (point == 0) return {0, Seat{}};
-        const Skeleton::Step& step = m_.skeleton.points[point];
+        const Skeleton::Step& step = skeleton_.points[point];
         const Fixed along = fixed(step.frame);
         if (const auto found = seats_.find({along.frame, point}); found != seats_.end())
             return {along.frame, found->second};
@@ -309,6 +354,10 @@ private:
                 if (!is_moved[k] || !rest[k].has(m_.q[i])) continue;
                 const ex slope = rest[k].diff(m_.q[i]);
                 if (moves(slope)) {
+                    if (curves_ == Curves::allowed && add_curve(step.offset, seat, along.R)) {
+                        seats_[{along.frame, point}] = seat;
+                        return {along.frame, seat};
+                    }
                     refuse(say(
                         "{} is on a point shifted by '{}', which is not linear in the coordinates; place it by "
                         "frames or joints, or use the formalism 'lagrange' or 'kane'",
@@ -357,7 +406,7 @@ private:
         Seat result;
         if (std::find(line.begin(), line.end(), own) != line.end()) {
             const int before = above(frame);
-            const Skeleton::Turn& step = m_.skeleton.frames[frame];
+            const Skeleton::Turn& step = skeleton_.frames[frame];
             result = turned(seat_of(before, point), fixed(step.parent).R, step);
         } else {
             result = turned_across(seat, own, frame);
@@ -368,7 +417,17 @@ private:
     void add(const MassElement& body) {
         const Fixed along = fixed(body.rotation ? body.frame : 0);
         const Seat seat = body.rotation ? seat_of(along.frame, body.point) : own_seat(body.point).second;
-        if (seat.link < 0) return;  // fixed to the ground
+        if (seat.link < 0) {
+            tree_.findings.at_rest.push_back(body.origin.name);
+            return;
+        }
+        const auto at_same_point = [&](const Seat& other) {
+            return other.link == seat.link && other.at[0].e.is_equal(seat.at[0].e) &&
+                   other.at[1].e.is_equal(seat.at[1].e) && other.at[2].e.is_equal(seat.at[2].e);
+        };
+        if (std::any_of(of_masses_.begin(), of_masses_.end(), at_same_point))
+            tree_.findings.merged.push_back(body.origin.name);
+        of_masses_.push_back(seat);
         RigidBody<Named> added;
         const Named m = named(body.mass);
         if (body.rotation) {
@@ -401,6 +460,8 @@ private:
     }
 
     const Mechanism& m_;
+    const Skeleton& skeleton_;
+    const Curves curves_;
     Intermediates& z_;
     const std::vector<GiNaC::symbol> moving_ = m_.moving();
     JointTree tree_;
@@ -408,12 +469,27 @@ private:
     std::optional<Obstacle> obstacle_;
     std::map<int, Fixed> fixed_;
     std::map<std::pair<int, int>, Seat> seats_;
+    std::vector<Seat> of_masses_;
 };
 
 }  // namespace
 
 Possible<JointTree> joint_tree(const Mechanism& m) {
-    return Finder(m).find();
+    Possible<JointTree> best = Finder(m, m.skeleton, Curves::refused).find();
+    const auto joints = [](const Possible<JointTree>& tree) {
+        return tree.exists() ? static_cast<int>(tree.value().joints.size()) : std::numeric_limits<int>::max();
+    };
+    for (const TurningFrames turns : {TurningFrames::found, TurningFrames::none}) {
+        if (joints(best) <= m.size()) break;
+        const std::optional<Skeleton> skeleton = with_links(m, turns);
+        if (!skeleton) break;
+        Possible<JointTree> other = Finder(m, *skeleton, Curves::allowed).find();
+        if (joints(other) >= joints(best)) continue;
+        JointTree tree = std::move(other).value();
+        tree.findings.in_positions = true;
+        best = std::move(tree);
+    }
+    return best;
 }
 
 }  // namespace alembert

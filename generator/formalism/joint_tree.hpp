@@ -7,11 +7,13 @@
 ///     const BodyTree<Named> still = dressed<Named>(tree, LinkAxes::still, value);
 ///
 /// A link consists of everything that is fixed to a turning frame or to a shifted point. Each turn with a variable
-/// angle and each coordinate in an offset is a joint. The rates of joints are w = S q' + w₀ with rational S: a
-/// frame whose angle θ₂ counts from N, on a body that turns by θ₁, has w = θ₂' − θ₁'. In a chain of parallel axes
-/// that begins at the ground, angles and rates relative to the ground may be used instead (`LinkAxes::still`),
-/// except where rotors turn with joints. A turn by a quaternion is three joints, whose rates S does not give
-/// (ball_joint.hpp).
+/// angle and each coordinate in an offset is a joint. Where the scene's frames and points make no tree,
+/// or one with more joints than coordinates, the links that stand in positions are taken (model/links.hpp), if
+/// these are fewer; there a point may slide along a curve. The rates of joints are w = S q' + w₀ with rational S:
+/// a frame whose angle θ₂ counts from N, on a body that turns by θ₁, has w = θ₂' − θ₁'. In a chain of parallel
+/// axes that begins at the ground, angles and rates relative to the ground may be used instead
+/// (`LinkAxes::still`), except where rotors turn with joints. A turn by a quaternion is three joints, whose rates
+/// S does not give (ball_joint.hpp).
 
 #include <functional>
 
@@ -32,12 +34,20 @@ struct TreeJoint {
     bool parallel = false;            ///< whether its axes differ from those of the parent by a turn about z only
 };
 
+/// What a scene does not say, but shows.
+struct TreeFindings {
+    bool in_positions = false;  ///< whether joints come from positions of masses alone (model/links.hpp)
+    std::vector<std::string> merged = {};   ///< masses at the point of another one, with which they count
+    std::vector<std::string> at_rest = {};  ///< masses that never move, which are left out
+};
+
 struct JointTree {
     std::vector<TreeJoint> joints;
     Triple<Named> gravity;
     int coordinates = 0;
     std::vector<BallJoint> balls = {};
     std::vector<Rotor> rotors = {};
+    TreeFindings findings = {};
     std::vector<GiNaC::ex> forces =
         {};  ///< generalized forces without gravity and inertia, if the formalism has set them
 };
@@ -62,6 +72,9 @@ bool has_parallel_axes(const JointTree& tree);
 /// Is the whole tree such a chain, each link attached to the one before (planar_chain.hpp)?
 bool is_planar_chain(const JointTree& tree);
 
+/// Do all links move in parallel planes that are not those of x and y?
+bool is_planar_in_space(const JointTree& tree);
+
 /// The tree over another scalar; `value` converts an expression to it.
 template <typename S>
 BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
@@ -79,7 +92,9 @@ BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
                          .slides = l.slides,
                          .of_ball = l.of_ball,
                          .p = vector(l.p),
-                         .slide = vector(l.slide)};
+                         .slide = vector(l.slide),
+                         .way = vector(l.way),
+                         .bend = vector(l.bend)};
         for (int i = 0; i < 3; ++i) link.R[i] = vector(l.R[i]);
         link.has_rotor = !joint.rotor.is_zero();
         if (link.has_rotor) link.rotor = value(joint.rotor);

@@ -63,6 +63,29 @@ bool is_planar_chain(const JointTree& tree) {
     return how.size() > 1;
 }
 
+bool is_planar_in_space(const JointTree& tree) {
+    std::optional<int> normal;  // x or y, along the ground's axes
+    std::vector<char> turns(tree.joints.size(), 0);
+    for (std::size_t j = 0; j < tree.joints.size(); ++j) {
+        const TreeLink<Named>& link = tree.joints[j].link;
+        const bool on_ground = link.parent < 0 || turns[static_cast<std::size_t>(link.parent)] == 0;
+        turns[j] = link.slides && on_ground ? 0 : 1;
+        if (link.slides) continue;
+        const int first = on_ground ? 0 : 2, last = on_ground ? 1 : 2;
+        int along = -1;
+        for (int k = first; k <= last; ++k)
+            if (link.R[k][2].e.is_equal(1) || link.R[k][2].e.is_equal(-1)) along = k;
+        if (along < 0 || (on_ground && normal && *normal != along)) return false;
+        if (on_ground) normal = along;
+    }
+    if (!normal) return false;
+    for (std::size_t j = 0; j < tree.joints.size(); ++j)
+        if (const TreeLink<Named>& link = tree.joints[j].link;
+            link.slides && !link.slide[turns[j] != 0 ? 2 : *normal].e.is_zero())
+            return false;
+    return true;
+}
+
 std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes) {
     const std::vector<Dress> how = dress(tree, axes);
     std::vector<std::vector<GiNaC::numeric>> rows;

@@ -43,7 +43,7 @@ LinkMotion<S> motion_of(const BodyTree<S>& tree, const TreeLink<S>& link, const 
     m.a = tree.from_parent(link, m.a);
     if (link.slides) {
         const Triple<S> s = tree.direction(link), ws = link.rate * s;
-        m.a = m.a + cross(m.w + m.w, ws) + link.drift * s;
+        m.a = m.a + cross(m.w + m.w, ws) + link.drift * s + tree.along_axes(link, link.bend);
     } else if (link.absolute) {
         m.w[2] = link.rate;
         m.e[2] = link.drift;

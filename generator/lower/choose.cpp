@@ -161,7 +161,7 @@ namespace {
 /// A form after lowering.
 struct Candidate {
     Program program;
-    bool is_recursion = false;
+    std::shared_ptr<const JointTree> tree = {};  ///< of a recursion
 };
 
 /// Lowers each form that these equations can take.
@@ -204,7 +204,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
             LowerOptions by = options;
             by.recursion = form;
             try {
-                programs.push_back({lower(m, recursive, energy, by), true});
+                programs.push_back({lower(m, recursive, energy, by), equations.tree});
             } catch (const std::domain_error&) {
                 // If a joint has no inertia, a recursion divides by zero. The forms with a matrix report which
                 // rates these are.
@@ -217,7 +217,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
 }
 
 /// Rewrites the programs that may still win, and the second best, which is reported.
-std::vector<Program> contenders(std::vector<Candidate> candidates) {
+std::vector<Candidate> contenders(std::vector<Candidate> candidates) {
     std::vector<double> times;
     double best = std::numeric_limits<double>::infinity();
     for (const Candidate& c : candidates) {
@@ -227,13 +227,13 @@ std::vector<Program> contenders(std::vector<Candidate> candidates) {
     std::vector<double> sorted = times;
     std::sort(sorted.begin(), sorted.end());
     const double second = sorted[std::min<std::size_t>(1, sorted.size() - 1)];
-    std::vector<Program> programs;
+    std::vector<Candidate> programs;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         Candidate& c = candidates[k];
         const double least = times[k] * least_after / (c.program.is_textbook ? readability : 1);
         if (c.program.singular || least <= best || times[k] <= second)
             programs.push_back(
-                with_simple_constants(shared(c.is_recursion ? flattened(c.program) : std::move(c.program))));
+                {with_simple_constants(shared(c.tree ? flattened(c.program) : std::move(c.program))), c.tree});
     }
     return programs;
 }
@@ -245,19 +245,22 @@ Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equation
     const Mechanism m = in_terms_of(energy, mechanism);
     std::vector<Candidate> candidates;
     for (const Equations& e : equations) add_forms(candidates, m, e, energy, options);
-    std::vector<Program> programs = contenders(std::move(candidates));
+    std::vector<Candidate> programs = contenders(std::move(candidates));
     std::vector<Cost> costs;
-    for (const Program& program : programs) costs.push_back(cost_of(program));
+    for (const Candidate& candidate : programs) costs.push_back(cost_of(candidate.program));
     std::vector<std::size_t> order(programs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto rank = [&](std::size_t k) {
-        const bool readable = programs[k].is_textbook;  // equally good, and easier to read
-        return std::make_pair(programs[k].singular && !readable, costs[k].time() * (readable ? 1 : readability));
+        const bool readable = programs[k].program.is_textbook;  // equally good, and easier to read
+        return std::make_pair(programs[k].program.singular && !readable,
+                              costs[k].time() * (readable ? 1 : readability));
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-    Choice choice{
-        .program = without_swallowed_constants(programs[order[0]]), .cost = costs[order[0]], .runner_up = {}};
-    if (order.size() > 1) choice.runner_up = RunnerUp{programs[order[1]].formulation, costs[order[1]]};
+    Choice choice{.program = without_swallowed_constants(programs[order[0]].program),
+                  .cost = costs[order[0]],
+                  .runner_up = {},
+                  .tree = programs[order[0]].tree};
+    if (order.size() > 1) choice.runner_up = RunnerUp{programs[order[1]].program.formulation, costs[order[1]]};
     return choice;
 }
 

@@ -13,6 +13,7 @@
 /// dependent ones decide. Another form must be a tenth faster than the textbook form, because that one can be
 /// read.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,8 @@ struct RunnerUp {
 struct Choice {
     Program program;  ///< its `formulation` names the form
     Cost cost = {};
-    std::optional<RunnerUp> runner_up;  ///< the second best
+    std::optional<RunnerUp> runner_up;           ///< the second best
+    std::shared_ptr<const JointTree> tree = {};  ///< the one from which the program is made; null if from none
 };
 
 Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equations,

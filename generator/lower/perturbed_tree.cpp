@@ -81,6 +81,7 @@ private:
             l.cosine = held(l.cosine);
             l.sine = held(l.sine);
             l.shift = held(l.shift);
+            l.way = held(l.way);
         }
         for (std::size_t j = 0; j < still_.links.size(); ++j) {
             Articulated<Symbolic>& I = bodies_->I[j];
