@@ -100,7 +100,7 @@ void outputs_at(const Real&, const Real*, const Real*, const Real*, Real* out) {
     out[0] = Real(0);
 }
 
-// What the runtime loads (alembert/abi.hpp).
+// What the runtime loads (alembert/native/abi.hpp).
 
 struct alembert_solver_table {
     int abi;

@@ -198,7 +198,7 @@ void gamma_at(const Real&, const Real* state, const Real*, Real* out) {
     out[0] = gamma0;
 }
 
-// What the runtime loads (alembert/abi.hpp).
+// What the runtime loads (alembert/native/abi.hpp).
 
 struct alembert_solver_table {
     int abi;

@@ -146,7 +146,7 @@ void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Re
     out[0] = loss;
 }
 
-// What the runtime loads (alembert/abi.hpp).
+// What the runtime loads (alembert/native/abi.hpp).
 
 struct alembert_solver_table {
     int abi;

@@ -412,7 +412,7 @@ void project(const Real&, const Real* state, const Real*, Real* out, Real* posit
     pivots[0] = Real(4) * z0;
 }
 
-// What the runtime loads (alembert/abi.hpp).
+// What the runtime loads (alembert/native/abi.hpp).
 
 struct alembert_solver_table {
     int abi;

@@ -132,7 +132,7 @@ void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* 
     out[0] = speed;
 }
 
-// What the runtime loads (alembert/abi.hpp).
+// What the runtime loads (alembert/native/abi.hpp).
 
 struct alembert_solver_table {
     int abi;

@@ -132,7 +132,7 @@ void energy(const Real&, const Real* state, const Real*, const Real* par, Real* 
     jacobi[0] = E;
 }
 
-// What the runtime loads (alembert/abi.hpp).
+// What the runtime loads (alembert/native/abi.hpp).
 
 struct alembert_solver_table {
     int abi;

@@ -127,7 +127,7 @@ void energy(const Real& t, const Real* state, const Real* rate, const Real* par,
     jacobi[0] = h;
 }
 
-// What the runtime loads (alembert/abi.hpp).
+// What the runtime loads (alembert/native/abi.hpp).
 
 struct alembert_solver_table {
     int abi;

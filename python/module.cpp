@@ -10,8 +10,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "alembert/compile.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/compile.hpp"
 #include "archive/file_form.hpp"
 #include "language/libraries.hpp"
 #include "report/derivation.hpp"

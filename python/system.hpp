@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/module.hpp"
+#include "alembert/native/module.hpp"
 
 namespace alembert {
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 #include "commands/import.hpp"
 #include "commands/verb.hpp"
 #include "linear/about.hpp"

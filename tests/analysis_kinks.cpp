@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "formalism/formalisms.hpp"
 #include "linear/linearize.hpp"
 #include "lower/start.hpp"

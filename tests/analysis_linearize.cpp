@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "digits.hpp"
 #include "formalism/formalisms.hpp"
 #include "linear/linearize.hpp"

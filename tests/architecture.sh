@@ -19,7 +19,7 @@ mapfile -t scene < <(files generator/scene)
 mapfile -t graph < <(files generator/program generator/emit generator/machine)
 mapfile -t generator < <(files generator | grep -v -e '^generator/commands' -e '^generator/main.cpp')
 mapfile -t not_reader < <(files lib generator | grep -v '^generator/scene/')
-mapfile -t not_module < <(files lib generator | grep -v '^lib/alembert/module.cpp')
+mapfile -t not_module < <(files lib generator | grep -v '^lib/alembert/native/module.cpp')
 
 # The rooms of generator/rooms.txt: each includes only itself, what stands before it, and the runtime.
 mapfile -t rooms < <(sed -e '/^#/d' -e '/^$/d' -e 's/ .*//' generator/rooms.txt)
@@ -49,7 +49,7 @@ mapfile -t not_urdf < <(files lib generator | grep -v '^generator/urdf/')
 forbid 'urdfdom outside its reader' '#include.*(urdf_|tinyxml|console_bridge)' "${not_urdf[@]}"
 mapfile -t not_server < <(files lib generator | grep -v '^generator/commands/page_server.cpp')
 forbid 'cpp-httplib outside the server of pages' '#include.*httplib' "${not_server[@]}"
-mapfile -t not_executable < <(files lib generator | grep -v '^lib/alembert/executable.cpp')
+mapfile -t not_executable < <(files lib generator | grep -v '^lib/alembert/native/executable.cpp')
 forbid 'dlfcn outside the module' '#include <dlfcn' "${not_module[@]}"
 forbid 'memory that can be run outside its one file' 'PROT_EXEC' "${not_executable[@]}"
 forbid 'the emitted code includes something' '^ *#include' templates/solver.cpp.mustache generated/*.cpp
@@ -66,8 +66,8 @@ types=$(find lib generator -name '*.hpp' -exec sed -nE \
 # The emitted file's copy of the ABI's structs, word for word.
 words() { sed -n "/^struct $1 {/,/^};/p" "$2" | sed 's|///.*||' | tr -s ' \n' ' '; }
 for struct in alembert_solver_table alembert_pack_table alembert_projection_table; do
-    [ "$(words $struct lib/alembert/abi.hpp)" = "$(words $struct templates/solver.cpp.mustache)" ] ||
-        { echo "templates/solver.cpp.mustache and lib/alembert/abi.hpp disagree about $struct"; failed=1; }
+    [ "$(words $struct lib/alembert/native/abi.hpp)" = "$(words $struct templates/solver.cpp.mustache)" ] ||
+        { echo "templates/solver.cpp.mustache and lib/alembert/native/abi.hpp disagree about $struct"; failed=1; }
 done
 missing=$(files lib generator tests | xargs grep -L 'SPDX-License-Identifier')
 [ -z "$missing" ] || { printf 'no licence line in:\n%s\n' "$missing"; failed=1; }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "checked.hpp"
 #include "derive/derive.hpp"
 #include "notation/text.hpp"

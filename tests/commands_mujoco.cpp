@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "redundant_plate.hpp"

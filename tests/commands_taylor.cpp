@@ -10,7 +10,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "alembert/series_length.hpp"
+#include "alembert/ode/series_length.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"

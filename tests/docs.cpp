@@ -11,8 +11,8 @@
 #include <set>
 #include <sstream>
 
-#include "alembert/error.hpp"
-#include "alembert/integrate.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "files.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/keys.hpp"

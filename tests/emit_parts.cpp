@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/compile.hpp"
-#include "alembert/module.hpp"
-#include "alembert/packs.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/module.hpp"
 #include "emit/emit.hpp"
 #include "emit/parts.hpp"
 #include "formalism/formalisms.hpp"

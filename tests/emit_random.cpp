@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "emit/emit.hpp"
 #include "emit/taylor.hpp"
 #include "formalism/elements.hpp"

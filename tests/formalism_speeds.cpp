@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "agree/agree.hpp"
-#include "alembert/compile.hpp"
-#include "alembert/rhs.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/ode/rhs.hpp"
 #include "derive/derivation.hpp"
 #include "emit/emit.hpp"
 #include "formalism/cancel.hpp"

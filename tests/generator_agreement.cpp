@@ -3,8 +3,8 @@
 // of L without any intermediate symbol are one and the same.
 #include <doctest/doctest.h>
 
-#include "alembert/compile.hpp"
-#include "alembert/rhs.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/ode/rhs.hpp"
 #include "emit/emit.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/routh.hpp"

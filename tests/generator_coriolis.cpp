@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "dual.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/schiehlen.hpp"

@@ -4,9 +4,9 @@
 
 #include <map>
 
-#include "alembert/compile.hpp"
-#include "alembert/error.hpp"
-#include "alembert/rhs.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/ode/rhs.hpp"
 #include "dual.hpp"
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"

@@ -3,9 +3,9 @@
 // depends on nothing but the member.
 #include <doctest/doctest.h>
 
-#include "alembert/compile.hpp"
-#include "alembert/drift.hpp"
-#include "alembert/ensemble.hpp"
+#include "alembert/batch/ensemble.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/ode/energy_error.hpp"
 #include "emit/emit.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <optional>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "by_python.hpp"
 #include "files.hpp"
 #include "fmu/unit.hpp"

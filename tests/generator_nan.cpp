@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "alembert/compile.hpp"
-#include "alembert/module.hpp"
-#include "alembert/packs.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/module.hpp"
 #include "emit/emit.hpp"
 #include "formalism/lagrange.hpp"
 #include "lower/choose.hpp"

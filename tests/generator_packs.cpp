@@ -8,9 +8,9 @@
 #include <bit>
 #include <limits>
 
-#include "alembert/compile.hpp"
-#include "alembert/dense.hpp"
-#include "alembert/packs.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/compile.hpp"
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"

@@ -7,9 +7,9 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "alembert/compile.hpp"
-#include "alembert/dense.hpp"
-#include "alembert/project.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/ode/projection.hpp"
 #include "emit/emit.hpp"
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"

@@ -10,10 +10,10 @@
 #include <iterator>
 #include <random>
 
-#include "alembert/compile.hpp"
-#include "alembert/dense.hpp"
-#include "alembert/integrate.hpp"
-#include "alembert/project.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/ode/integrate.hpp"
+#include "alembert/ode/projection.hpp"
 #include "emit/emit.hpp"
 #include "formalism/kane.hpp"
 #include "lower/choose.hpp"

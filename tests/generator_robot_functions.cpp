@@ -8,9 +8,9 @@
 #include <map>
 #include <random>
 
-#include "alembert/compile.hpp"
-#include "alembert/error.hpp"
-#include "alembert/module.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/module.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/schiehlen.hpp"
 #include "lower/frame_functions.hpp"

@@ -11,9 +11,9 @@
 #include <limits>
 #include <random>
 
-#include "alembert/compile.hpp"
-#include "alembert/module.hpp"
-#include "alembert/packs.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/module.hpp"
 #include "emit/emit.hpp"
 
 namespace generator_sincos {

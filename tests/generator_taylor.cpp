@@ -10,10 +10,10 @@
 #include <functional>
 #include <numbers>
 
-#include "alembert/compile.hpp"
-#include "alembert/error.hpp"
-#include "alembert/series.hpp"
-#include "alembert/taylor.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/ode/series.hpp"
+#include "alembert/ode/taylor.hpp"
 #include "emit/taylor.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"

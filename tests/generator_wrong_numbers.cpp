@@ -10,7 +10,7 @@
 #include <functional>
 #include <tuple>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "by_python.hpp"
 #include "equilibrium/equilibria.hpp"
 #include "fmu/unit.hpp"

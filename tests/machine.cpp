@@ -9,8 +9,8 @@
 #include <random>
 #include <set>
 
-#include "alembert/code_functions.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/simd_math.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
 #include "machine/encoder.hpp"

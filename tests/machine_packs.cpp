@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "alembert/packs.hpp"
+#include "alembert/batch/packs.hpp"
 #include "machine/encoder.hpp"
 #include "machine/memory_solver.hpp"
 #include "machine_values.hpp"

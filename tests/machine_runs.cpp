@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "run/simulate.hpp"
 #include "scenes.hpp"
 

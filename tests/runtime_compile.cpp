@@ -16,12 +16,12 @@
 #include <string>
 #include <vector>
 
-#include "alembert/compile.hpp"
-#include "alembert/error.hpp"
-#include "alembert/fingerprint.hpp"
-#include "alembert/integrate.hpp"
-#include "alembert/module.hpp"
-#include "alembert/process.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/fingerprint.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/native/process.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "tools.hpp"
 
 namespace runtime_compile {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/impact.hpp"
-#include "alembert/phases.hpp"
+#include "alembert/hybrid/hybrid_motion.hpp"
+#include "alembert/hybrid/impact.hpp"
 #include "solved.hpp"
 
 namespace runtime_contact {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace runtime_events {
 

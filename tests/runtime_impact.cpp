@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "alembert/impact.hpp"
+#include "alembert/hybrid/impact.hpp"
 
 namespace runtime_impact {
 

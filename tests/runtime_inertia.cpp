@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "alembert/inertia.hpp"
+#include "alembert/base/inertia.hpp"
 
 namespace runtime_inertia {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "alembert/error.hpp"
-#include "alembert/integrate.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace runtime_integrate {
 

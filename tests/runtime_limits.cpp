@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "alembert/canonical.hpp"
-#include "alembert/integrate.hpp"
+#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace runtime_limits {
 

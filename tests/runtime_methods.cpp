@@ -7,11 +7,11 @@
 #include <numbers>
 #include <vector>
 
-#include "alembert/dop853.hpp"
-#include "alembert/integrate.hpp"
-#include "alembert/step.hpp"
-#include "alembert/tableau.hpp"
-#include "alembert/verner.hpp"
+#include "alembert/ode/dop853.hpp"
+#include "alembert/ode/explicit_rk.hpp"
+#include "alembert/ode/integrate.hpp"
+#include "alembert/ode/tableau.hpp"
+#include "alembert/ode/verner.hpp"
 #include "runtime_systems.hpp"
 
 namespace runtime_methods {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "alembert/canonical.hpp"
-#include "alembert/integrate.hpp"
+#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace runtime_rattle {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "runtime_systems.hpp"
 
 namespace runtime_regularized {

@@ -8,7 +8,7 @@
 #include <complex>
 #include <random>
 
-#include "alembert/rotation.hpp"
+#include "alembert/base/rotation.hpp"
 
 namespace runtime_rotation {
 

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "alembert/rough_choice.hpp"
+#include "alembert/hybrid/contact_modes.hpp"
 #include "solved.hpp"
 
 namespace runtime_rough_choices {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Impacts with dry friction against closed forms and against the laws that they have to obey.
-#include "alembert/rough_impact.hpp"
+#include "alembert/hybrid/impact_routh.hpp"
 
 #include <doctest/doctest.h>
 

@@ -10,9 +10,9 @@
 #include <random>
 #include <string>
 
-#include "alembert/rough_cones.hpp"
-#include "alembert/rough_impact.hpp"
-#include "alembert/rough_strike.hpp"
+#include "alembert/hybrid/contact_cones.hpp"
+#include "alembert/hybrid/impact_dispatch.hpp"
+#include "alembert/hybrid/impact_routh.hpp"
 #include "solved.hpp"
 
 namespace runtime_rough_together {

@@ -8,12 +8,12 @@
 #include <numbers>
 #include <vector>
 
-#include "alembert/abm.hpp"
-#include "alembert/dop853.hpp"
-#include "alembert/integrate.hpp"
-#include "alembert/radau.hpp"
-#include "alembert/shifted.hpp"
-#include "alembert/step.hpp"
+#include "alembert/ode/abm.hpp"
+#include "alembert/ode/dop853.hpp"
+#include "alembert/ode/explicit_rk.hpp"
+#include "alembert/ode/integrate.hpp"
+#include "alembert/ode/radau.hpp"
+#include "alembert/ode/shifted_linear_solver.hpp"
 #include "runtime_systems.hpp"
 #include "solved.hpp"
 

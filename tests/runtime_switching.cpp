@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Motions with signs in the right-hand side, against closed forms.
-#include "alembert/switching.hpp"
+#include "alembert/hybrid/filippov.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <random>
 
-#include "alembert/dense.hpp"
-#include "alembert/even_shares.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/hybrid/minimax_reactions.hpp"
 
 namespace runtime_switching {
 
@@ -20,8 +20,8 @@ constexpr double pi = 3.14159265358979323846;
 
 /// A system with one sign: f(y, σ), g(y), and ġ for given y'.
 template <typename F, typename G, typename Slope>
-Switching one_sign(int dimension, F f, G g, Slope slope) {
-    Switching system;
+FilippovSystem one_sign(int dimension, F f, G g, Slope slope) {
+    FilippovSystem system;
     system.names = {"sign(g)"};
     system.rates = [f](double, const double* y, const double* sigma, double* rate) { f(y, sigma[0], rate); };
     system.values = [g, slope](double, const double* y, const double*, const double* rate, double* out) {
@@ -35,7 +35,7 @@ Switching one_sign(int dimension, F f, G g, Slope slope) {
 }
 
 /// x'' = −ω² x − a sign x'.
-Switching rubbing(double w, double a) {
+FilippovSystem rubbing(double w, double a) {
     return one_sign(
         2,
         [w, a](const double* y, double s, double* rate) {
@@ -51,9 +51,9 @@ TEST_CASE("switching: amplitudes with dry friction fall by 2 a/w² in each half 
     const double w = 2, a = 1;
     for (const Method method : {Method::dopri5, Method::dop853, Method::verner98, Method::radau, Method::abm}) {
         CAPTURE(name(method));
-        Switching system = rubbing(w, a);
-        std::vector<SideChange> changes;
-        system.on_change = [&](const SideChange& change) { changes.push_back(change); };
+        FilippovSystem system = rubbing(w, a);
+        std::vector<ModeChange> changes;
+        system.on_change = [&](const ModeChange& change) { changes.push_back(change); };
         const double tolerance = method == Method::abm ? 1e-9 : 1e-11;
         const Trajectory motion =
             integrate(system, {2.3, 0}, {.method = method, .duration = 10, .tolerance = tolerance});
@@ -62,7 +62,7 @@ TEST_CASE("switching: amplitudes with dry friction fall by 2 a/w² in each half 
         CHECK(motion.final_state()[0] == doctest::Approx(0.2).epsilon(1e5 * tolerance));
         CHECK(std::abs(motion.final_state()[1]) < 1e-12);
         REQUIRE(changes.size() >= 5);
-        CHECK(changes.back().kind == SideChange::Kind::sliding);
+        CHECK(changes.back().kind == ModeChange::Kind::sliding);
         CHECK(changes.back().time == doctest::Approx(5 * pi / w).epsilon(1e5 * tolerance));
         CHECK(motion.statistics.evaluations < 200'000);
     }
@@ -72,15 +72,15 @@ TEST_CASE(
     "switching: a block faster than its belt reaches the belt's speed again at the time of the closed form") {
     // x'' = −x − sign(x' − 1) · 1/2 with the belt's speed 1, from rest at 0: it is accelerated by 1/2 until x'
     // = 1.
-    Switching system = one_sign(
+    FilippovSystem system = one_sign(
         2,
         [](const double* y, double s, double* rate) {
             rate[0] = y[1];
             rate[1] = -y[0] - s / 2;
         },
         [](const double* y) { return y[1] - 1; }, [](const double*, const double* rate) { return rate[1]; });
-    std::vector<SideChange> changes;
-    system.on_change = [&](const SideChange& change) { changes.push_back(change); };
+    std::vector<ModeChange> changes;
+    system.on_change = [&](const ModeChange& change) { changes.push_back(change); };
     const Trajectory motion =
         integrate(system, {-2, 1}, {.method = Method::dop853, .duration = 3, .tolerance = 1e-12});
     // At x = −2 the spring's 2 beats 1/2: it goes faster than the belt: (x + 1/2) = A cos + sin with A = −3/2.
@@ -92,7 +92,7 @@ TEST_CASE(
 }
 
 TEST_CASE("switching: in the potential |x| the period is 4 sqrt(2 x0)") {
-    Switching system = one_sign(
+    FilippovSystem system = one_sign(
         2,
         [](const double* y, double s, double* rate) {
             rate[0] = y[1];
@@ -115,7 +115,7 @@ TEST_CASE("switching: rows fall on the grid, as without signs") {
 }
 
 TEST_CASE("switching: a state from which two motions are possible is a failure with that message") {
-    Switching system = one_sign(
+    FilippovSystem system = one_sign(
         1, [](const double*, double s, double* rate) { rate[0] = s; }, [](const double* y) { return y[0]; },
         [](const double*, const double* rate) { return rate[0]; });
     const Trajectory motion = integrate(system, {0}, {.method = Method::dopri5, .duration = 1});
@@ -128,7 +128,7 @@ TEST_CASE("switching: a state from which two motions are possible is a failure w
 
 TEST_CASE("switching: two blocks that rub at once stick together and one by one") {
     // x₁'' = F₁ − sign x₁', x₂'' = F₂ − sign x₂', from rest: F₁ = 0.5 sticks, F₂ = 2 slips with acceleration 1.
-    Switching system;
+    FilippovSystem system;
     system.names = {"first", "second"};
     const auto f = [](double, const double* y, const double* s, double* rate) {
         rate[0] = y[2];

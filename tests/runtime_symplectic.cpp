@@ -9,9 +9,9 @@
 #include <numbers>
 #include <vector>
 
-#include "alembert/gauss.hpp"
-#include "alembert/integrate.hpp"
-#include "alembert/symplectic.hpp"
+#include "alembert/ode/gauss.hpp"
+#include "alembert/ode/integrate.hpp"
+#include "alembert/ode/symplectic.hpp"
 #include "runtime_systems.hpp"
 
 namespace runtime_symplectic {

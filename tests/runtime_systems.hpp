@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "alembert/rhs.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert::test {
 

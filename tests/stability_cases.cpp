@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "scenes.hpp"
 #include "stability/stability.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "scenes.hpp"
 #include "stability/exponents.hpp"
 #include "stability/locus.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 #include <unsupported/Eigen/KroneckerProduct>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "scenes.hpp"
 #include "stability/signs.hpp"
 #include "stability/stability.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "scenes.hpp"
 #include "stability/stability.hpp"
 

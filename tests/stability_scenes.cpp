@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "check/check.hpp"
 #include "scenes.hpp"
 #include "stability/locus.hpp"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "derive/derived.hpp"
 #include "lower/lower.hpp"
 #include "program/rounding.hpp"

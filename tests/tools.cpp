@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "alembert/process.hpp"
+#include "alembert/native/process.hpp"
 
 namespace alembert::test {
 

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "alembert/error.hpp"
-#include "alembert/module.hpp"
-#include "alembert/process.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/native/process.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

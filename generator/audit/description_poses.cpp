@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "audit/description_poses.hpp"
 
-#include "alembert/dense.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "formalism/lagrange.hpp"
 #include "lower/lower.hpp"
 

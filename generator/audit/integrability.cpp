@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "exact/null_fields.hpp"
 #include "exact/variety.hpp"
 #include "language/say.hpp"

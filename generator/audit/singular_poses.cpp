@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "alembert/dense.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {

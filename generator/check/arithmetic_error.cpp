@@ -4,7 +4,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

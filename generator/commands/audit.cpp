@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/audit.hpp"
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
 #include "language/say.hpp"

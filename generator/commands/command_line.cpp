@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/help.hpp"
 #include "commands/help_mistakes.hpp"
 #include "commands/language.hpp"

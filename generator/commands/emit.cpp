@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/show.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/catalogue.hpp"
 #include "language/say.hpp"
 

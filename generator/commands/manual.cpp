@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <fmt/ranges.h>
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/help.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Replaces page_server.cpp if the program is built without cpp-httplib.
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/page_server.hpp"
 #include "language/say.hpp"
 

@@ -16,8 +16,8 @@
 #include <string_view>
 #include <tuple>
 
-#include "alembert/error.hpp"
-#include "alembert/leftover.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/temporary_files.hpp"
 #include "commands/streams.hpp"
 #include "language/say.hpp"
 

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <thread>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "report/sha256.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/values.hpp"
 #include "language/say.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/show.hpp"

@@ -14,7 +14,7 @@
 #include <iostream>
 #include <tuple>
 
-#include "alembert/leftover.hpp"
+#include "alembert/native/temporary_files.hpp"
 #include "commands/terminal.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <utility>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"

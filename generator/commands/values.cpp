@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alembert/methods.hpp"
+#include "alembert/ode/methods.hpp"
 #include "formalism/formalisms.hpp"
 #include "language/say.hpp"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/verb.hpp"
 #include "language/say.hpp"
 #include "scene/units.hpp"

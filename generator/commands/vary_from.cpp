@@ -9,7 +9,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/vary.hpp"
 #include "commands/verb.hpp"
 #include "language/say.hpp"

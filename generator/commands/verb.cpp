@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "language/say.hpp"

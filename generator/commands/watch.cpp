@@ -9,7 +9,7 @@
 #include <thread>
 #include <tuple>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "commands/output.hpp"
 #include "commands/page_server.hpp"
 #include "commands/run_verb.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "alembert/dense.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "formalism/routh.hpp"
 #include "language/libraries.hpp"
 #include "language/say.hpp"
@@ -94,7 +94,7 @@ Program view_of(const Mechanism& mechanism) {
     return program.canonical();
 }
 
-constexpr double rate_at_rest = 1e-13;     // of rounding, as in lib/alembert/contact.cpp
+constexpr double rate_at_rest = 1e-13;     // of rounding, as in lib/alembert/hybrid/contact.cpp
 constexpr double negligible_slip = 1e-12;  // of a sliding velocity, relative to the sizes of its terms
 
 }  // namespace

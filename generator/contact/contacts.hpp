@@ -6,7 +6,7 @@
 ///     // the gap of contact 0 is a holonomic constraint now
 ///     const Mechanism lying = with_closed(mechanism, {0});
 ///     const ContactView view(mechanism);
-///     const Situation here = view.at(state);                    // alembert/contact.hpp
+///     const Situation here = view.at(state);                    // alembert/hybrid/contact.hpp
 ///     const Lasting mode = contacts_at_rest(view, state, 1e-9); // what eval shows
 ///
 /// `with_closed` makes each contact mode an ordinary mechanism, which is derived, lowered and emitted in the same
@@ -14,7 +14,7 @@
 
 #include <vector>
 
-#include "alembert/contact.hpp"
+#include "alembert/hybrid/contact.hpp"
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
 

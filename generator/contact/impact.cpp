@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "contact/impact_algebra.hpp"
 #include "formalism/routh.hpp"
 #include "language/say.hpp"

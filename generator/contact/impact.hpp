@@ -11,7 +11,7 @@
 /// With p = ∂L/∂q̇ the impulse equations are Δp = M (q'⁺ − q'⁻) = Q̂ + AᵀΛ + GᵀΠ (Zhang & Qin (1-62), with
 /// multipliers); coordinates and time do not change, and finite forces do not enter. Bilateral constraints hold
 /// after the impact; a constraint that the rates before break is imposed suddenly. A contact is closed if its gap
-/// is zero; it obeys Newton's law of restitution. alembert/impact.hpp describes the complete law, including
+/// is zero; it obeys Newton's law of restitution. alembert/hybrid/impact.hpp describes the complete law, including
 /// several of these at the same instant.
 ///
 /// As in claims with at = "impact", `x'` is the rate after the impact, `x'(-)` the rate before, and a multiplier
@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/impact.hpp"
+#include "alembert/hybrid/impact.hpp"
 #include "lower/start.hpp"
 #include "notation/readable.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "lower/lower.hpp"
 #include "state/assemble.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The values that the runtime needs where the impulses of events act (alembert/phases.hpp), evaluated by
-/// interpretation.
+/// The values that the runtime needs where the impulses of events act (alembert/hybrid/hybrid_motion.hpp),
+/// evaluated by interpretation.
 ///
 ///     const KickView view(mechanism);
 ///     view.impulse(0, state);                 // Q̂ of event 0, of the rates in `state`
@@ -13,7 +13,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "alembert/kick.hpp"
+#include "alembert/hybrid/impulsive_event.hpp"
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
 

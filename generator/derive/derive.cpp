@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "derive/derive.hpp"
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "contact/contacts.hpp"
 #include "exact/expression_of.hpp"
 #include "reaction/joint_reactions.hpp"

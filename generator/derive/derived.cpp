@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "alembert/process_time.hpp"
+#include "alembert/base/process_time.hpp"
 #include "audit/audit.hpp"
 #include "derive/start_check.hpp"
 #include "formalism/elements.hpp"

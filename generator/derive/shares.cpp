@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "lower/lower.hpp"
 #include "state/contradiction.hpp"
 

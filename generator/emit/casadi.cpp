@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <kainjow/mustache.hpp>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "emit/solver_functions.hpp"
 #include "emit/templates.hpp"
 #include "emit/vocabulary.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <kainjow/mustache.hpp>
 
-#include "alembert/abi.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/abi.hpp"
 #include "emit/comment.hpp"
 #include "emit/elementary.hpp"
 #include "emit/head.hpp"

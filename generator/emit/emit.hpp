@@ -8,7 +8,7 @@
 ///     emit(program, {.batch = true});   // with the same functions over eight systems at once
 ///
 /// The functions of the file are rhs, mass_forcing, energy, outputs_at, events_at, and prepare(par) for values
-/// that depend on parameters only; the tables at its end are those of lib/alembert/abi.hpp. The template is
+/// that depend on parameters only; the tables at its end are those of lib/alembert/native/abi.hpp. The template is
 /// templates/solver.cpp.mustache. A program that has been differentiated (program/differentiate.hpp) also gets
 /// `jacobian` and a table of derivatives.
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "emit/series_writer.hpp"
 #include "emit/writer.hpp"
 #include "program/solve.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The functions of a solver (lib/alembert/abi.hpp): the values that each computes, and the titles of its
+/// The functions of a solver (lib/alembert/native/abi.hpp): the values that each computes, and the titles of its
 /// sections.
 
 #include "emit/function.hpp"

@@ -5,7 +5,7 @@
 
 #include <kainjow/mustache.hpp>
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 #include "emit/numbers.hpp"
 #include "emit/projection_text.hpp"
 #include "emit/solver_functions.hpp"

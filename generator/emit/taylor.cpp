@@ -5,7 +5,7 @@
 
 #include <kainjow/mustache.hpp>
 
-#include "alembert/series.hpp"
+#include "alembert/ode/series.hpp"
 #include "emit/elementary.hpp"
 #include "emit/numbers.hpp"
 #include "emit/series_writer.hpp"

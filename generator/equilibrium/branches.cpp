@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "equilibrium/follow.hpp"
 #include "language/say.hpp"
 #include "state/left_out.hpp"

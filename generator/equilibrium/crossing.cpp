@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "linear/dense_long.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "linear/dense_long.hpp"
 
 namespace alembert {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "exact/counted_angle.hpp"
 #include "exact/reduced_sums.hpp"
 #include "exact/solve_condition.hpp"

@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "alembert/compile.hpp"
-#include "alembert/fingerprint.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/fingerprint.hpp"
 #include "archive/zip.hpp"
 #include "emit/emit.hpp"
 #include "fmu/description.hpp"

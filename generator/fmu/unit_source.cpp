@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <kainjow/mustache.hpp>
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 #include "emit/elementary.hpp"
 #include "emit/numbers.hpp"
 #include "emit/projection_text.hpp"

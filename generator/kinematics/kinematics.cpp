@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "alembert/dense.hpp"
-#include "alembert/error.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "formalism/elements.hpp"
 #include "kinematics/frames.hpp"
 #include "kinematics/points.hpp"

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/rotation.hpp"
+#include "alembert/base/rotation.hpp"
 #include "lower/start.hpp"
 #include "notation/phrase.hpp"
 #include "state/prepared.hpp"

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "alembert/error.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "contact/contacts.hpp"
 #include "formalism/kane.hpp"
 #include "language/say.hpp"

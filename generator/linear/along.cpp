@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "alembert/argument.hpp"
-#include "alembert/error.hpp"
-#include "alembert/integrate.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// Decompositions of small dense matrices, most of long double, compiled once, because each file that instantiates
-/// Eigen's takes long to compile; the others of double are in alembert/dense.hpp.
+/// Eigen's takes long to compile; the others of double are in alembert/base/dense.hpp.
 ///
 ///     const auto roots = eigenvalues(A);                          // none if the iteration does not converge
 ///     const LongColumn x = least_norm(J, r, 1e-11L).x;            // the shortest of those nearest to J x = r

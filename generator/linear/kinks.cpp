@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "linear/kink_message.hpp"
 

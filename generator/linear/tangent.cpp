@@ -9,7 +9,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "linear/dense_long.hpp"
 #include "linear/paths.hpp"

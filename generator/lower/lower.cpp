@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "formalism/joint_tree.hpp"
 #include "formalism/kinematics.hpp"
 #include "language/say.hpp"

@@ -21,7 +21,7 @@
 
 #include <vector>
 
-#include "alembert/quick_times.hpp"
+#include "alembert/ode/input_time_scales.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

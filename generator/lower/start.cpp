@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 #include "language/libraries.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-#include "alembert/registers.hpp"
+#include "alembert/native/cpu_features.hpp"
 
 namespace alembert::machine {
 

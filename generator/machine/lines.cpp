@@ -6,8 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "alembert/code_functions.hpp"
-#include "alembert/packs.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/simd_math.hpp"
 #include "emit/schedule.hpp"
 #include "machine/pack_sines.hpp"
 #include "program/interpret.hpp"

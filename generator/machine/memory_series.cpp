@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "alembert/executable.hpp"
+#include "alembert/native/executable.hpp"
 #include "emit/names.hpp"
 #include "machine/registers.hpp"
 #include "machine/series_steps.hpp"

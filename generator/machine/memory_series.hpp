@@ -16,7 +16,7 @@
 #include <functional>
 #include <optional>
 
-#include "alembert/series.hpp"
+#include "alembert/ode/series.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

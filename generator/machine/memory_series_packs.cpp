@@ -4,7 +4,7 @@
 #include <functional>
 #include <utility>
 
-#include "alembert/executable.hpp"
+#include "alembert/native/executable.hpp"
 #include "machine/registers.hpp"
 #include "machine/series_steps.hpp"
 

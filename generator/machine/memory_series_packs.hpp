@@ -10,7 +10,7 @@
 
 #include <memory>
 
-#include "alembert/series_packs.hpp"
+#include "alembert/batch/pack_series.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "machine/memory_solver.hpp"
 
-#include "alembert/error.hpp"
-#include "alembert/executable.hpp"
-#include "alembert/packs.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/executable.hpp"
 #include "emit/solver_functions.hpp"
 #include "machine/registers.hpp"
 

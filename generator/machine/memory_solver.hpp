@@ -19,7 +19,7 @@
 #include <functional>
 #include <optional>
 
-#include "alembert/module.hpp"
+#include "alembert/native/module.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "alembert/code_functions.hpp"
+#include "alembert/native/simd_math.hpp"
 
 namespace alembert::machine {
 

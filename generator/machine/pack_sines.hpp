@@ -5,8 +5,8 @@
 ///
 ///     const auto [sine, cosine] = sine_and_cosine_inside({.add = …, .number = …}, angle);
 ///
-/// They have the bits of sines_of_packs_for_code (alembert/code_functions.hpp), whose formulas they follow step by
-/// step, for angles up to farthest_for_code.
+/// They have the bits of sines_of_packs_for_code (alembert/native/simd_math.hpp), whose formulas they follow step
+/// by step, for angles up to farthest_for_code.
 
 #include <functional>
 

@@ -8,7 +8,7 @@
 #include <bit>
 #include <limits>
 
-#include "alembert/code_functions.hpp"
+#include "alembert/native/simd_math.hpp"
 
 namespace alembert::machine {
 

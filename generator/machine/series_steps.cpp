@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "emit/series_lanes.hpp"
 #include "emit/series_times.hpp"
 #include "program/processor.hpp"

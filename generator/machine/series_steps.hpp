@@ -10,7 +10,7 @@
 /// The values that stay fixed are the parameters of `next`: what depends on them alone, such as the factors of
 /// the linear system, is computed once for all orders.
 
-#include "alembert/series_packs.hpp"
+#include "alembert/batch/pack_series.hpp"
 #include "emit/function.hpp"
 #include "emit/taylor.hpp"
 #include "program/recurrence.hpp"
@@ -27,8 +27,8 @@ struct SeriesSteps {
     double products = 0;  ///< multiplications of eight lanes, divided by the square of the order
 };
 
-/// `in_packs`: for eight systems side by side (alembert/series_packs.hpp). Throws ModelError if the mass matrix is
-/// singular at every state.
+/// `in_packs`: for eight systems side by side (alembert/batch/pack_series.hpp). Throws ModelError if the mass
+/// matrix is singular at every state.
 SeriesSteps series_steps(const Recurrences& recurrences, bool in_packs = false);
 
 /// What a function gives.

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <tuple>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "model/translate.hpp"
 #include "symbolic/functions.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "alembert/inertia.hpp"
+#include "alembert/base/inertia.hpp"
 #include "language/say.hpp"
 #include "model/building.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Dry friction (Coulomb): the force −μ N sign(v) along the sliding velocity v. While v stays 0, the sign is
-// replaced by the number between −μₛ/μ and μₛ/μ that keeps it 0; a run finds that number (alembert/switching.hpp).
+// replaced by the number between −μₛ/μ and μₛ/μ that keeps it 0; a run finds that number
+// (alembert/hybrid/filippov.hpp).
 #include "model/friction.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 
 #include <algorithm>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"

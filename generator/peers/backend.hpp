@@ -21,8 +21,8 @@
 
 #include <vector>
 
-#include "alembert/integrate.hpp"
-#include "alembert/module.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace alembert {
 

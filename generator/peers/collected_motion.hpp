@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "alembert/event_watch.hpp"
-#include "alembert/recorder.hpp"
-#include "alembert/run.hpp"
+#include "alembert/ode/driver.hpp"
+#include "alembert/ode/event_watch.hpp"
+#include "alembert/ode/recorder.hpp"
 
 namespace alembert {
 

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "alembert/module.hpp"
+#include "alembert/native/module.hpp"
 #include "peers.hpp"
 
 namespace {

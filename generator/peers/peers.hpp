@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/rhs.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert::peers {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The events of a program as the runtime's list of instructions (alembert/event_code.hpp), from which it finds
-/// bounds on them within a step. An event that contains multipliers or functions without values, or that is too
-/// long for bounds to say anything, gets no instructions.
+/// The events of a program as the runtime's list of instructions (alembert/ode/event_code.hpp), from which it
+/// finds bounds on them within a step. An event that contains multipliers or functions without values, or that is
+/// too long for bounds to say anything, gets no instructions.
 
 #include <memory>
 
-#include "alembert/event_code.hpp"
+#include "alembert/ode/event_code.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

@@ -2,7 +2,7 @@
 // Series in ε with leading term c ε^v:  (c ε^v (1 + r))^a = c^a ε^(va) Σ binomial(a, k) r^k,   f(c + δ) = Σ
 // f^(k)(c)/k! δ^k. Taylor coefficients of tanh and atan come from y' = 1 − y² and y' (1 + x²) = 1.
 #include "program/germ.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 
 #include <cmath>
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

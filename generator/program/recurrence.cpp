@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "program/series_building.hpp"
 

@@ -2,7 +2,8 @@
 #pragma once
 
 /// Makes a program in which sign, |·|, min and max are smooth. The sign of the function on which each depends
-/// becomes a parameter, +1 or −1, which a run keeps constant until that function is zero (alembert/switching.hpp).
+/// becomes a parameter, +1 or −1, which a run keeps constant until that function is zero
+/// (alembert/hybrid/filippov.hpp).
 ///
 ///     if (const auto s = switched(program)) …        // nothing where the program has none of them
 ///     s->program.parameters.back().name;             // "side_1", after the scene's parameters

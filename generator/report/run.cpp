@@ -155,22 +155,22 @@ Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
     return result;
 }
 
-std::string word(SideChange::Kind kind) {
+std::string word(ModeChange::Kind kind) {
     switch (kind) {
-        case SideChange::Kind::sliding:
+        case ModeChange::Kind::sliding:
             return say("stays zero");
-        case SideChange::Kind::leaving:
+        case ModeChange::Kind::leaving:
             return say("leaves zero");
         default:
             return say("changes sign");
     }
 }
 
-const char* event_name(SideChange::Kind kind) {
+const char* event_name(ModeChange::Kind kind) {
     switch (kind) {
-        case SideChange::Kind::sliding:
+        case ModeChange::Kind::sliding:
             return "sliding";
-        case SideChange::Kind::leaving:
+        case ModeChange::Kind::leaving:
             return "leaving";
         default:
             return "crossing";

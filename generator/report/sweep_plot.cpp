@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "report/plot_panels.hpp"
 #include "scene/units.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "exact/motions.hpp"
 #include "exact/square_points.hpp"
 #include "formalism/routh.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "alembert/inertia.hpp"
+#include "alembert/base/inertia.hpp"
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/rotation.hpp"
+#include "alembert/base/rotation.hpp"
 #include "lower/start.hpp"
 #include "state/prepared.hpp"
 

@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
-#include "alembert/argument.hpp"
-#include "alembert/compile.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/native/compile.hpp"
 #include "emit/emit.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "language/say.hpp"
 #include "run/loaded_modes.hpp"
 #include "state/assemble.hpp"
@@ -36,7 +36,7 @@ void choose_steps(Options& options) {
 
 /// The same system, in which sliding velocities (and other functions) that are zero at the start but for rounding
 /// are zero: what sticks at a row goes on sticking.
-Switching zero_at_start(Switching system, double start, std::vector<double> sizes) {
+FilippovSystem zero_at_start(FilippovSystem system, double start, std::vector<double> sizes) {
     system.values = [values = system.values, sizes = std::move(sizes), start](
                         double t, const double* y, const double* sigma, const double* rate, double* out) {
         values(t, y, sigma, rate, out);

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "alembert/process_time.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/process_time.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "language/say.hpp"
 #include "run/loaded_modes.hpp"
 

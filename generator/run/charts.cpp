@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/dense.hpp"
-#include "alembert/project.hpp"
-#include "alembert/run.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/ode/driver.hpp"
+#include "alembert/ode/projection.hpp"
 #include "language/say.hpp"
 #include "run/angles_along.hpp"
 #include "run/solver_code.hpp"

@@ -21,7 +21,7 @@
 #include <memory>
 #include <optional>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "derive/derived.hpp"
 #include "run/angles_of_frame.hpp"
 #include "run/method.hpp"

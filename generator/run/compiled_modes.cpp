@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "alembert/process_time.hpp"
+#include "alembert/base/process_time.hpp"
 #include "contact/contacts.hpp"
 #include "model/friction.hpp"
 #include "program/differentiate.hpp"

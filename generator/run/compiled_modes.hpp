@@ -16,9 +16,9 @@
 #include <memory>
 #include <mutex>
 
-#include "alembert/module.hpp"
-#include "alembert/rhs.hpp"
-#include "alembert/series.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/ode/rhs.hpp"
+#include "alembert/ode/series.hpp"
 #include "derive/derived.hpp"
 #include "program/event_code.hpp"
 #include "program/quotient_signs.hpp"

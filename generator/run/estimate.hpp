@@ -16,8 +16,8 @@
 /// The factor 2.5 covers the second run's own error, which d does not contain, in 95 % of runs (honesty.py). The
 /// second term is the rounding of all steps, which adds up like a random walk. What amplifies rounding, such as a
 /// narrow pulse or a strong force that is switched on, amplifies d as well: all other runs are disturbed by a few
-/// roundings (alembert/disturbance.hpp). Where d is unusually small or large beside the tolerance, so that it may
-/// consist of rounding, d contains a run that differs from the first in such disturbances alone.
+/// roundings (alembert/ode/disturbance.hpp). Where d is unusually small or large beside the tolerance, so that it
+/// may consist of rounding, d contains a run that differs from the first in such disturbances alone.
 ///
 /// The distance that components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the
 /// run, or the largest |u| of their speeds, in the run that moves less. It counts as at least the size of possible
@@ -46,7 +46,7 @@
 #include <optional>
 #include <span>
 
-#include "alembert/phases.hpp"
+#include "alembert/hybrid/hybrid_motion.hpp"
 
 namespace alembert {
 

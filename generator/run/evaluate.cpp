@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "contact/contacts.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "run/held_state.hpp"
 #include "state/diagnose.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 /// Dry friction whose normal force is a multiplier, in the form that a projection needs where the constraints
-/// nearly lose rank (alembert/project.hpp).
+/// nearly lose rank (alembert/ode/projection.hpp).
 ///
 ///     const FrictionAt friction = friction_of_multipliers(switched.program, symbols);
 ///     projection.guarded(rhs, values, friction(values));
@@ -11,7 +11,7 @@
 #include <mutex>
 #include <vector>
 
-#include "alembert/project.hpp"
+#include "alembert/ode/projection.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

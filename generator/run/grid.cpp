@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

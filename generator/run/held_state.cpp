@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
-#include "alembert/switch_choice.hpp"
-#include "alembert/switch_sides.hpp"
-#include "alembert/switching.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/hybrid/filippov.hpp"
+#include "alembert/hybrid/mode_enumeration.hpp"
+#include "alembert/hybrid/sliding_mode.hpp"
 #include "language/say.hpp"
 
 namespace alembert {
@@ -21,7 +21,7 @@ constexpr double jammed = 1e-3;    // a determinant of the normal forces below t
 
 /// The program in the form that the runtime needs, evaluated by interpretation; y is q, followed by the rates or
 /// speeds.
-Switching interpreted(const Switched& s, const State<double>& state) {
+FilippovSystem interpreted(const Switched& s, const State<double>& state) {
     const std::size_t held = static_cast<std::size_t>(s.held()), n = state.q.size(), all = n + state.qdot.size();
     const auto at = [state, n](double t, const double* y, const double* sigma, std::size_t signs) {
         State<double> here = state;
@@ -41,7 +41,7 @@ Switching interpreted(const Switched& s, const State<double>& state) {
             for (std::size_t k = 0; k < count; ++k) out[k] = value[static_cast<std::size_t>(nodes[first + k])];
         };
     };
-    Switching system;
+    FilippovSystem system;
     system.names.resize(s.functions.size());
     system.pairs = s.pairs;
     system.rates = [&s, at, held, n, all](double t, const double* y, const double* sigma, double* rate) {
@@ -67,11 +67,11 @@ std::vector<double> with_rates(const State<double>& state) {
 }  // namespace
 
 HeldState held_state(const Switched& s, State<double> state) {
-    const Switching system = interpreted(s, state);
+    const FilippovSystem system = interpreted(s, state);
     const std::vector<double> y = with_rates(state);
     double fastest = 0;
     for (const double rate : state.qdot) fastest = std::max(fastest, std::abs(rate));
-    SideSet found;
+    SlidingMode found;
     const std::vector<double> sigma = consistent_signs(
         system, [&](int) { return on_zero * fastest; }, state.t, y.data(), static_cast<int>(y.size()), &found);
     HeldState held{.program = s.program, .state = std::move(state), .frictions = {}};
@@ -105,10 +105,10 @@ HeldState held_state(const Switched& s, State<double> state) {
 
 std::optional<HeldState> standing_state(const Switched& s, State<double> state) {
     constexpr std::size_t most_open = 6;  // as many as a run lets change together
-    const Switching system = interpreted(s, state);
+    const FilippovSystem system = interpreted(s, state);
     const std::vector<double> y = with_rates(state), none(y.size());
     std::vector<double> g(system.numbers());
-    SideSet sides = system.start();
+    SlidingMode sides = system.start();
     std::vector<int> open;
     for (int k = 0; k < system.count(); ++k) {  // a function may contain the signs of those before it
         const auto at = static_cast<std::size_t>(k);

@@ -14,7 +14,7 @@
 #include <map>
 #include <set>
 
-#include "alembert/quick_times.hpp"
+#include "alembert/ode/input_time_scales.hpp"
 #include "lower/start.hpp"
 #include "run/grid.hpp"
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/dense.hpp"
-#include "alembert/error.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "language/say.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {

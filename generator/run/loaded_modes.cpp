@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "alembert/canonical.hpp"
-#include "alembert/pace.hpp"
-#include "alembert/taylor.hpp"
+#include "alembert/ode/cost_model.hpp"
+#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/taylor.hpp"
 #include "language/say.hpp"
 #include "run/first_accelerations.hpp"
 #include "run/friction_of_multipliers.hpp"
@@ -173,7 +173,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         self->projection.accelerations(t, y, par, friction(values), rate + self->program.coordinates.size());
     };
     const bool constrained = !mode.derived.mechanism.constraints.empty();
-    Switching system = switching_of(
+    FilippovSystem system = switching_of(
         mode.module, start_.parameters, jumps, mode.compiled.sides, work, constrained ? correct : Correction(),
         [self, work, with_series, constrained, friction](const std::vector<double>& values) {
             Rhs rhs = make_rhs(self->module, values, work);
@@ -184,7 +184,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         });
     mode.side_sizes.assign(system.names.size(), 0);
     system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };
-    system.on_change = [this, self](const SideChange& change) {
+    system.on_change = [this, self](const ModeChange& change) {
         const auto k = static_cast<std::size_t>(change.index);
         if (on_side_change)
             on_side_change(change, self->contact.switching->names[k], self->compiled.jumps->frictions[k]);
@@ -212,7 +212,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
                 [=](int k, const MotionBounds& motion) {
                     return bounds_of(code->events[static_cast<std::size_t>(k)], self->par.data(), motion);
                 }};
-    mode.contact.switching = std::make_shared<const Switching>(std::move(system));
+    mode.contact.switching = std::make_shared<const FilippovSystem>(std::move(system));
     const int dimension = mode.contact.rhs.dimension;
     Rhs& rhs = mode.contact.rhs;
     rhs.context = std::make_shared<LoadedMode* const>(self);

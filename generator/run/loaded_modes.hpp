@@ -12,8 +12,8 @@
 #include <map>
 #include <memory>
 
-#include "alembert/phases.hpp"
-#include "alembert/project.hpp"
+#include "alembert/hybrid/hybrid_motion.hpp"
+#include "alembert/ode/projection.hpp"
 #include "contact/contacts.hpp"
 #include "contact/kicks.hpp"
 #include "run/compiled_modes.hpp"
@@ -63,7 +63,7 @@ public:
 
     /// Called with changes of the signs that a right-hand side holds constant, their names, and the frictions
     /// whose sliding velocities have these signs; may be empty.
-    std::function<void(const SideChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
+    std::function<void(const ModeChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
         on_side_change = {};
 
     /// To be called before another run from the first state or near it (Projection::begin).

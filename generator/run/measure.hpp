@@ -12,12 +12,12 @@
 
 #include <optional>
 
-#include "alembert/canonical.hpp"
-#include "alembert/drift.hpp"
-#include "alembert/integrate.hpp"
-#include "alembert/module.hpp"
-#include "alembert/project.hpp"
-#include "alembert/series.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/ode/energy_error.hpp"
+#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/integrate.hpp"
+#include "alembert/ode/projection.hpp"
+#include "alembert/ode/series.hpp"
 #include "derive/derived.hpp"
 
 namespace alembert {

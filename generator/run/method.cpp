@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
-#include "alembert/pace.hpp"
-#include "alembert/taylor.hpp"
-#include "alembert/verner.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/ode/cost_model.hpp"
+#include "alembert/ode/taylor.hpp"
+#include "alembert/ode/verner.hpp"
 #include "emit/taylor.hpp"
 #include "language/say.hpp"
 #include "machine/series_steps.hpp"

@@ -26,7 +26,7 @@
 /// taken below 1e-10 alone; with constraints of position that and verner98 below 1e-12. Methods that choose their
 /// steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "derive/derived.hpp"
 #include "run/options.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/options.hpp"
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 
 namespace alembert {
 

@@ -39,7 +39,7 @@ struct RunOptions {
     std::function<void(std::string_view what, double part)> progress = {};
 };
 
-/// Throws std::invalid_argument for a number that none of these can be (alembert/argument.hpp).
+/// Throws std::invalid_argument for a number that none of these can be (alembert/base/argument.hpp).
 void check_numbers(const RunOptions& wishes);
 
 }  // namespace alembert

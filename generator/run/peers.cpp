@@ -10,9 +10,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "alembert/error.hpp"
-#include "alembert/leftover.hpp"
-#include "alembert/process.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/process.hpp"
+#include "alembert/native/temporary_files.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "alembert/along.hpp"
-#include "alembert/drift.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/ode/energy_error.hpp"
+#include "alembert/ode/running_extrema.hpp"
 
 namespace alembert {
 
@@ -20,7 +20,7 @@ Work work_of(const Mechanism& m) {
 /// What is known along a motion.
 struct Account {
     Drift drift;
-    Along along;
+    RunningExtrema along;
 };
 
 Outcome outcome_of(const PhasedMotion& motion, const Account& account, bool along) {
@@ -103,7 +103,7 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
                               .qddot = {}};
     const bool works = work_ == Work::integrated;
     Account account{.drift = Drift(static_cast<int>(n), static_cast<int>(width - n), works),
-                    .along = Along(static_cast<int>(n), static_cast<int>(width))};
+                    .along = RunningExtrema(static_cast<int>(n), static_cast<int>(width))};
     LoadedModes modes(compiled_, start, first,
                       [&](LoadedMode& mode, double t, std::span<const double> y, std::span<const double> rate) {
                           account.drift(mode.module.table(), mode.par, t, y, rate);

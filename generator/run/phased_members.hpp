@@ -12,7 +12,7 @@
 ///
 /// A motion depends neither on those before it nor on the number of threads.
 
-#include "alembert/ensemble.hpp"
+#include "alembert/batch/ensemble.hpp"
 #include "run/loaded_modes.hpp"
 
 namespace alembert {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "program/tape.hpp"

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Decides whether a scene can run in a time of its own (lib/alembert/regularized.hpp), and in which form.
+/// Decides whether a scene can run in a time of its own (lib/alembert/ode/time_transformation.hpp), and in which
+/// form.
 ///
 ///     options.regularization = regularization_of(wishes, derived, energy, choice, start);
 ///
 /// The canonical form is for the systems of verlet and kahanli8 (separable.hpp), whose forces then come from V
 /// alone, because energy is conserved; all others get the rescaled one.
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "derive/derived.hpp"
 #include "model/energy.hpp"
 #include "run/method.hpp"

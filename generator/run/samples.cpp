@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "alembert/error.hpp"
-#include "alembert/integrate.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "language/libraries.hpp"
 #include "language/say.hpp"
 #include "program/variation.hpp"

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "derive/derived.hpp"
 #include "lower/start.hpp"
 

@@ -7,7 +7,7 @@
 #include <exception>
 #include <thread>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "run/byte_text.hpp"
 

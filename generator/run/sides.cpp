@@ -138,11 +138,11 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
     return names;
 }
 
-Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
-                       std::vector<std::string> names, Work work, Correction correct,
-                       std::function<Rhs(const std::vector<double>& values)> smooth) {
+FilippovSystem switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
+                            std::vector<std::string> names, Work work, Correction correct,
+                            std::function<Rhs(const std::vector<double>& values)> smooth) {
     const auto held = std::make_shared<HeldParameters>(module, values, jumps.held());
-    Switching system;
+    FilippovSystem system;
     system.names = std::move(names);
     system.pairs = jumps.pairs;
     system.rates = [module, held, work, correct = std::move(correct)](double t, const double* y,
@@ -183,7 +183,7 @@ Events first_events(const Events& all, std::size_t count, const Module& module, 
                        });
 }
 
-std::vector<double> sides_at(const Switching& system, double t, const double* y, int dimension,
+std::vector<double> sides_at(const FilippovSystem& system, double t, const double* y, int dimension,
                              const std::vector<double>& sizes) {
     constexpr double on_it = 1e-9;
     return consistent_signs(

@@ -10,8 +10,8 @@
 #include <functional>
 #include <memory>
 
-#include "alembert/module.hpp"
-#include "alembert/switching.hpp"
+#include "alembert/hybrid/filippov.hpp"
+#include "alembert/native/module.hpp"
 #include "program/switches.hpp"
 #include "state/prepared.hpp"
 
@@ -40,11 +40,11 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
 using Correction =
     std::function<void(double t, const double* y, const double* sigma, const double* par, double* rate)>;
 
-/// `smooth` is as in Switching; the caller adds the callbacks for steps and changes. `values` are the scene's
+/// `smooth` is as in FilippovSystem; the caller adds the callbacks for steps and changes. `values` are the scene's
 /// parameters, without those that are held.
-Switching switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
-                       std::vector<std::string> names, Work work, Correction correct,
-                       std::function<Rhs(const std::vector<double>& values)> smooth);
+FilippovSystem switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
+                            std::vector<std::string> names, Work work, Correction correct,
+                            std::function<Rhs(const std::vector<double>& values)> smooth);
 
 /// The program in which signs that the scene writes as x/|x| or x/√(x²) are such (program/quotient_signs.hpp),
 /// with a warning for each.
@@ -55,7 +55,7 @@ Events first_events(const Events& all, std::size_t count, const Module& module, 
 
 /// σ at a state of a motion, for evaluations after the motion: the signs, and α where the state slides along a
 /// zero. `sizes` are the largest |g_k| of the motion.
-std::vector<double> sides_at(const Switching& system, double t, const double* y, int dimension,
+std::vector<double> sides_at(const FilippovSystem& system, double t, const double* y, int dimension,
                              const std::vector<double>& sizes);
 
 }  // namespace alembert

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "alembert/drift.hpp"
-#include "alembert/process_time.hpp"
+#include "alembert/base/process_time.hpp"
+#include "alembert/ode/energy_error.hpp"
 #include "contact/contacts.hpp"
 #include "language/libraries.hpp"
 #include "language/say.hpp"
@@ -85,7 +85,7 @@ public:
             [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                 if (!watch.is_over) look(watch, mode, t, state, rate);
             });
-        modes.on_side_change = [&](const SideChange& change, const std::string& name,
+        modes.on_side_change = [&](const ModeChange& change, const std::string& name,
                                    const std::vector<Switched::Rubbing>& frictions) {
             if (watch.is_over) return;
             if (frictions.empty()) run_.side_changes.push_back({change.time, name, change.kind});

@@ -14,7 +14,7 @@
 
 #include <optional>
 
-#include "alembert/phases.hpp"
+#include "alembert/hybrid/hybrid_motion.hpp"
 #include "run/charts.hpp"
 #include "run/estimate.hpp"
 #include "run/options.hpp"
@@ -59,7 +59,7 @@ struct Run : Derived {
     struct Side {
         double time;
         std::string name;
-        SideChange::Kind kind;
+        ModeChange::Kind kind;
     };
     std::vector<Side> side_changes = {};
     /// A contact with dry friction begins to stick or to slip, or slips the other way.

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "emit/taylor.hpp"
 #include "language/say.hpp"
 #include "machine/encoder.hpp"

@@ -15,7 +15,7 @@
 /// series of a compiler take from 0.5 to 1.5 of the time of those in memory, and go over after three times as long
 /// as compiling. Momenta (`rattle`) and what runs after a motion was found stiff do not go over.
 
-#include "alembert/compile.hpp"
+#include "alembert/native/compile.hpp"
 #include "machine/memory_series.hpp"
 #include "machine/memory_series_packs.hpp"
 #include "machine/memory_solver.hpp"

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "alembert/error.hpp"
-#include "alembert/process.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/process.hpp"
 #include "language/say.hpp"
 #include "peers/backend.hpp"
 

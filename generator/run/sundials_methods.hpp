@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "alembert/integrate.hpp"
-#include "alembert/module.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "derive/derived.hpp"
 
 namespace alembert {

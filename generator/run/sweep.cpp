@@ -7,7 +7,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 #include "language/say.hpp"
 #include "run/sweeper.hpp"
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <optional>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "archive/zip.hpp"
 #include "language/say.hpp"
 #include "run/byte_text.hpp"

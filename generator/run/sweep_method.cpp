@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "alembert/error.hpp"
-#include "alembert/taylor.hpp"
-#include "alembert/verner.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/ode/taylor.hpp"
+#include "alembert/ode/verner.hpp"
 #include "language/say.hpp"
 #include "machine/memory_series_packs.hpp"
 #include "model/energy.hpp"

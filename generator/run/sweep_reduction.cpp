@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "run/byte_text.hpp"
 

@@ -9,8 +9,8 @@
 #include <set>
 #include <utility>
 
-#include "alembert/fingerprint.hpp"
-#include "alembert/process_time.hpp"
+#include "alembert/base/process_time.hpp"
+#include "alembert/native/fingerprint.hpp"
 #include "emit/emit.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

@@ -18,7 +18,7 @@
 #include <mutex>
 #include <optional>
 
-#include "alembert/ensemble.hpp"
+#include "alembert/batch/ensemble.hpp"
 #include "run/input_variants.hpp"
 #include "run/phased_members.hpp"
 #include "run/sweep.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

@@ -30,7 +30,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/quick_times.hpp"
+#include "alembert/ode/input_time_scales.hpp"
 #include "run/estimate.hpp"
 #include "run/loaded_modes.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
 

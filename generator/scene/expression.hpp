@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 
 namespace alembert {
 

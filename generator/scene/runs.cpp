@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "alembert/methods.hpp"
+#include "alembert/ode/methods.hpp"
 #include "language/say.hpp"
 #include "scene/advice.hpp"
 #include "scene/claim_mode.hpp"

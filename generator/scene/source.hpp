@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 
 namespace alembert {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <map>
 
-#include "alembert/argument.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "language/say.hpp"
 #include "linear/dense_long.hpp"
 #include "stability/exact_field.hpp"

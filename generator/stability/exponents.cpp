@@ -8,11 +8,11 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/argument.hpp"
-#include "alembert/compile.hpp"
-#include "alembert/error.hpp"
-#include "alembert/integrate.hpp"
-#include "alembert/module.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "emit/emit.hpp"
 #include "language/say.hpp"
 #include "linear/tangent.hpp"

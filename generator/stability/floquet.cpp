@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"

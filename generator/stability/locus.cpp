@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/argument.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 
 namespace alembert {

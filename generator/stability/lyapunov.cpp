@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "model/formulas.hpp"
 #include "notation/readable.hpp"

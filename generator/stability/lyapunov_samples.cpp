@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/dense.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/error.hpp"
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

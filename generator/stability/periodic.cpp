@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/dense.hpp"
-#include "alembert/error.hpp"
-#include "alembert/integrate.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"

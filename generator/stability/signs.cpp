@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "language/say.hpp"
 #include "stability/spectrum.hpp"
 

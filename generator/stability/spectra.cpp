@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "equilibrium/judge.hpp"
 #include "language/say.hpp"
 #include "linear/dense_long.hpp"

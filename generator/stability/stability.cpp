@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
-#include "alembert/argument.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"

@@ -11,7 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {

@@ -6,8 +6,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "alembert/dense.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "alembert/dense.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "program/rounding.hpp"

@@ -8,8 +8,8 @@
 #include <random>
 #include <utility>
 
-#include "alembert/dense.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

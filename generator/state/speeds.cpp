@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "formalism/kinematics.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

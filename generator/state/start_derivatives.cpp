@@ -9,8 +9,8 @@
 #include <numeric>
 #include <optional>
 
-#include "alembert/dense.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/base/error.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"
 #include "program/partials.hpp"

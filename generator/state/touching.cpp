@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 #include "formalism/elements.hpp"
 #include "language/say.hpp"
 #include "lower/lower.hpp"

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "alembert/inertia.hpp"
+#include "alembert/base/inertia.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
 

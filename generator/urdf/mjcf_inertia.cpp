@@ -5,7 +5,7 @@
 //            2 s r²/5 + s (h² + 3 r h/4) across the axis, 2 s r²/5 about it.
 #include <cmath>
 
-#include "alembert/inertia.hpp"
+#include "alembert/base/inertia.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
 #include "urdf/mjcf_values.hpp"

@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "alembert/error.hpp"
-#include "alembert/rotation.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/base/rotation.hpp"
 
 namespace alembert {
 
@@ -102,14 +102,14 @@ struct Robot {
             int joint;
             double coefficient;
         };
-        struct Stretch {
+        struct StepView {
             int from, to;  ///< in `links`
             Real3 from_at, to_at;
             double factor = 1;
         };
         std::string name;
         std::vector<Term> terms = {};
-        std::vector<Stretch> stretches = {};
+        std::vector<StepView> stretches = {};
         double stiffness = 0, damping = 0, friction = 0, armature = 0;
         std::array<double, 2> rest{0, 0};  ///< between these lengths the spring is slack
         std::optional<std::array<double, 2>> limits = {};

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "alembert/inertia.hpp"
+#include "alembert/base/inertia.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
 #include "urdf/sdf_include.hpp"

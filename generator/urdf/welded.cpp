@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "alembert/inertia.hpp"
+#include "alembert/base/inertia.hpp"
 #include "language/say.hpp"
 #include "scene/text.hpp"
 

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "alembert/compile.hpp"
+#include "alembert/native/compile.hpp"
 #include "derive/derived.hpp"
 #include "emit/taylor.hpp"
 #include "lower/lower.hpp"

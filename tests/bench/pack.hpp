@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "alembert/module.hpp"
-#include "alembert/packs.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/module.hpp"
 
 namespace alembert {
 

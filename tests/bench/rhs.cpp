@@ -27,8 +27,8 @@
 #include <string>
 #include <vector>
 
-#include "alembert/compile.hpp"
-#include "alembert/module.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/module.hpp"
 #include "pack.hpp"
 #include "rivals.hpp"
 

@@ -32,9 +32,9 @@
 #include <thread>
 #include <vector>
 
-#include "alembert/compile.hpp"
-#include "alembert/module.hpp"
-#include "alembert/packs.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/compile.hpp"
+#include "alembert/native/module.hpp"
 #include "angles.hpp"
 
 using namespace alembert;

@@ -11,8 +11,8 @@
 #include <random>
 #include <string_view>
 
-#include "alembert/ensemble.hpp"
-#include "alembert/process_time.hpp"
+#include "alembert/base/process_time.hpp"
+#include "alembert/batch/ensemble.hpp"
 #include "derive/derived.hpp"
 #include "lower/lower.hpp"
 #include "lower/start.hpp"

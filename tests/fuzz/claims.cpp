@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files of claims about a small scene: the reader, and the claims as programs.
 #include "check/claims.hpp"
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "formalism/formalisms.hpp"
 #include "model/translate.hpp"
 #include "scene/claims_file.hpp"

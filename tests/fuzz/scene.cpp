@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reader of scenes, and what builds a mechanism from one that it accepts.
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "model/mechanism.hpp"
 #include "target.hpp"
 

@@ -2,7 +2,7 @@
 // The reader of URDF files. The scene that comes of an accepted one is read without a mistake.
 #include <fmt/format.h>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "scene/scene.hpp"
 #include "target.hpp"
 #include "urdf/robot_scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/argument.hpp"
+#include "alembert/base/argument.hpp"
 
 #include <fmt/format.h>
 

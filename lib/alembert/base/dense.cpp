@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>

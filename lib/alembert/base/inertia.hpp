@@ -11,7 +11,7 @@
 ///
 /// Elements are those of the tensor: xy = −∫ x y dm. Any consistent units may be used.
 
-#include "alembert/rotation.hpp"
+#include "alembert/base/rotation.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/interval.hpp"
+#include "alembert/base/interval.hpp"
 
 namespace alembert {
 

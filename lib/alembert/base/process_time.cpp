@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/process_time.hpp"
+#include "alembert/base/process_time.hpp"
 
 #include <sys/resource.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/ensemble.hpp"
+#include "alembert/batch/ensemble.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -11,14 +11,14 @@
 
 #include <fmt/format.h>
 
-#include "alembert/along.hpp"
-#include "alembert/argument.hpp"
-#include "alembert/dop853.hpp"
-#include "alembert/pack_run.hpp"
-#include "alembert/pack_step.hpp"
-#include "alembert/pack_taylor.hpp"
-#include "alembert/project.hpp"
-#include "alembert/verner.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/batch/pack_driver.hpp"
+#include "alembert/batch/pack_explicit_rk.hpp"
+#include "alembert/batch/pack_taylor.hpp"
+#include "alembert/ode/dop853.hpp"
+#include "alembert/ode/projection.hpp"
+#include "alembert/ode/running_extrema.hpp"
+#include "alembert/ode/verner.hpp"
 
 namespace alembert {
 namespace {
@@ -132,10 +132,10 @@ struct Passing {
 };
 
 /// The states at the ends of the pieces of a step of a series, but the last.
-std::vector<Passing> passed(const Rhs& rhs, const Stretch& step) {
+std::vector<Passing> passed(const Rhs& rhs, const StepView& step) {
     std::vector<Passing> list;
-    for (int piece = 1; piece < Along::pieces_of_series; ++piece) {
-        const double theta = static_cast<double>(piece) / Along::pieces_of_series;
+    for (int piece = 1; piece < RunningExtrema::pieces_of_series; ++piece) {
+        const double theta = static_cast<double>(piece) / RunningExtrema::pieces_of_series;
         const auto size = static_cast<std::size_t>(rhs.dimension);
         Passing one{step.start + theta * (step.end - step.start), std::vector<double>(size),
                     std::vector<double>(size)};
@@ -237,10 +237,10 @@ private:
         options.duration = member.duration;
         if (member.quick_times != nullptr) options.quick_times = *member.quick_times;
         options.sample = member.duration;  // no rows but the end
-        Along along(table.coordinates, table.coordinates + table.speeds);
+        RunningExtrema along(table.coordinates, table.coordinates + table.speeds);
         std::vector<Passing> passing;
         if (e_.along && needs_series(options.method))
-            options.on_stretch = [&](const Stretch& step) {
+            options.on_step_view = [&](const StepView& step) {
                 passing = passed(rhs, step);
                 return false;
             };

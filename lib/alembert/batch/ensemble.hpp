@@ -8,10 +8,10 @@
 ///     const Outcomes ends = integrate(ensemble, {.duration = 10, .tolerance = 1e-12});
 ///     ends.state(3)[0]; ends.members[3].steps;
 ///
-/// Explicit Runge-Kutta methods take eight members side by side (pack_run.hpp), each with its own time, step and
-/// end; a member that has ended makes room for the next. So does `taylor` without a given step, where there are
-/// series in packs. Other methods, a module emitted without `batch`, and systems with constraints (each step is
-/// projected) or with events that stop go through `integrate`, one member at a time. All cores are used. A
+/// Explicit Runge-Kutta methods take eight members side by side (pack_driver.hpp), each with its own time, step
+/// and end; a member that has ended makes room for the next. So does `taylor` without a given step, where there
+/// are series in packs. Other methods, a module emitted without `batch`, and systems with constraints (each step
+/// is projected) or with events that stop go through `integrate`, one member at a time. All cores are used. A
 /// member's result does not depend on its neighbours or on the number of threads, not even in the last bit.
 ///
 /// Members that are too many for memory come one after the other (EnsembleFeed):
@@ -33,9 +33,9 @@
 #include <string>
 #include <vector>
 
-#include "alembert/integrate.hpp"
-#include "alembert/module.hpp"
-#include "alembert/series_packs.hpp"
+#include "alembert/batch/pack_series.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace alembert {
 
@@ -73,10 +73,11 @@ struct Ensemble {
 struct Outcome {
     double time = 0;  ///< the end, the event that stopped it, or the last good time
     long steps = 0, rejected = 0, evaluations = 0;
-    double energy_drift = 0, work_balance = 0;  ///< see drift.hpp; the balance is given only with Work::integrated
-    bool stopped = false;                       ///< whether an event stopped the motion
-    std::string failure = {};                   ///< empty: none
-    std::vector<double> along = {};             ///< Along::values, with Ensemble::along
+    double energy_drift = 0,
+           work_balance = 0;         ///< see energy_error.hpp; the balance is given only with Work::integrated
+    bool stopped = false;            ///< whether an event stopped the motion
+    std::string failure = {};        ///< empty: none
+    std::vector<double> along = {};  ///< RunningExtrema::values, with Ensemble::along
 };
 
 struct Outcomes {

@@ -6,12 +6,13 @@
 ///
 ///     PackRun(ensemble, options, source, PackStep<dop853_tableau>(module, dimension, extra)).go(width);
 ///
-/// A step is a class with the members of PackStep (pack_step.hpp). One that has `next_length(lane)` chooses the
-/// length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp). Each lane has the
-/// step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is not finite, a
-/// step that underflows, the budget) is handed back with `again`: the member is then run by itself, and that run
-/// reports what went wrong. So is a lane whose series does not tell how far it holds, and one in which a long step
-/// has passed over something (straight.hpp): a run by itself looks within its steps, and repeats them.
+/// A step is a class with the members of PackStep (pack_explicit_rk.hpp). One that has `next_length(lane)` chooses
+/// the length of the next step itself, and begins a lane with a step of no length (pack_taylor.hpp). Each lane has
+/// the step control of driver.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is not
+/// finite, a step that underflows, the budget) is handed back with `again`: the member is then run by itself, and
+/// that run reports what went wrong. So is a lane whose series does not tell how far it holds, and one in which a
+/// long step has passed over something (missed_feature_check.hpp): a run by itself looks within its steps, and
+/// repeats them.
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +22,12 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/along.hpp"
-#include "alembert/drift.hpp"
-#include "alembert/ensemble.hpp"
-#include "alembert/rhs.hpp"
-#include "alembert/step_size.hpp"
-#include "alembert/straight.hpp"
+#include "alembert/batch/ensemble.hpp"
+#include "alembert/ode/energy_error.hpp"
+#include "alembert/ode/missed_feature_check.hpp"
+#include "alembert/ode/rhs.hpp"
+#include "alembert/ode/running_extrema.hpp"
+#include "alembert/ode/step_size.hpp"
 
 namespace alembert {
 
@@ -50,7 +51,7 @@ class PackRun {
         long count = 0;            ///< the number of fixed steps
         StepSize control{1};
         Drift drift{0, 0, false};
-        Along along;
+        RunningExtrema along;
         Rhs rhs = {};  ///< of this member alone, if there are states within steps to look at
         std::vector<double> start_state = {}, start_rate = {};  ///< of a step that is to be looked into, or none
         Outcome outcome;
@@ -221,13 +222,13 @@ private:
                 state[k] = lane.start_state[k] + theta * length * (lane.start_rate[k] + theta / 2 * change);
             }
         };
-        const Stretch stretch = {.start = step_.time[i] - length,
-                                 .end = step_.time[i],
-                                 .end_state = state_.data(),
-                                 .end_rate = rate_.data(),
-                                 .start_state = lane.start_state.data(),
-                                 .start_rate = lane.start_rate.data(),
-                                 .interpolate = between};
+        const StepView stretch = {.start = step_.time[i] - length,
+                                  .end = step_.time[i],
+                                  .end_state = state_.data(),
+                                  .end_rate = rate_.data(),
+                                  .start_state = lane.start_state.data(),
+                                  .start_rate = lane.start_rate.data(),
+                                  .interpolate = between};
         return is_clear(stretch, places_within(length, lane.member.duration), lane.rhs, options_.tolerance,
                         lane.outcome.evaluations);
     }
@@ -266,8 +267,8 @@ private:
     /// At the end of a step; where steps are as long as those of a series, also within.
     void note_state(int i, double length) {
         if constexpr (has_own_lengths)
-            for (int piece = 1; piece < Along::pieces_of_series; ++piece) {
-                const double h = length * piece / Along::pieces_of_series;
+            for (int piece = 1; piece < RunningExtrema::pieces_of_series; ++piece) {
+                const double h = length * piece / RunningExtrema::pieces_of_series;
                 const double t = step_.time[i] - (length - h);
                 step_.within(i, h, state_);
                 lane_[i].rhs(t, state_.data(), rate_.data());
@@ -343,7 +344,7 @@ private:
             }
         }
         if (ensemble_.along) {
-            lane.along = Along(table.coordinates, dimension_ - extra_);
+            lane.along = RunningExtrema(table.coordinates, dimension_ - extra_);
             lane.along(member.start, state.data(), rate_.data());
             if constexpr (has_own_lengths) lane.rhs = rhs;
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One step of an explicit Runge-Kutta method for eight systems side by side: step.hpp with a lane for each
+/// One step of an explicit Runge-Kutta method for eight systems side by side: explicit_rk.hpp with a lane for each
 /// system, which has its own time, step and parameters.
 ///
 ///     PackStep<dop853_tableau> step(module, dimension, extra);
@@ -13,8 +13,9 @@
 ///     step.finish();
 ///     step.advance(accepted);                  // bit i: the end of lane i becomes its start
 ///
-/// The arithmetic and its order are those of step.hpp, sums of two doubles included. It is compiled for AVX-512,
-/// for AVX2 and for any x86-64, and the version that suits the processor is chosen when a PackStep is made.
+/// The arithmetic and its order are those of explicit_rk.hpp, sums of two doubles included. It is compiled for
+/// AVX-512, for AVX2 and for any x86-64, and the version that suits the processor is chosen when a PackStep is
+/// made.
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +23,9 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/packs.hpp"
-#include "alembert/registers.hpp"
-#include "alembert/tableau.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/cpu_features.hpp"
+#include "alembert/ode/tableau.hpp"
 
 namespace alembert {
 
@@ -38,8 +39,8 @@ public:
     static constexpr bool has_fixed_step = tableau.error_rows == 0;
     static constexpr int estimate_order = tableau.estimate_order;
     static constexpr int most_evaluations = tableau.all_stages;
-    /// Of an attempt, as in step.hpp: the last stage counts only if the step is finished, unless the estimate
-    /// needs it.
+    /// Of an attempt, as in explicit_rk.hpp: the last stage counts only if the step is finished, unless the
+    /// estimate needs it.
     static constexpr int evaluations(bool was_finished) {
         return tableau.stages - (was_finished || last_stage_in_estimate() ? 0 : 1);
     }
@@ -192,7 +193,8 @@ private:
         if constexpr (!has_fixed_step) measure(h);
     }
 
-    /// The error is measured component by component as in step.hpp; it is infinite if something is not finite.
+    /// The error is measured component by component as in explicit_rk.hpp; it is infinite if something is not
+    /// finite.
     [[gnu::always_inline]] void measure(const Wide& h) {
         const Wide *const k = wide(arrays), *const y = wide(y_), *const next = wide(next_);
         const Wide none{}, one = none + 1;

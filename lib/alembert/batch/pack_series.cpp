@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/series_packs.hpp"
+#include "alembert/batch/pack_series.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-#include "alembert/registers.hpp"
+#include "alembert/native/cpu_features.hpp"
 
 namespace alembert {
 

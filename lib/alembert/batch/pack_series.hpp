@@ -14,8 +14,8 @@
 #include <memory>
 #include <vector>
 
-#include "alembert/packs.hpp"
-#include "alembert/series_code.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/native/series_code.hpp"
 
 namespace alembert {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/pack_taylor.hpp"
+#include "alembert/batch/pack_taylor.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "alembert/registers.hpp"
-#include "alembert/taylor.hpp"
+#include "alembert/native/cpu_features.hpp"
+#include "alembert/ode/taylor.hpp"
 
 namespace alembert {
 

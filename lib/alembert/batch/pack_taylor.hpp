@@ -19,9 +19,9 @@
 
 #include <vector>
 
-#include "alembert/packs.hpp"
-#include "alembert/series_length.hpp"
-#include "alembert/series_packs.hpp"
+#include "alembert/batch/pack_series.hpp"
+#include "alembert/batch/packs.hpp"
+#include "alembert/ode/series_length.hpp"
 
 namespace alembert {
 

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "alembert/module.hpp"
+#include "alembert/native/module.hpp"
 
 namespace alembert {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/contact.hpp"
+#include "alembert/hybrid/contact.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "alembert/dense.hpp"
-#include "alembert/impact.hpp"
-#include "alembert/rough_choice.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/hybrid/contact_modes.hpp"
+#include "alembert/hybrid/impact.hpp"
 
 namespace alembert {
 

@@ -61,7 +61,7 @@ struct Lasting {
 
 /// `candidates` are the closed contacts with gap' = 0, ascending. How redundant contacts (the four legs of a
 /// table) share the load is not determined; here as few as possible carry it, and none of them pulls
-/// (Carathéodory). Where a candidate has friction along a line, friction takes part (rough_choice.hpp), unless no
+/// (Carathéodory). Where a candidate has friction along a line, friction takes part (contact_modes.hpp), unless no
 /// mode is consistent with it; where several are, with different q'', none is chosen.
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/rough_cones.hpp"
+#include "alembert/hybrid/contact_cones.hpp"
 
 #include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The impact of several contacts at once, of which some have friction in a plane: rough_choice.hpp with cones.
+/// The impact of several contacts at once, of which some have friction in a plane: contact_modes.hpp with cones.
 ///
 ///     M (x⁺ − x⁻) = p + Aᵀ Λ + Σ gᵀ π + Σ Wᵀ τ,   A x⁺ + b = 0
 ///

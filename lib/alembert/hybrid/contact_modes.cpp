@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/rough_choice.hpp"
+#include "alembert/hybrid/contact_modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/settle.hpp"
+#include "alembert/hybrid/contact_transition.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
-#include "alembert/dense.hpp"
-#include "alembert/impact.hpp"
-#include "alembert/rough_strike.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/hybrid/impact.hpp"
+#include "alembert/hybrid/impact_dispatch.hpp"
 
 namespace alembert {
 

@@ -28,8 +28,8 @@
 #include <string>
 #include <vector>
 
-#include "alembert/contact.hpp"
-#include "alembert/kick.hpp"
+#include "alembert/hybrid/contact.hpp"
+#include "alembert/hybrid/impulsive_event.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/switching.hpp"
+#include "alembert/hybrid/filippov.hpp"
 
 #include <fmt/format.h>
 
@@ -9,13 +9,13 @@
 #include <memory>
 #include <utility>
 
-#include "alembert/disturbance.hpp"
-#include "alembert/run.hpp"
-#include "alembert/switch_choice.hpp"
-#include "alembert/switch_moment.hpp"
-#include "alembert/switch_sides.hpp"
-#include "alembert/switch_watch.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
+#include "alembert/hybrid/mode_enumeration.hpp"
+#include "alembert/hybrid/mode_guards.hpp"
+#include "alembert/hybrid/sliding_mode.hpp"
+#include "alembert/hybrid/switching_scales.hpp"
+#include "alembert/ode/disturbance.hpp"
+#include "alembert/ode/driver.hpp"
 
 namespace alembert {
 
@@ -28,7 +28,7 @@ constexpr double negative_normal = 1e-6;  // relative to the largest so far, bey
 
 class SwitchedRun {
 public:
-    SwitchedRun(const Switching& system, const std::vector<double>& initial, const Options& options,
+    SwitchedRun(const FilippovSystem& system, const std::vector<double>& initial, const Options& options,
                 const Events& events)
         : system_(system),
           options_(options),
@@ -125,7 +125,7 @@ private:
         here.rhs_when_stiff = {};
         here.when_cheaper = {};  // the series of a piece is another one
         if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
-        const auto has_grain = [](const SideSet::Slide& slide) { return slide.grain > 0; };
+        const auto has_grain = [](const SlidingMode::Slide& slide) { return slide.grain > 0; };
         if (std::any_of(sides_.slides.begin(), sides_.slides.end(), has_grain))
             here.when_stiff = {};  // long steps of radau go wrong in the direction that δ bends at low speeds
         if (!now.sliding().empty())
@@ -261,11 +261,11 @@ private:
                 gone = true;
                 if (!sides_.is_pair(w.index)) {
                     sides_[w.index] = w.sign < 0 ? 1 : -1;
-                    tell(w.index, SideChange::Kind::leaving);
+                    tell(w.index, ModeChange::Kind::leaving);
                 } else if (sides_[w.index] == 0) {  // it may have given way together with one before it
                     for (const int pair : give_way(system_, sides_, w.index, t_, state_)) {
                         seed(pair);
-                        tell(pair, SideChange::Kind::leaving);
+                        tell(pair, ModeChange::Kind::leaving);
                     }
                 }
             } else if (w.what == Watched::What::grain) {
@@ -316,7 +316,7 @@ private:
         for (const int k : still) here.bring_to_zero(k, t_, state_.data());
         std::vector<int> all = open;
         all.insert(all.end(), still.begin(), still.end());
-        for (const int k : as_declared(std::move(all))) tell(k, SideChange::Kind::sliding);
+        for (const int k : as_declared(std::move(all))) tell(k, ModeChange::Kind::sliding);
         return true;
     }
 
@@ -361,28 +361,28 @@ private:
                 fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
                             "say which; start close to that state instead",
                             t_, names));
-        const SideSet before = sides_;
+        const SlidingMode before = sides_;
         sides_ = found[0].sides;
         for (const int k : open)
             if (sides_.is_pair(k) && sides_[k] != 0) seed(k);
         for (const int k : as_declared(open))
             if (before[k] != sides_[k] &&
                 (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side yet
-                tell(k, sides_[k] == 0   ? SideChange::Kind::sliding
-                        : before[k] == 0 ? SideChange::Kind::leaving
-                                         : SideChange::Kind::crossing);
+                tell(k, sides_[k] == 0   ? ModeChange::Kind::sliding
+                        : before[k] == 0 ? ModeChange::Kind::leaving
+                                         : ModeChange::Kind::crossing);
         return true;
     }
 
-    /// Gives a pair that begins to slide its δ (switching.hpp).
+    /// Gives a pair that begins to slide its δ (filippov.hpp).
     void seed(int pair) {
         double& grain = sides_.slides[pair / 2].grain;
         grain = std::max(grain, moment().speed(pair) * std::pow(std::max(options_.tolerance, 1e-13), 2.0 / 3));
     }
 
-    void tell(int k, SideChange::Kind kind) const {
+    void tell(int k, ModeChange::Kind kind) const {
         if (!system_.on_change) return;
-        SideChange change{.time = t_, .index = k, .kind = kind, .side = sides_[k], .direction = {}};
+        ModeChange change{.time = t_, .index = k, .kind = kind, .side = sides_[k], .direction = {}};
         if (sides_.is_pair(k) && sides_[k] != 0)
             change.direction = {sides_.slides[k / 2].along, sides_.slides[k / 2].across};
         system_.on_change(change);
@@ -408,16 +408,16 @@ private:
         append(result_, std::move(next), *here.grid, here.sample);
     }
 
-    const Switching& system_;
+    const FilippovSystem& system_;
     const Options& options_;
     const Events& events_;
     double end_, t_;
     std::vector<double> state_;
-    SideSet sides_;
+    SlidingMode sides_;
     std::shared_ptr<std::vector<double>> sizes_;                              ///< the largest |g_k| so far
     std::shared_ptr<std::vector<double>> normals_;                            ///< the largest normal forces
     std::shared_ptr<double> undefined_ = std::make_shared<double>(HUGE_VAL);  ///< when some g_k was NaN in a piece
-    Swings swings_{sizes_->size()};
+    ChatterWatch swings_{sizes_->size()};
     std::vector<double> late_ =
         options_.disturbed.late;  ///< what the next piece begins too late by (disturbance.hpp)
     long jumps_ = 0;              ///< in a disturbed run
@@ -429,7 +429,7 @@ private:
 
 }  // namespace
 
-Trajectory integrate(const Switching& system, const std::vector<double>& initial, const Options& options,
+Trajectory integrate(const FilippovSystem& system, const std::vector<double>& initial, const Options& options,
                      const Events& events) {
     return SwitchedRun(system, initial, options, events).go();
 }

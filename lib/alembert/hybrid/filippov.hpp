@@ -42,12 +42,12 @@
 #include <string>
 #include <vector>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace alembert {
 
 /// A change of one of the signs.
-struct SideChange {
+struct ModeChange {
     enum class Kind { crossing, sliding, leaving };
     double time = 0;
     int index = 0;
@@ -59,7 +59,7 @@ struct SideChange {
 
 /// The sides of all functions: the sign of each, 0 if it slides along its zero. A pair has the sides 0, 0 while it
 /// sticks and 1, 1 while it slides in its plane.
-struct SideSet {
+struct SlidingMode {
     std::vector<int> of = {};
     struct Slide {
         double along = 1, across = 0;  ///< e, a unit vector
@@ -73,7 +73,7 @@ struct SideSet {
     bool is_pair(int k) const { return k < 2 * static_cast<int>(slides.size()); }
 };
 
-struct Switching {
+struct FilippovSystem {
     std::vector<std::string> names = {};  ///< the names of the g_k, for messages
     /// The number of pairs; the pair c has the functions 2c and 2c + 1.
     int pairs = 0;
@@ -98,7 +98,7 @@ struct Switching {
     std::function<std::string(int k, double t, const double* y)> refusal = {};
     /// Bounds on the g_k, with the σ of the last call of `before_step`; may be empty.
     EventBounds bounds_of_functions = {};
-    std::function<void(const SideChange&)> on_change = {};  ///< may be empty
+    std::function<void(const ModeChange&)> on_change = {};  ///< may be empty
     std::function<void(const std::vector<double>& sigma)> before_step =
         {};  ///< called with σ before on_step and before the events of the run; may be empty
 
@@ -109,20 +109,20 @@ struct Switching {
     /// The position of the function k in σ.
     std::size_t place(int k) const { return static_cast<std::size_t>(2 * pairs + k); }
     /// The σ of these sides; for functions that slide along their zeros it is 0.
-    std::vector<double> sigma(const SideSet& sides) const;
+    std::vector<double> sigma(const SlidingMode& sides) const;
     /// No sides yet: all functions at the side +1.
-    SideSet start() const;
+    SlidingMode start() const;
 };
 
 /// Like integrate(rhs, …). If a function has no consistent side, or more than one, the run fails with
 /// FailureKind::no_side. While the motion slides, verner98 replaces the method taylor.
-Trajectory integrate(const Switching& system, const std::vector<double>& initial, const Options& options,
+Trajectory integrate(const FilippovSystem& system, const std::vector<double>& initial, const Options& options,
                      const Events& events = {});
 
 /// σ at a state of the motion, for evaluations after it. g_k counts as zero below `still` of k. Where it is
 /// consistent such a function slides along its zero, with its α; otherwise it has the sign that g takes according
 /// to its rate. `found` gets the sides with 0 for all zeros, if it is not null.
-std::vector<double> consistent_signs(const Switching& system, const std::function<double(int k)>& still, double t,
-                                     const double* y, int dimension, SideSet* found = nullptr);
+std::vector<double> consistent_signs(const FilippovSystem& system, const std::function<double(int k)>& still,
+                                     double t, const double* y, int dimension, SlidingMode* found = nullptr);
 
 }  // namespace alembert

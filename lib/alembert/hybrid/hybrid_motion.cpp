@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/phases.hpp"
+#include "alembert/hybrid/hybrid_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include <map>
 #include <utility>
 
-#include "alembert/disturbance.hpp"
-#include "alembert/run.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
+#include "alembert/ode/disturbance.hpp"
+#include "alembert/ode/driver.hpp"
 
 namespace alembert {
 

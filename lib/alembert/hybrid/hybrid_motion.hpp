@@ -9,11 +9,11 @@
 ///     motion.phases.back().closed;             // {0}: the ball lies
 ///
 /// In a phase the closed contacts are constraints like any other and the open ones are watched. A phase ends where
-/// a gap or a reaction falls to zero, which is located on the dense output (events.hpp); settle.hpp says how the
-/// next phase begins. If a gap or a reaction is zero when a phase begins, rounding must not end the phase at once.
-/// A gap that opens with a speed after an impact is watched only after the time that it needs to rise above
-/// rounding. A gap with zero speed, or a reaction that is zero, is compared with a small negative threshold,
-/// because its sign is uncertain.
+/// a gap or a reaction falls to zero, which is located on the dense output (events.hpp); contact_transition.hpp
+/// says how the next phase begins. If a gap or a reaction is zero when a phase begins, rounding must not end the
+/// phase at once. A gap that opens with a speed after an impact is watched only after the time that it needs to
+/// rise above rounding. A gap with zero speed, or a reaction that is zero, is compared with a small negative
+/// threshold, because its sign is uncertain.
 ///
 /// An event of the scene with impulses (Contacts::kicks) ends a phase too. The impulses of all events that are
 /// zero at the instant are added and make one impact, in which closed contacts take part; then the motion goes on,
@@ -22,9 +22,9 @@
 /// event, and a return through zero is found however soon it comes. Infinitely many kicks in a finite time are a
 /// failure.
 
-#include "alembert/integrate.hpp"
-#include "alembert/settle.hpp"
-#include "alembert/switching.hpp"
+#include "alembert/hybrid/contact_transition.hpp"
+#include "alembert/hybrid/filippov.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace alembert {
 
@@ -39,9 +39,9 @@ struct ContactMode {
     OnMethod on_method = {};  ///< may be empty
     /// Moves a state onto the constraints of the mode; may be empty.
     std::function<void(double t, double* state)> project = {};
-    OnStep on_step = {};                              ///< may be empty
-    Integrator by = {};                               ///< Options::by; may be empty
-    std::shared_ptr<const Switching> switching = {};  ///< set if the right-hand side has jumps or kinks
+    OnStep on_step = {};                                   ///< may be empty
+    Integrator by = {};                                    ///< Options::by; may be empty
+    std::shared_ptr<const FilippovSystem> switching = {};  ///< set if the right-hand side has jumps or kinks
 };
 
 /// Called once for each phase. The reference must stay valid.

@@ -5,13 +5,13 @@
 // least-distance problem, solved by non-negative least squares: min |E u − f|, u ≥ 0, E = [Ĝᵀ; hᵀ], f = (0 … 0 1)ᵀ
 // (Lawson & Hanson, Solving Least Squares Problems (1974), ch. 23, algorithms NNLS and LDP). Its remainder
 // vanishes if and only if no y exists.
-#include "alembert/impact.hpp"
+#include "alembert/hybrid/impact.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 namespace alembert {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/rough_strike.hpp"
+#include "alembert/hybrid/impact_dispatch.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "alembert/rough_choice.hpp"
-#include "alembert/rough_cones.hpp"
-#include "alembert/rough_impact.hpp"
+#include "alembert/hybrid/contact_cones.hpp"
+#include "alembert/hybrid/contact_modes.hpp"
+#include "alembert/hybrid/impact_routh.hpp"
 
 namespace alembert {
 

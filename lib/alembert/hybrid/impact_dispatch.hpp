@@ -4,14 +4,14 @@
 /// The impact of contacts of which at least one has dry friction.
 ///
 /// Contacts that do not feel each other (the feet of two bodies) are struck each by itself. A contact that strikes
-/// alone follows the impulse through its impact (rough_impact.hpp), if no other contact is pressed by that: the
+/// alone follows the impulse through its impact (impact_routh.hpp), if no other contact is pressed by that: the
 /// corner on which a block has stood lifts off when the other one strikes. Otherwise all contacts that feel each
 /// other are struck together by Moreau's law: a contact that has borne an impulse parts with e times its speed
 /// before, and sticks, or slides against its friction; the result must not gain energy, and must be the only one.
-/// Along lines that is proved for up to five contacts by trying all choices (rough_choice.hpp); otherwise a second
-/// result is looked for once, from other impulses (rough_cones.hpp).
+/// Along lines that is proved for up to five contacts by trying all choices (contact_modes.hpp); otherwise a
+/// second result is looked for once, from other impulses (contact_cones.hpp).
 
-#include "alembert/settle.hpp"
+#include "alembert/hybrid/contact_transition.hpp"
 
 namespace alembert {
 

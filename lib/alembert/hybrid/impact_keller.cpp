@@ -2,8 +2,8 @@
 // The impact is a motion with the normal impulse for its time, in which friction sticks and slides as always.
 #include <cmath>
 
-#include "alembert/rough_impact.hpp"
-#include "alembert/switching.hpp"
+#include "alembert/hybrid/filippov.hpp"
+#include "alembert/hybrid/impact_routh.hpp"
 
 namespace alembert {
 
@@ -64,7 +64,7 @@ private:
     }
     Vector2d slip(const double* y) const { return slip_ * Eigen::Map<const VectorXd>(y, n_) + slip_drift_; }
 
-    /// The direction of the sliding velocity as Switching describes it.
+    /// The direction of the sliding velocity as FilippovSystem describes it.
     static Vector2d direction(const Vector2d& v, const double* sigma) {
         const Vector2d p(sigma[2], sigma[3]), aside(-p[1], p[0]);
         if (sigma[0] == 0) return p;
@@ -83,8 +83,8 @@ private:
         sums[3] = -(gap(y) + tau.dot(v));
     }
 
-    Switching as_motion() {
-        Switching made;
+    FilippovSystem as_motion() {
+        FilippovSystem made;
         made.names = {"first", "second"};
         made.pairs = 1;
         made.speed = 1;  // in units of the largest rate
@@ -104,7 +104,7 @@ private:
             out[0] = r;
             out[1] = out[2] = out[3] = 1;
         };
-        made.on_change = [this](const SideChange& change) { slides_ = change.side != 0; };
+        made.on_change = [this](const ModeChange& change) { slides_ = change.side != 0; };
         return made;
     }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/rough_impact.hpp"
+#include "alembert/hybrid/impact_routh.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 namespace alembert {
 

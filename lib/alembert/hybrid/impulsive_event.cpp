@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/kick.hpp"
+#include "alembert/hybrid/impulsive_event.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 /// them and what a run must remember.
 ///
 ///     Contacts contacts{.kicks = {.events = {true}, .impulse = …, .passed = …}};
-///     const PhasedMotion motion = follow(contacts, modes, initial, options);        // phases.hpp
+///     const PhasedMotion motion = follow(contacts, modes, initial, options);        // hybrid_motion.hpp
 ///     motion.events[0].energy_gain;
 ///
 /// Rounding must not repeat a zero that has just been passed: the event's value is held on the side to which it
@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-#include "alembert/events.hpp"
-#include "alembert/trajectory.hpp"
+#include "alembert/ode/events.hpp"
+#include "alembert/ode/trajectory.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/even_shares.hpp"
+#include "alembert/hybrid/minimax_reactions.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 namespace alembert {
 

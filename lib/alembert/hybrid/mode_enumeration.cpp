@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/switch_choice.hpp"
+#include "alembert/hybrid/mode_enumeration.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "alembert/switch_moment.hpp"
-#include "alembert/switch_sides.hpp"
+#include "alembert/hybrid/sliding_mode.hpp"
+#include "alembert/hybrid/switching_scales.hpp"
 
 namespace alembert {
 
@@ -21,7 +21,7 @@ constexpr double sticks_surely = 1e-6;  // the margin above which nothing else i
 constexpr double held_back = 1e-9;      // ġ relative to what it would be alone, if others that stick hold it
 
 /// Changes the sides of a function or of a pair.
-void set_side(SideSet& sides, int k, int side) {
+void set_side(SlidingMode& sides, int k, int side) {
     sides[static_cast<std::size_t>(k)] = side;
     if (sides.is_pair(k)) sides[static_cast<std::size_t>(k) + 1] = side;
 }
@@ -57,8 +57,8 @@ double large_grain(double speed) {
 }
 
 /// begin_to_slide for several pairs, whose directions depend on each other.
-void begin_to_slide_together(const Switching& system, SideSet& sides, const std::vector<int>& pairs, double t,
-                             const std::vector<double>& state) {
+void begin_to_slide_together(const FilippovSystem& system, SlidingMode& sides, const std::vector<int>& pairs,
+                             double t, const std::vector<double>& state) {
     if (pairs.size() == 1) begin_to_slide(system, sides, pairs[0], t, state);
     if (pairs.size() <= 1) return;
     SwitchSides at(system, sides, static_cast<int>(state.size()));
@@ -69,9 +69,9 @@ void begin_to_slide_together(const Switching& system, SideSet& sides, const std:
     for (int sweep = 0; sweep < most_sweeps && turned > settled; ++sweep) {
         turned = 0;
         for (const int k : pairs) {
-            const SideSet::Slide before = sides.slides[static_cast<std::size_t>(k / 2)];
+            const SlidingMode::Slide before = sides.slides[static_cast<std::size_t>(k / 2)];
             begin_to_slide(system, sides, k, t, state);
-            const SideSet::Slide& slide = sides.slides[static_cast<std::size_t>(k / 2)];
+            const SlidingMode::Slide& slide = sides.slides[static_cast<std::size_t>(k / 2)];
             turned = std::max(turned, std::hypot(slide.along - before.along, slide.across - before.across));
             grain(k) = large_grain(at.velocity(k).norm());
         }
@@ -81,14 +81,14 @@ void begin_to_slide_together(const Switching& system, SideSet& sides, const std:
 
 class SideJudge {
 public:
-    SideJudge(const Switching& system, const SideSet& sides, const std::vector<int>& open, double t,
+    SideJudge(const FilippovSystem& system, const SlidingMode& sides, const std::vector<int>& open, double t,
               const std::vector<double>& state)
         : system_(system), t_(t), state_(state), stands_(sides.size()) {
         for (const int k : open) stands_[static_cast<std::size_t>(k)] = stands_still(system, sides, k, t, state);
     }
 
     /// Chooses the directions of pairs that begin to slide.
-    void direct(SideSet& sides, const std::vector<int>& open) const {
+    void direct(SlidingMode& sides, const std::vector<int>& open) const {
         std::vector<int> pairs;
         for (const int k : open)
             if (sides.is_pair(k) && sides[static_cast<std::size_t>(k)] != 0) pairs.push_back(k);
@@ -97,7 +97,8 @@ public:
 
     /// How consistent a choice is. In a consistent one every g moves to its chosen side and every α lies between
     /// −1 and 1.
-    SideChoice judged(const SideSet& sides, const std::vector<int>& open, const std::vector<int>& resting) const {
+    SideChoice judged(const SlidingMode& sides, const std::vector<int>& open,
+                      const std::vector<int>& resting) const {
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
         at.find_bounds(t_, state_.data());
@@ -111,7 +112,7 @@ public:
                 allow(margin_of_pair(at, k));
                 continue;
             }
-            SideSet one = sides, other = sides;
+            SlidingMode one = sides, other = sides;
             for (const int still : resting)
                 one[still] = other[still] = 1;  // no σ of theirs changes their own rates
             one[k] = 1;
@@ -146,8 +147,8 @@ private:
         if (at.sides()[static_cast<std::size_t>(k)] == 0)
             return at.resists(k) ? 1 - at.share(k) / at.bound(k) : -HUGE_VAL;
         if (can_stick(at.sides(), k)) return -HUGE_VAL;
-        SideSet back = at.sides();
-        SideSet::Slide& slide = back.slides[static_cast<std::size_t>(k / 2)];
+        SlidingMode back = at.sides();
+        SlidingMode::Slide& slide = back.slides[static_cast<std::size_t>(k / 2)];
         const Eigen::Vector2d e(slide.along, slide.across);
         slide = {-e[0], -e[1], slide.grain};
         SwitchSides other(system_, back, static_cast<int>(state_.size()));
@@ -157,7 +158,7 @@ private:
     }
 
     /// Friction with a static coefficient above the kinetic one begins to slide only where that is overcome.
-    bool can_stick(SideSet sides, int k) const {
+    bool can_stick(SlidingMode sides, int k) const {
         if (!system_.bounds) return false;
         set_side(sides, k, 0);
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
@@ -166,7 +167,7 @@ private:
         return at.bound(k) > 1 && at.share(k) <= at.bound(k);
     }
 
-    double slope_of(const SideSet& sides, int k) const {
+    double slope_of(const SlidingMode& sides, int k) const {
         SwitchSides at(system_, sides, static_cast<int>(state_.size()));
         at.evaluate(t_, state_.data());
         return decisive(at, k);
@@ -178,17 +179,17 @@ private:
     }
 
     /// The decisive rate at a side of the function while nothing else sticks.
-    double slope_alone(SideSet sides, int k, int side) const {
+    double slope_alone(SlidingMode sides, int k, int side) const {
         for (int& other : sides.of) other = other == 0 ? 1 : other;
         sides[static_cast<std::size_t>(k)] = side;
         return slope_of(sides, k);
     }
 
-    double size_alone(const SideSet& sides, int k) const {
+    double size_alone(const SlidingMode& sides, int k) const {
         return std::abs(slope_alone(sides, k, -1)) + std::abs(slope_alone(sides, k, 1));
     }
 
-    const Switching& system_;
+    const FilippovSystem& system_;
     double t_;
     const std::vector<double>& state_;
     std::vector<bool> stands_;  ///< functions of positions that stand still
@@ -196,7 +197,7 @@ private:
 
 }  // namespace
 
-std::vector<double> Switching::sigma(const SideSet& sides) const {
+std::vector<double> FilippovSystem::sigma(const SlidingMode& sides) const {
     std::vector<double> all;
     for (std::size_t c = 0; c < sides.slides.size(); ++c) {
         const bool slides = sides[2 * c] != 0;
@@ -205,20 +206,20 @@ std::vector<double> Switching::sigma(const SideSet& sides) const {
     }
     for (std::size_t k = 0; k < sides.size(); ++k) {
         const bool of_pair = sides.is_pair(static_cast<int>(k)) && sides[k] != 0;
-        const SideSet::Slide* const slide = of_pair ? &sides.slides[k / 2] : nullptr;
+        const SlidingMode::Slide* const slide = of_pair ? &sides.slides[k / 2] : nullptr;
         all.push_back(slide ? (k % 2 == 0 ? slide->along : slide->across) : sides[k]);
     }
     return all;
 }
 
-SideSet Switching::start() const {
+SlidingMode FilippovSystem::start() const {
     return {.of = std::vector<int>(static_cast<std::size_t>(count()), 1),
-            .slides = std::vector<SideSet::Slide>(static_cast<std::size_t>(pairs))};
+            .slides = std::vector<SlidingMode::Slide>(static_cast<std::size_t>(pairs))};
 }
 
-double begin_to_slide(const Switching& system, SideSet& sides, int pair, double t,
+double begin_to_slide(const FilippovSystem& system, SlidingMode& sides, int pair, double t,
                       const std::vector<double>& state) {
-    SideSet::Slide& slide = sides.slides[static_cast<std::size_t>(pair / 2)];
+    SlidingMode::Slide& slide = sides.slides[static_cast<std::size_t>(pair / 2)];
     SwitchSides here(system, sides, static_cast<int>(state.size()));
     here.evaluate(t, state.data());
     const double speed = here.velocity(pair).norm();
@@ -250,7 +251,7 @@ double begin_to_slide(const Switching& system, SideSet& sides, int pair, double 
     return best;
 }
 
-std::vector<int> give_way(const Switching& system, SideSet& sides, int pair, double t,
+std::vector<int> give_way(const FilippovSystem& system, SlidingMode& sides, int pair, double t,
                           const std::vector<double>& state) {
     SwitchSides at(system, sides, static_cast<int>(state.size()));
     at.evaluate(t, state.data());
@@ -274,13 +275,13 @@ std::vector<int> give_way(const Switching& system, SideSet& sides, int pair, dou
     return pairs;
 }
 
-std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
+std::vector<SideChoice> side_choices(const FilippovSystem& system, SlidingMode sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state, const std::vector<int>& resting) {
     const SideJudge judge(system, sides, open, t, state);
     for (const int k : resting) sides[k] = 0;
     // In a plane what can stick sticks, and no direction of sliding has to be looked for.
     if (std::all_of(open.begin(), open.end(), [&](int k) { return sides.is_pair(k); })) {
-        SideSet still = sides;
+        SlidingMode still = sides;
         for (const int k : open) set_side(still, k, 0);
         const SideChoice all_stick = judge.judged(still, open, resting);
         if (all_stick.margin > sticks_surely) return {all_stick};
@@ -307,9 +308,9 @@ bool are_ambiguous(const std::vector<SideChoice>& choices) {
     return choices.size() > 1 && choices[1].is_clear() && choices[0].jumps;
 }
 
-std::vector<double> consistent_signs(const Switching& system, const std::function<double(int k)>& still, double t,
-                                     const double* y, int dimension, SideSet* found) {
-    SideSet sides = system.start();
+std::vector<double> consistent_signs(const FilippovSystem& system, const std::function<double(int k)>& still,
+                                     double t, const double* y, int dimension, SlidingMode* found) {
+    SlidingMode sides = system.start();
     std::vector<double> none(static_cast<std::size_t>(dimension)), g(system.numbers());
     for (int k = 0; k < system.count(); ++k) {  // a function may contain the signs of those before it
         const auto at = static_cast<std::size_t>(k);

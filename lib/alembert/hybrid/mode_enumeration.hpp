@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The sides to which functions at their zeros may move (switching.hpp).
+/// The sides to which functions at their zeros may move (filippov.hpp).
 
 #include <vector>
 
-#include "alembert/switching.hpp"
+#include "alembert/hybrid/filippov.hpp"
 
 namespace alembert {
 
 struct SideChoice {
-    SideSet sides;
+    SlidingMode sides;
     double margin;  ///< the choice is consistent if this is positive
     bool jumps;     ///< whether f differs on the two sides of the open functions
 
@@ -25,7 +25,7 @@ struct SideChoice {
 /// takes. There are 3 to the power of the number of open functions, with 2 for a pair. If all of them are pairs
 /// that may stick together with some margin, that choice is the only one. In all choices those of `resting`, whose
 /// rates are zero and do not depend on σ, stay zero with a σ within their bounds.
-std::vector<SideChoice> side_choices(const Switching& system, SideSet sides, const std::vector<int>& open,
+std::vector<SideChoice> side_choices(const FilippovSystem& system, SlidingMode sides, const std::vector<int>& open,
                                      double t, const std::vector<double>& state,
                                      const std::vector<int>& resting = {});
 
@@ -34,12 +34,12 @@ bool are_ambiguous(const std::vector<SideChoice>& choices);
 
 /// Gives a pair that begins to slide its direction d, for which v' = r d, and returns r; the other functions have
 /// their sides. If there are several, that with the largest r is taken, and r is negative if there is none.
-double begin_to_slide(const Switching& system, SideSet& sides, int pair, double t,
+double begin_to_slide(const FilippovSystem& system, SlidingMode& sides, int pair, double t,
                       const std::vector<double>& state);
 
 /// Lets the pair, which has reached its bound, slide, and all those that reach theirs with it because the forces
 /// of neither are determined. Returns the pairs.
-std::vector<int> give_way(const Switching& system, SideSet& sides, int pair, double t,
+std::vector<int> give_way(const FilippovSystem& system, SlidingMode& sides, int pair, double t,
                           const std::vector<double>& state);
 
 }  // namespace alembert

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/switch_watch.hpp"
+#include "alembert/hybrid/mode_guards.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 
 namespace alembert {
 

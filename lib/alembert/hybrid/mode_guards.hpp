@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The values that are watched during a piece of a motion with held signs (switching.hpp). The piece ends when one
+/// The values that are watched during a piece of a motion with held signs (filippov.hpp). The piece ends when one
 /// of them reaches zero.
 
 #include <cmath>
 #include <vector>
 
-#include "alembert/switch_sides.hpp"
+#include "alembert/hybrid/sliding_mode.hpp"
 
 namespace alembert {
 

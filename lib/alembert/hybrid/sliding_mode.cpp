@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/switch_sides.hpp"
+#include "alembert/hybrid/sliding_mode.hpp"
 
 #include <limits>
 
-#include "alembert/dense.hpp"
-#include "alembert/even_shares.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/hybrid/minimax_reactions.hpp"
 
 namespace alembert {
 

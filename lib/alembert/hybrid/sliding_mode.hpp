@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A system with held signs (switching.hpp) at one state, for given sides of its functions.
+/// A system with held signs (filippov.hpp) at one state, for given sides of its functions.
 ///
 ///     SwitchSides at(system, {{1, 0}}, dimension);    // the first is positive, the second slides along its zero
 ///     at.evaluate(t, y);
@@ -13,14 +13,14 @@
 #include <cmath>
 #include <vector>
 
-#include "alembert/switching.hpp"
+#include "alembert/hybrid/filippov.hpp"
 
 namespace alembert {
 
 /// f and σ for given sides. The σ of functions that slide follow from ġ = 0.
 class SwitchSides {
 public:
-    SwitchSides(const Switching& system, SideSet sides, int dimension)
+    SwitchSides(const FilippovSystem& system, SlidingMode sides, int dimension)
         : system_(system),
           sides_(std::move(sides)),
           sigma_(system.sigma(sides_)),
@@ -33,7 +33,7 @@ public:
 
     int count() const { return system_.count(); }
     bool has_bounds() const { return static_cast<bool>(system_.bounds); }
-    const SideSet& sides() const { return sides_; }
+    const SlidingMode& sides() const { return sides_; }
     const std::vector<int>& sliding() const { return sliding_; }
     const std::vector<double>& sigma() const { return sigma_; }
     /// σ of the function k.
@@ -49,7 +49,7 @@ public:
     Eigen::Vector2d acceleration(int k) const { return {slope(k), slope(k + 1)}; }
     /// How far the direction of a pair is from turning by 60°: w·e − |w|/2.
     double ahead(int k) const {
-        const SideSet::Slide& slide = sides_.slides[static_cast<std::size_t>(k / 2)];
+        const SlidingMode::Slide& slide = sides_.slides[static_cast<std::size_t>(k / 2)];
         const Eigen::Vector2d e(slide.along, slide.across), w = velocity(k) + slide.grain * e;
         return w.dot(e) - w.norm() / 2;
     }
@@ -73,7 +73,7 @@ public:
     void evaluate(double t, const double* y);
 
     /// To be called after `evaluate` at the same state. Where pairs stick and the motion does not determine their
-    /// σ, the even ones are taken (even_shares.hpp), with which the motion is the same.
+    /// σ, the even ones are taken (minimax_reactions.hpp), with which the motion is the same.
     void find_bounds(double t, const double* y);
     /// Whether `find_bounds` has chosen among several σ.
     bool shares_are_free() const { return shares_are_free_; }
@@ -104,8 +104,8 @@ private:
         return result;
     }
 
-    const Switching& system_;
-    SideSet sides_;
+    const FilippovSystem& system_;
+    SlidingMode sides_;
     std::vector<int> sliding_;
     std::vector<double> sigma_, f_, g_, bounds_;
     Eigen::MatrixXd B_;

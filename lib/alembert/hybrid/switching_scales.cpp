@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/switch_moment.hpp"
+#include "alembert/hybrid/switching_scales.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 
 namespace alembert {
 
@@ -21,15 +21,15 @@ constexpr int most_rounds_at_rest = 8;
 constexpr double small_swing = 1e-6;
 
 /// |g| of a function, or of both of a pair.
-double length(const SideSet& sides, const std::vector<double>& g, int k) {
+double length(const SlidingMode& sides, const std::vector<double>& g, int k) {
     return sides.is_pair(k) ? std::hypot(g[k], g[k + 1]) : std::abs(g[k]);
 }
 
-/// Σ |∂g/∂y_i| size(y_i): how far g, or what `length` makes of the numbers of Switching::values, is off where the
-/// components of the state are off by these sizes.
+/// Σ |∂g/∂y_i| size(y_i): how far g, or what `length` makes of the numbers of FilippovSystem::values, is off where
+/// the components of the state are off by these sizes.
 template <typename Length, typename Size>
-double moved(const Switching& system, const SideSet& sides, double t, std::vector<double> y, const Length& length,
-             const Size& size) {
+double moved(const FilippovSystem& system, const SlidingMode& sides, double t, std::vector<double> y,
+             const Length& length, const Size& size) {
     const std::vector<double> none(y.size()), sigma = system.sigma(sides);
     std::vector<double> here(system.numbers()), there = here;
     system.values(t, y.data(), sigma.data(), none.data(), here.data());
@@ -81,7 +81,7 @@ double SwitchMoment::speed(int pair) const {
     double largest = system.speed;
     for (int k = 0; sides.is_pair(k); ++k) largest = std::max(largest, sizes[k]);
     if (system.speed > 0) return largest;
-    SideSet held = sides;
+    SlidingMode held = sides;
     held[pair] = held[pair + 1] = 0;
     const std::vector<double> sigma = system.sigma(held);  // α = 0
     std::vector<double> rate(state.size()), g(system.numbers());
@@ -114,7 +114,7 @@ double SwitchMoment::uncertain_normal(const SwitchSides& now, int k) const {
 bool SwitchMoment::brakes(int k) const {
     double slopes[2];
     for (const int side : {0, 1}) {
-        SideSet other = sides;
+        SlidingMode other = sides;
         other[k] = 2 * side - 1;
         SwitchSides at(system, other, dimension());
         at.evaluate(t, state.data());
@@ -123,7 +123,7 @@ bool SwitchMoment::brakes(int k) const {
     return std::abs(slopes[1] - slopes[0]) > different * (std::abs(slopes[0]) + std::abs(slopes[1]));
 }
 
-std::vector<int> Swings::at_rest(const SwitchMoment& moment, const std::vector<int>& open, double since) {
+std::vector<int> ChatterWatch::at_rest(const SwitchMoment& moment, const std::vector<int>& open, double since) {
     SwitchSides here(moment.system, moment.sides, moment.dimension());
     here.evaluate(moment.t, moment.state.data());
     std::vector<int> found;
@@ -143,7 +143,7 @@ std::vector<int> Swings::at_rest(const SwitchMoment& moment, const std::vector<i
     return found;
 }
 
-bool stands_still(const Switching& system, const SideSet& sides, int k, double t,
+bool stands_still(const FilippovSystem& system, const SlidingMode& sides, int k, double t,
                   const std::vector<double>& state) {
     if (!system.is_positional(k)) return false;
     const std::size_t rate = sides.size() + static_cast<std::size_t>(k);

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What counts as small at one moment of a motion with held signs (switching.hpp), in the units of the motion
+/// What counts as small at one moment of a motion with held signs (filippov.hpp), in the units of the motion
 /// itself.
 ///
 ///     const SwitchMoment moment{system, sides, t, state, options, sizes};
 ///     moment.stopped(k);     // a sliding velocity below this is none
 ///
-///     Swings swings(count);
+///     ChatterWatch swings(count);
 ///     swings.at_rest(moment, open, since);   // the functions that have come to rest at their zeros
 
 #include <vector>
 
-#include "alembert/switch_sides.hpp"
+#include "alembert/hybrid/sliding_mode.hpp"
 
 namespace alembert {
 
 struct SwitchMoment {
-    const Switching& system;
-    const SideSet& sides;
+    const FilippovSystem& system;
+    const SlidingMode& sides;
     double t;
     const std::vector<double>& state;
     const Options& options;
@@ -43,9 +43,9 @@ struct SwitchMoment {
 };
 
 /// How far functions are from zero where others change their signs, from one change to the next.
-class Swings {
+class ChatterWatch {
 public:
-    explicit Swings(std::size_t functions) : of_(functions) {}
+    explicit ChatterWatch(std::size_t functions) : of_(functions) {}
 
     /// Functions other than the `open` ones that the tolerance does not tell from zero, or that do not come nearer
     /// to it from one change to the next, and that do not move either. `since`: the time since the last change.
@@ -61,7 +61,7 @@ private:
 
 /// Whether a function of positions that is zero stands still: its ġ is zero but for rounding, and g̈ decides where
 /// it goes.
-bool stands_still(const Switching& system, const SideSet& sides, int k, double t,
+bool stands_still(const FilippovSystem& system, const SlidingMode& sides, int k, double t,
                   const std::vector<double>& state);
 
 }  // namespace alembert

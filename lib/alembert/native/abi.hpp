@@ -77,7 +77,7 @@ struct alembert_derivative_table {
 /// What `alembert_projection()` returns, which the emitted file of a system with constraints has.
 struct alembert_projection_table {
     int abi;
-    /// moved: n + s, the state after one step of Newton's method to the constraints (project.hpp says in which
+    /// moved: n + s, the state after one step of Newton's method to the constraints (projection.hpp says in which
     /// metric); position: m, f at the state given; pivots: m, the pivots of the elimination of A M⁻¹Aᵀ. For
     /// constraints that u has eliminated they are those of A Aᵀ if the constraint is holonomic, else 0. The
     /// pointer is null if u has eliminated all constraints and none is holonomic.

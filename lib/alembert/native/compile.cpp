@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/compile.hpp"
+#include "alembert/native/compile.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -19,11 +19,11 @@
 
 #include <fmt/format.h>
 
-#include "alembert/abi.hpp"
-#include "alembert/error.hpp"
-#include "alembert/fingerprint.hpp"
-#include "alembert/leftover.hpp"
-#include "alembert/process.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/abi.hpp"
+#include "alembert/native/fingerprint.hpp"
+#include "alembert/native/process.hpp"
+#include "alembert/native/temporary_files.hpp"
 
 namespace alembert {
 namespace {

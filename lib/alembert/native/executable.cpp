@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/executable.hpp"
+#include "alembert/native/executable.hpp"
 
 #include <sys/mman.h>
 

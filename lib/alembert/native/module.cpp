@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/module.hpp"
+#include "alembert/native/module.hpp"
 
 #include <dlfcn.h>
 
@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "alembert/argument.hpp"
-#include "alembert/error.hpp"
-#include "alembert/own_file.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/program_path.hpp"
 
 namespace alembert {
 

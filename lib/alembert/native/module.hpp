@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/abi.hpp"
+#include "alembert/native/abi.hpp"
 
 namespace alembert {
 

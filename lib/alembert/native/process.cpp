@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/process.hpp"
+#include "alembert/native/process.hpp"
 
 #include <fcntl.h>
 #include <pthread.h>
@@ -17,9 +17,9 @@
 #include <optional>
 #include <string_view>
 
-#include "alembert/error.hpp"
-#include "alembert/leftover.hpp"
-#include "alembert/own_file.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/program_path.hpp"
+#include "alembert/native/temporary_files.hpp"
 
 namespace alembert {
 namespace {

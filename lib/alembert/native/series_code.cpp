@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/series_code.hpp"
+#include "alembert/native/series_code.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <utility>
 
-#include "alembert/registers.hpp"
+#include "alembert/native/cpu_features.hpp"
 
 namespace alembert {
 

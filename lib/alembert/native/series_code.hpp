@@ -11,7 +11,7 @@
 /// coefficients of order k from what it is given: sums of products, and numbers that it wrote at the order before.
 /// Row k, which it writes too, has the left factors of all products at order k, then the right ones.
 
-#include "alembert/series.hpp"
+#include "alembert/ode/series.hpp"
 
 namespace alembert {
 

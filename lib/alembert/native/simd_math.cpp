@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/code_functions.hpp"
+#include "alembert/native/simd_math.hpp"
 
 #include <cmath>
 
@@ -7,7 +7,7 @@
 #include <immintrin.h>
 #endif
 
-#include "alembert/registers.hpp"
+#include "alembert/native/cpu_features.hpp"
 
 // Sines and cosines of four angles at once, as in templates/sines.cpp.mustache, which says more:
 //

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Two lists of fixed size, which a signal handler can read at any moment, because no memory is allocated and no
 // lock is taken.
-#include "alembert/leftover.hpp"
+#include "alembert/native/temporary_files.hpp"
 
 #include <dirent.h>
 #include <fcntl.h>

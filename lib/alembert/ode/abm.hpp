@@ -14,8 +14,8 @@
 /// Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §III.1 (the formulas)
 /// and §III.7; Milne 1926.
 
-#include "alembert/differences.hpp"
-#include "alembert/stepper.hpp"
+#include "alembert/ode/differences.hpp"
+#include "alembert/ode/stepper.hpp"
 
 namespace alembert {
 

@@ -19,9 +19,9 @@
 /// Sources: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, §III.1; Shampine & Reichelt, SIAM
 /// J. Sci. Comput. 18 (1997) 1-22, §2, with κ = 0; Hairer & Wanner II, §V.2, table 2.1 (the angles).
 
-#include "alembert/dense.hpp"
-#include "alembert/differences.hpp"
-#include "alembert/newton.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/ode/differences.hpp"
+#include "alembert/ode/newton.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/collocation.hpp"
+#include "alembert/ode/collocation.hpp"
 
 #include <algorithm>
 #include <array>

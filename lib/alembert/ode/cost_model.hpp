@@ -15,8 +15,8 @@
 #include <array>
 #include <cstddef>
 
-#include "alembert/methods.hpp"
-#include "alembert/rhs.hpp"
+#include "alembert/ode/methods.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 

@@ -28,7 +28,7 @@
 #include <span>
 #include <vector>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace alembert {
 

@@ -9,7 +9,7 @@
 /// §II.6 (dense output), who give the coefficients with 30 digits. Here they are rounded to double and written as
 /// the shortest decimals that give the same double. A test checks them against the order conditions.
 
-#include "alembert/tableau.hpp"
+#include "alembert/ode/tableau.hpp"
 
 namespace alembert {
 

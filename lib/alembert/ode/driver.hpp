@@ -4,11 +4,11 @@
 /// One integration by steps of one kind, from options that have been checked to a trajectory. `integrate` is made
 /// of this; call that function.
 ///
-///     Trajectory motion = StepLoop<Step<dop853_tableau>>(rhs, initial, options, events).go();
-///     Trajectory motion = StepLoop<Stepper<Gauss>>(rhs, initial, options, events).go();
+///     Trajectory motion = Driver<Step<dop853_tableau>>(rhs, initial, options, events).go();
+///     Trajectory motion = Driver<Stepper<Gauss>>(rhs, initial, options, events).go();
 ///
-/// A step is any class with the members of Step (step.hpp). One that has `next_length(ratio)` chooses the length
-/// of the next step itself, together with other things (an order, or whether to keep a factorization).
+/// A step is any class with the members of Step (explicit_rk.hpp). One that has `next_length(ratio)` chooses the
+/// length of the next step itself, together with other things (an order, or whether to keep a factorization).
 ///
 /// In an accepted step, events are found first and recorded with the rows before them; an event that stops ends
 /// the run. Then the other rows are recorded, and the end of the step becomes the start of the next. This class
@@ -23,18 +23,18 @@
 
 #include <fmt/format.h>
 
-#include "alembert/disturbance.hpp"
-#include "alembert/event_watch.hpp"
-#include "alembert/integrate.hpp"
-#include "alembert/pace.hpp"
-#include "alembert/recorder.hpp"
-#include "alembert/rounding.hpp"
-#include "alembert/series_pace.hpp"
-#include "alembert/shrinking.hpp"
-#include "alembert/step.hpp"
-#include "alembert/step_size.hpp"
-#include "alembert/stiffness.hpp"
-#include "alembert/straight.hpp"
+#include "alembert/ode/cost_model.hpp"
+#include "alembert/ode/disturbance.hpp"
+#include "alembert/ode/event_watch.hpp"
+#include "alembert/ode/explicit_rk.hpp"
+#include "alembert/ode/integrate.hpp"
+#include "alembert/ode/missed_feature_check.hpp"
+#include "alembert/ode/recorder.hpp"
+#include "alembert/ode/rounding.hpp"
+#include "alembert/ode/step_collapse.hpp"
+#include "alembert/ode/step_size.hpp"
+#include "alembert/ode/stiffness.hpp"
+#include "alembert/ode/taylor_switch.hpp"
 
 namespace alembert {
 
@@ -45,9 +45,9 @@ inline double sample_interval(const Options& options) {
 
 /// A run with one method: its step and the trajectory that it collects.
 template <class AnyStep>
-class StepLoop {
+class Driver {
 public:
-    StepLoop(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
+    Driver(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
         : options_(options),
           end_(options.start + options.duration),
           grid_(options.grid.value_or(options.start)),
@@ -115,7 +115,7 @@ private:
         return 1;
     }
 
-    /// The predicted effort of the steps so far (pace.hpp), without events.
+    /// The predicted effort of the steps so far (cost_model.hpp), without events.
     double effort() const { return static_cast<double>(step_.evaluations()) * effort_of_call(); }
     double effort_of_call() const {
         if constexpr (requires { step_.effort(); }) return step_.effort();
@@ -274,7 +274,7 @@ private:
     void accept() {
         ++result_.statistics.steps;
         if (disturbance_) disturbance_->accept();
-        const bool is_last = options_.on_stretch && options_.on_stretch(stretch());
+        const bool is_last = options_.on_step_view && options_.on_step_view(stretch());
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
         const auto reach = [this](const Crossing& crossing) -> const std::vector<double>& {
             add_rows_before(crossing.time);
@@ -355,7 +355,7 @@ private:
     /// The part of a change of the rate, times h, that enters a step: implicit methods damp what is stiff.
     double share_of_changes() const { return 1 / (1 + step_.length() * largest_eigenvalue()); }
 
-    Stretch stretch() {
+    StepView stretch() {
         return {.start = step_.time(),
                 .end = step_.end_time(),
                 .end_state = step_.end_state(),

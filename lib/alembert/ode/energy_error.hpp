@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "alembert/abi.hpp"
+#include "alembert/native/abi.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/event_code.hpp"
+#include "alembert/ode/event_code.hpp"
 
 namespace alembert {
 

@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-#include "alembert/interval.hpp"
+#include "alembert/base/interval.hpp"
 
 namespace alembert {
 

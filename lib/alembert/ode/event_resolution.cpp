@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/event_watch.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
+#include "alembert/ode/event_watch.hpp"
 
 namespace alembert {
 
 /// Whether look_at_piece finds all zeros of an event in the piece.
-bool EventWatch::shows_all(const Stretch& step, const Piece& piece, const FivePoints& points, int index) {
+bool EventWatch::shows_all(const StepView& step, const Piece& piece, const FivePoints& points, int index) {
     if (!events_.bounds.has(index)) return describes(step, piece, points, index);
     if (is_bounded(step, piece, points, index)) return true;
     if (!describes(step, piece, points, index)) return false;
@@ -41,7 +41,7 @@ double product(const FiveNumbers& a, const FiveNumbers& b) {
 /// The bounds of an event on some gaps of a piece. All derivatives are with respect to θ.
 class EventWatch::BoundsOfPiece {
 public:
-    BoundsOfPiece(const EventWatch& watch, const Stretch& step, const Piece& piece, const FivePoints& points)
+    BoundsOfPiece(const EventWatch& watch, const StepView& step, const Piece& piece, const FivePoints& points)
         : watch_(watch), step_(step), piece_(piece), points_(points), length_(step.end - step.start) {}
 
     Bounds operator()(int index, std::size_t gap, std::size_t gaps) {
@@ -97,7 +97,7 @@ private:
 
     static constexpr double margins[] = {0.05, 0.1, 0.25};  ///< of values, first and second derivatives
     const EventWatch& watch_;
-    const Stretch& step_;
+    const StepView& step_;
     const Piece& piece_;
     const FivePoints& points_;
     double length_;
@@ -105,7 +105,7 @@ private:
 };
 
 /// Whether all samples have one sign, and bounds show that the event keeps it.
-bool EventWatch::stays_away(const Stretch& step, const Piece& piece, const FivePoints& points, int index) const {
+bool EventWatch::stays_away(const StepView& step, const Piece& piece, const FivePoints& points, int index) const {
     if (!events_.bounds.has(index)) return false;
     const auto side = [&](std::size_t i) { return side_of(samples_[i].value[static_cast<std::size_t>(index)]); };
     const int first = side(piece[0]);
@@ -117,7 +117,7 @@ bool EventWatch::stays_away(const Stretch& step, const Piece& piece, const FiveP
 
 /// Whether the bounds of an event show between each two points that it has no zero, or at most one, or at most two
 /// as a convex or concave function has.
-bool EventWatch::is_bounded(const Stretch& step, const Piece& piece, const FivePoints& points, int index) const {
+bool EventWatch::is_bounded(const StepView& step, const Piece& piece, const FivePoints& points, int index) const {
     const auto k = static_cast<std::size_t>(index);
     BoundsOfPiece bounds(*this, step, piece, points);
     for (std::size_t gap = 0; gap < 4; ++gap) {
@@ -136,7 +136,7 @@ bool EventWatch::is_bounded(const Stretch& step, const Piece& piece, const FiveP
 
 /// Whether the five samples show all zeros of an event: where it may be zero, the misfit is small compared with
 /// the values and slopes around that place. A misfit that may be rounding says nothing.
-bool EventWatch::describes(const Stretch& step, const Piece& piece, const FivePoints& points, int index) {
+bool EventWatch::describes(const StepView& step, const Piece& piece, const FivePoints& points, int index) {
     constexpr double of_values = 0.05, of_slopes = 0.2, beside_zero = 0.2;
     const auto k = static_cast<std::size_t>(index);
     const double width = points.places()[4] - points.places()[0];
@@ -169,7 +169,7 @@ bool EventWatch::describes(const Stretch& step, const Piece& piece, const FivePo
 }
 
 /// The change of an event's value in the middle of the step by a rounding error in each component of the state.
-double EventWatch::rounding(const Stretch& step, int index) {
+double EventWatch::rounding(const StepView& step, int index) {
     if (rounding_.empty()) {
         const Sample& middle = samples_[3];
         const double t = step.start + middle.theta * (step.end - step.start);

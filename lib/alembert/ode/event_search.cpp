@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "alembert/event_watch.hpp"
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
+#include "alembert/ode/event_watch.hpp"
 
 namespace alembert {
 namespace {
@@ -16,7 +16,7 @@ constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-double EventWatch::value(const Stretch& step, int index, double theta) {
+double EventWatch::value(const StepView& step, int index, double theta) {
     const double t = step.start + theta * (step.end - step.start);
     step.interpolate(theta, state_.data());
     rhs_(t, state_.data(), rate_.data());
@@ -27,7 +27,7 @@ double EventWatch::value(const Stretch& step, int index, double theta) {
 
 /// Goes through the points of the piece and the turning points between them and records where the sign changes.
 /// Points where the event is not a number are skipped.
-void EventWatch::look_at_piece(const Stretch& step, const Piece& piece, int index, std::vector<Crossing>& found) {
+void EventWatch::look_at_piece(const StepView& step, const Piece& piece, int index, std::vector<Crossing>& found) {
     const auto k = static_cast<std::size_t>(index);
     theta_.clear();
     g_.clear();
@@ -55,7 +55,7 @@ void EventWatch::look_at_piece(const Stretch& step, const Piece& piece, int inde
     }
 }
 
-void EventWatch::record(const Stretch& step, int index, double theta, int direction,
+void EventWatch::record(const StepView& step, int index, double theta, int direction,
                         std::vector<Crossing>& found) {
     if (std::isnan(theta)) return;
     const double time = theta == 1 ? step.end : step.start + theta * (step.end - step.start);
@@ -70,7 +70,7 @@ void EventWatch::record(const Stretch& step, int index, double theta, int direct
 }
 
 /// The places between points of the same sign at which g has the other sign.
-std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
+std::vector<double> EventWatch::turning_points(const StepView& step, int index) {
     const std::size_t points = theta_.size();
     std::vector<double> found;
     const auto add = [&](double theta) {
@@ -88,7 +88,7 @@ std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
 
 /// Between two neighbouring points of the same sign: does g fall towards zero from both, so steeply that the
 /// tangents, below which no function that is convex towards zero lies, meet on the other side?
-double EventWatch::turns_between(const Stretch& step, int index, std::size_t left) {
+double EventWatch::turns_between(const StepView& step, int index, std::size_t left) {
     const int side = side_of(g_[left]);
     const double a = side * g_[left], b = side * g_[left + 1], width = theta_[left + 1] - theta_[left];
     const double fall = -side * slope_five_[left], rise = side * slope_five_[left + 1];
@@ -103,7 +103,7 @@ double EventWatch::turns_between(const Stretch& step, int index, std::size_t lef
 
 /// Between the two points of a gap, `from` being an end of the piece: does g approach zero from there steeply
 /// enough, and come back?
-double EventWatch::at_the_end(const Stretch& step, int index, std::size_t from, std::size_t to) {
+double EventWatch::at_the_end(const StepView& step, int index, std::size_t from, std::size_t to) {
     const int side = side_of(g_[from]);
     const double a = theta_[from], b = theta_[to], slope = slope_five_[from];
     if (side == 0 || side_of(g_[to]) != side || side * g_[from] + bend * side * slope * (b - a) >= 0 ||
@@ -116,7 +116,7 @@ double EventWatch::at_the_end(const Stretch& step, int index, std::size_t from, 
 /// For three neighbouring points of the same sign: a place between them where g has the other sign. It is searched
 /// for where g is nearest to zero, and only if a parabola through the points comes near zero or a line through two
 /// of them meets zero before the third. Not a number if there is none.
-double EventWatch::between(const Stretch& step, int index, const double* theta, const double* g) {
+double EventWatch::between(const StepView& step, int index, const double* theta, const double* g) {
     const int side = side_of(g[1]);
     if (side == 0 || side_of(g[0]) * side < 0 || side_of(g[2]) != side) return no_place;
     const double before = (g[1] - g[0]) / (theta[1] - theta[0]), after = (g[2] - g[1]) / (theta[2] - theta[1]);
@@ -135,7 +135,7 @@ double EventWatch::between(const Stretch& step, int index, const double* theta, 
 /// Golden-section search for the place where g is nearest to zero, until g has the other sign there. The result is
 /// not a number if no such place is found, or as soon as the values show that no function convex towards zero can
 /// have one.
-double EventWatch::lowest(const Stretch& step, int index, double left, double g_left, double middle, double right,
+double EventWatch::lowest(const StepView& step, int index, double left, double g_left, double middle, double right,
                           double g_right) {
     constexpr double golden = 0.6180339887498949;
     constexpr int enough = 4, most = 40;
@@ -157,7 +157,7 @@ double EventWatch::lowest(const Stretch& step, int index, double left, double g_
 }
 
 /// The zero between two points of different signs, as θ; not a number if it is a pole.
-double EventWatch::locate(const Stretch& step, int index, double left, double g_left, double right,
+double EventWatch::locate(const StepView& step, int index, double left, double g_left, double right,
                           double g_right) {
     double b = left, g_b = g_left;    // the newest point
     double a = right, g_a = g_right;  // the other side of the zero

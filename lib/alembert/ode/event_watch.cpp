@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/event_watch.hpp"
+#include "alembert/ode/event_watch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 
 namespace alembert {
 namespace {
@@ -17,7 +17,7 @@ const FivePoints of_step({0, 0.23, 0.51, 0.77, 1});                ///< not equi
 constexpr std::array<double, 4> parts = {0.47, 0.54, 0.52, 0.45};  ///< where the gaps of a piece are divided
 
 /// Orders zeros by time, simultaneous ones as their events are declared.
-void order(std::vector<Crossing>& found, const Stretch& step) {
+void order(std::vector<Crossing>& found, const StepView& step) {
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
     for (std::size_t i = 1; i < found.size(); ++i)
         for (std::size_t j = i; j > 0 && found[j].index < found[j - 1].index &&
@@ -55,7 +55,7 @@ void EventWatch::begin(double t, const double* state, const double* rate) {
     std::transform(first.value.begin(), first.value.end(), sign_.begin(), side_of);
 }
 
-std::vector<Crossing> EventWatch::look(const Stretch& step) {
+std::vector<Crossing> EventWatch::look(const StepView& step) {
     if (all_.empty()) return {};
     evaluations_before_ = evaluations_;
     const std::vector<int> sign_before = sign_;
@@ -73,11 +73,11 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
 }
 
 /// Searches again before the first crossing that stops the run; true if that finds an earlier one that stops.
-bool EventWatch::look_again(const Stretch& step, std::vector<Crossing>& found) {
+bool EventWatch::look_again(const StepView& step, std::vector<Crossing>& found) {
     const auto stop = std::find_if(found.begin(), found.end(), [&](const Crossing& c) { return stops(c); });
     const Crossing first = *stop;
     if (first.theta <= 0) return false;
-    Stretch part{
+    StepView part{
         .start = step.start,
         .end = first.time,
         .end_state = nullptr,
@@ -103,7 +103,7 @@ bool EventWatch::look_again(const Stretch& step, std::vector<Crossing>& found) {
 }
 
 /// Leaves the end of the step in the second sample.
-std::vector<Crossing> EventWatch::scan(const Stretch& step) {
+std::vector<Crossing> EventWatch::scan(const StepView& step) {
     std::vector<Crossing> found;
     rounding_.clear();
     stop_ = HUGE_VAL;
@@ -136,7 +136,7 @@ std::size_t EventWatch::new_sample() {
     return used_++;
 }
 
-std::size_t EventWatch::sample_at(const Stretch& step, double theta) {
+std::size_t EventWatch::sample_at(const StepView& step, double theta) {
     const std::size_t number = new_sample();
     Sample& sample = samples_[number];
     const double t = step.start + theta * (step.end - step.start);
@@ -149,13 +149,13 @@ std::size_t EventWatch::sample_at(const Stretch& step, double theta) {
 }
 
 /// The time after a sample at which its slopes are measured.
-double EventWatch::ahead(const Stretch& step) const {
+double EventWatch::ahead(const StepView& step) const {
     return std::max(1e-6 * (step.end - step.start), 64 * tolerance::epsilon * std::abs(step.end));
 }
 
 /// The slopes at a sample follow from a difference along the tangent of the motion, on which y' changes as it does
 /// from sample to sample; that costs one evaluation of the events.
-void EventWatch::find_slopes(const Stretch& step, const Piece& piece, const FivePoints& points) {
+void EventWatch::find_slopes(const StepView& step, const Piece& piece, const FivePoints& points) {
     const double length = step.end - step.start, later = ahead(step);
     const std::array<const double*, 5> rates = {samples_[piece[0]].rate.data(), samples_[piece[1]].rate.data(),
                                                 samples_[piece[2]].rate.data(), samples_[piece[3]].rate.data(),
@@ -179,7 +179,7 @@ void EventWatch::find_slopes(const Stretch& step, const Piece& piece, const Five
 }
 
 /// Looks at those of `events` which the five samples describe, and divides the piece for the others.
-void EventWatch::divide(const Stretch& step, const Piece& piece, int depth, const std::vector<int>& events,
+void EventWatch::divide(const StepView& step, const Piece& piece, int depth, const std::vector<int>& events,
                         std::vector<Crossing>& found) {
     const auto theta = [&](std::size_t i) { return samples_[piece[i]].theta; };
     if (theta(0) > stop_ + simultaneous(step.start, step.end) / (step.end - step.start)) return;

@@ -38,8 +38,8 @@
 #include <deque>
 #include <vector>
 
-#include "alembert/events.hpp"
-#include "alembert/five_points.hpp"
+#include "alembert/ode/events.hpp"
+#include "alembert/ode/five_points.hpp"
 
 namespace alembert {
 
@@ -54,7 +54,7 @@ public:
     EventWatch(const Events& events, const Rhs& rhs);
     void begin(double t, const double* state, const double* rate);
     /// The zeros of the step in order, including those that do not count.
-    std::vector<Crossing> look(const Stretch& step);
+    std::vector<Crossing> look(const StepView& step);
     long evaluations() const {
         return evaluations_;
     }  ///< evaluations of the right-hand side that the search needed
@@ -70,33 +70,33 @@ private:
     using Piece = std::array<std::size_t, 5>;
     class BoundsOfPiece;
 
-    std::vector<Crossing> scan(const Stretch& step);
-    bool look_again(const Stretch& step, std::vector<Crossing>& found);
-    void divide(const Stretch& step, const Piece& piece, int depth, const std::vector<int>& events,
+    std::vector<Crossing> scan(const StepView& step);
+    bool look_again(const StepView& step, std::vector<Crossing>& found);
+    void divide(const StepView& step, const Piece& piece, int depth, const std::vector<int>& events,
                 std::vector<Crossing>& found);
-    bool stays_away(const Stretch& step, const Piece& piece, const FivePoints& points, int index) const;
-    bool shows_all(const Stretch& step, const Piece& piece, const FivePoints& points, int index);
-    bool is_bounded(const Stretch& step, const Piece& piece, const FivePoints& points, int index) const;
-    bool describes(const Stretch& step, const Piece& piece, const FivePoints& points, int index);
-    double rounding(const Stretch& step, int index);
+    bool stays_away(const StepView& step, const Piece& piece, const FivePoints& points, int index) const;
+    bool shows_all(const StepView& step, const Piece& piece, const FivePoints& points, int index);
+    bool is_bounded(const StepView& step, const Piece& piece, const FivePoints& points, int index) const;
+    bool describes(const StepView& step, const Piece& piece, const FivePoints& points, int index);
+    double rounding(const StepView& step, int index);
     std::size_t new_sample();
-    std::size_t sample_at(const Stretch& step, double theta);
-    void find_slopes(const Stretch& step, const Piece& piece, const FivePoints& points);
-    double ahead(const Stretch& step) const;
+    std::size_t sample_at(const StepView& step, double theta);
+    void find_slopes(const StepView& step, const Piece& piece, const FivePoints& points);
+    double ahead(const StepView& step) const;
 
-    double value(const Stretch& step, int index, double theta);
-    void look_at_piece(const Stretch& step, const Piece& piece, int index, std::vector<Crossing>& found);
-    void record(const Stretch& step, int index, double theta, int direction, std::vector<Crossing>& found);
+    double value(const StepView& step, int index, double theta);
+    void look_at_piece(const StepView& step, const Piece& piece, int index, std::vector<Crossing>& found);
+    void record(const StepView& step, int index, double theta, int direction, std::vector<Crossing>& found);
     bool stops(const Crossing& crossing) const {
         return crossing.counts && events_.list[static_cast<std::size_t>(crossing.index)].stop;
     }
-    std::vector<double> turning_points(const Stretch& step, int index);
-    double at_the_end(const Stretch& step, int index, std::size_t from, std::size_t to);
-    double turns_between(const Stretch& step, int index, std::size_t left);
-    double between(const Stretch& step, int index, const double* theta, const double* g);
-    double lowest(const Stretch& step, int index, double left, double g_left, double middle, double right,
+    std::vector<double> turning_points(const StepView& step, int index);
+    double at_the_end(const StepView& step, int index, std::size_t from, std::size_t to);
+    double turns_between(const StepView& step, int index, std::size_t left);
+    double between(const StepView& step, int index, const double* theta, const double* g);
+    double lowest(const StepView& step, int index, double left, double g_left, double middle, double right,
                   double g_right);
-    double locate(const Stretch& step, int index, double left, double g_left, double right, double g_right);
+    double locate(const StepView& step, int index, double left, double g_left, double right, double g_right);
 
     const Events& events_;
     const Rhs& rhs_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/events.hpp"
+#include "alembert/ode/events.hpp"
 
 #include <algorithm>
 #include <cmath>

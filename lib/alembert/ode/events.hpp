@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/event_code.hpp"
-#include "alembert/rhs.hpp"
+#include "alembert/ode/event_code.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 
@@ -60,7 +60,7 @@ Events make_events(std::vector<Event> list, Function function) {
 }
 
 /// A finished step, with what the search needs to know about it.
-struct Stretch {
+struct StepView {
     double start = 0;
     double end = 0;
     const double* end_state = nullptr;

@@ -32,8 +32,8 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/rhs.hpp"
-#include "alembert/tableau.hpp"
+#include "alembert/ode/rhs.hpp"
+#include "alembert/ode/tableau.hpp"
 
 namespace alembert {
 

@@ -2,7 +2,7 @@
 // The Hermite polynomial through (θ_j, g_j, g'_j) with Lagrange's l_j (Davis, Interpolation and Approximation,
 // 1975, §2.5):
 //     p(θ) = Σ_j (1 − 2 l_j'(θ_j)(θ − θ_j)) l_j(θ)² g_j + (θ − θ_j) l_j(θ)² g'_j
-#include "alembert/five_points.hpp"
+#include "alembert/ode/five_points.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -27,8 +27,8 @@
 #include <numbers>
 #include <optional>
 
-#include "alembert/dense.hpp"
-#include "alembert/newton.hpp"
+#include "alembert/base/dense.hpp"
+#include "alembert/ode/newton.hpp"
 
 namespace alembert {
 

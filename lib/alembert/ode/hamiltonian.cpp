@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/canonical.hpp"
+#include "alembert/ode/hamiltonian.hpp"
 
 #include <stdexcept>
 

@@ -19,7 +19,7 @@
 #include <memory>
 #include <vector>
 
-#include "alembert/module.hpp"
+#include "alembert/native/module.hpp"
 
 namespace alembert {
 

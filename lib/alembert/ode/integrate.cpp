@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,22 +10,22 @@
 
 #include <fmt/format.h>
 
-#include "alembert/abm.hpp"
-#include "alembert/argument.hpp"
-#include "alembert/bdf.hpp"
-#include "alembert/canonical.hpp"
-#include "alembert/dop853.hpp"
-#include "alembert/error.hpp"
-#include "alembert/gauss.hpp"
-#include "alembert/process_time.hpp"
-#include "alembert/radau.hpp"
-#include "alembert/rattle.hpp"
-#include "alembert/regularized.hpp"
-#include "alembert/run.hpp"
-#include "alembert/symplectic.hpp"
-#include "alembert/tableau.hpp"
-#include "alembert/taylor.hpp"
-#include "alembert/verner.hpp"
+#include "alembert/base/argument.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/base/process_time.hpp"
+#include "alembert/ode/abm.hpp"
+#include "alembert/ode/bdf.hpp"
+#include "alembert/ode/dop853.hpp"
+#include "alembert/ode/driver.hpp"
+#include "alembert/ode/gauss.hpp"
+#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/radau.hpp"
+#include "alembert/ode/rattle.hpp"
+#include "alembert/ode/symplectic.hpp"
+#include "alembert/ode/tableau.hpp"
+#include "alembert/ode/taylor.hpp"
+#include "alembert/ode/time_transformation.hpp"
+#include "alembert/ode/verner.hpp"
 
 namespace alembert {
 namespace {
@@ -59,10 +59,11 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
           fmt::format("{} needs the Taylor series of the system (emit_taylor, make_series), which this right-hand "
                       "side does not have",
                       name(options.method)));
-    check(!needs_canonical(options.method) || (rhs.canonical && 2 * rhs.canonical->coordinates <= rhs.dimension),
-          fmt::format("{} needs the momenta and constraints of the system (canonical.hpp), which this right-hand "
-                      "side does not have",
-                      name(options.method)));
+    check(
+        !needs_canonical(options.method) || (rhs.canonical && 2 * rhs.canonical->coordinates <= rhs.dimension),
+        fmt::format("{} needs the momenta and constraints of the system (hamiltonian.hpp), which this right-hand "
+                    "side does not have",
+                    name(options.method)));
     check(!has_fixed_step(options.method) || options.step > 0 || options.duration == 0,
           fmt::format("{} has a fixed step: give it, for example step = {:g}", name(options.method),
                       options.duration / 1000));
@@ -80,7 +81,7 @@ namespace {
 
 template <class AnyStep>
 Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events) {
-    return StepLoop<AnyStep>(rhs, initial, options, events).go();
+    return Driver<AnyStep>(rhs, initial, options, events).go();
 }
 
 using Integration = Trajectory (*)(const Rhs&, const std::vector<double>&, const Options&, const Events&);

@@ -47,11 +47,11 @@
 #include <string>
 #include <vector>
 
-#include "alembert/events.hpp"
-#include "alembert/methods.hpp"
-#include "alembert/quick_times.hpp"
-#include "alembert/rhs.hpp"
-#include "alembert/trajectory.hpp"
+#include "alembert/ode/events.hpp"
+#include "alembert/ode/input_time_scales.hpp"
+#include "alembert/ode/methods.hpp"
+#include "alembert/ode/rhs.hpp"
+#include "alembert/ode/trajectory.hpp"
 
 namespace alembert {
 
@@ -62,10 +62,10 @@ using OnStep = std::function<void(double t, std::span<const double> state, std::
 using OnMethod = std::function<void(Method)>;
 
 /// Called with each accepted step before the next one; returns whether the run ends with it.
-using OnStretch = std::function<bool(const Stretch&)>;
+using OnStepView = std::function<bool(const StepView&)>;
 
 /// The time in which steps are counted: t, or one of its own that makes steps short where the potential is deep,
-/// in the form for any system or in that for constant masses and forces of positions (regularized.hpp).
+/// in the form for any system or in that for constant masses and forces of positions (time_transformation.hpp).
 enum class Regularization { none, rescaled, canonical };
 
 /// Changes of a run that are a few times as large as its rounding (disturbance.hpp).
@@ -81,7 +81,7 @@ using Integrator = std::function<Trajectory(const Rhs& rhs, const std::vector<do
                                             const Options& options, const Events& events)>;
 
 /// What a piece of a run knows of the other method of the run. `integrate` sets it.
-struct Turns {
+struct MethodSwitching {
     std::optional<Method> back = {};  ///< the explicit method to which a run that was found stiff may come back
     double effort_per_time = 0;       ///< of the explicit method; 0: not known
     long patience = 0;                ///< steps before which no stiffness is looked for
@@ -97,14 +97,14 @@ struct Options {
     double longest_step = 0;  ///< for adaptive methods; 0 means no bound
     double first_share = 1;   ///< a first step that is found automatically is multiplied by this
     std::vector<QuickTime> quick_times =
-        {};             ///< for adaptive methods: the times at which steps have to be shorter (quick_times.hpp)
-    double sample = 0;  ///< time between rows; 0: duration/200
+        {};  ///< for adaptive methods: the times at which steps have to be shorter (input_time_scales.hpp)
+    double sample = 0;                ///< time between rows; 0: duration/200
     std::optional<double> grid = {};  ///< rows fall on grid + k·sample; if missing, on start + k·sample
     /// The most evaluations of the right-hand side; no step is begun that could exceed it.
     long budget = 10'000'000;
     /// If stiffness is found to limit the steps of an explicit method (stiffness.hpp), the run goes on with this
     /// method. It comes back where the explicit one would be stable with the same steps, or where the steps of the
-    /// other turn out to cost more (pace.hpp).
+    /// other turn out to cost more (cost_model.hpp).
     std::optional<Method> when_stiff = {};
     std::function<Rhs()> rhs_when_stiff =
         {};  ///< gives the same system with its Jacobian at that time; if empty, the same Rhs is used
@@ -114,19 +114,19 @@ struct Options {
     /// lose all digits as it comes close.
     std::optional<Method> when_stuck = {};
     /// If the steps of an explicit method turn out to cost clearly more than those of a power series would
-    /// (series_pace.hpp), the run goes on with this method, which must be taylor. It comes back where the steps of
-    /// the series become very short, as above.
+    /// (taylor_switch.hpp), the run goes on with this method, which must be taylor. It comes back where the steps
+    /// of the series become very short, as above.
     std::optional<Method> when_cheaper = {};
     std::function<Rhs()> rhs_when_cheaper =
         {};  ///< gives the same system with its series, if it has one; if empty, the same Rhs is used
     double effort_of_series = 0;  ///< predicted time of that call, ns
-    Turns turns = {};
+    MethodSwitching turns = {};
     OnMethod on_method = {};  ///< may be empty
     OnStep on_step = {};      ///< may be empty
     /// Moves the end of each step onto the constraints after its error was found small enough; may be empty.
     std::function<void(double t, double* state)> project = {};
-    Integrator by = {};         ///< takes the place of `method`; may be empty
-    OnStretch on_stretch = {};  ///< may be empty
+    Integrator by = {};            ///< takes the place of `method`; may be empty
+    OnStepView on_step_view = {};  ///< may be empty
     Regularization regularization = Regularization::none;
     Disturbed disturbed = {};  ///< for estimates of what rounding does
 };

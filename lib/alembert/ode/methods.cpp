@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/methods.hpp"
+#include "alembert/ode/methods.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/straight.hpp"
+#include "alembert/ode/missed_feature_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace alembert {
 
-bool is_clear(const Stretch& step, int places, const Rhs& rhs, double tolerance, long& evaluations) {
+bool is_clear(const StepView& step, int places, const Rhs& rhs, double tolerance, long& evaluations) {
     constexpr double straight = 0.1;  // tolerances: a bend that makes more is seen by the estimated error
     const double h = step.end - step.start;
     std::vector<double> state(static_cast<std::size_t>(rhs.dimension)), here(state.size());

@@ -16,8 +16,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/events.hpp"
-#include "alembert/rhs.hpp"
+#include "alembert/ode/events.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 
@@ -43,6 +43,6 @@ inline int places_within(double length, double length_of_run) {
 }
 
 /// The start of the step must be known; `evaluations` counts those that are made here.
-bool is_clear(const Stretch& step, int places, const Rhs& rhs, double tolerance, long& evaluations);
+bool is_clear(const StepView& step, int places, const Rhs& rhs, double tolerance, long& evaluations);
 
 }  // namespace alembert

@@ -16,7 +16,7 @@
 
 #include <Eigen/Dense>
 
-#include "alembert/stepper.hpp"
+#include "alembert/ode/stepper.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/project.hpp"
+#include "alembert/ode/projection.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 namespace alembert {
 

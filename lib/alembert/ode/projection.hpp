@@ -32,9 +32,9 @@
 #include <functional>
 #include <vector>
 
-#include "alembert/module.hpp"
-#include "alembert/rhs.hpp"
-#include "alembert/saddle_point.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/ode/rhs.hpp"
+#include "alembert/ode/saddle_point.hpp"
 
 namespace alembert {
 

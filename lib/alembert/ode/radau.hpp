@@ -21,10 +21,10 @@
 /// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8; the same, Stiff
 /// differential equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111, §4.
 
-#include "alembert/collocation.hpp"
-#include "alembert/newton.hpp"
-#include "alembert/shifted.hpp"
-#include "alembert/step_size.hpp"
+#include "alembert/ode/collocation.hpp"
+#include "alembert/ode/newton.hpp"
+#include "alembert/ode/shifted_linear_solver.hpp"
+#include "alembert/ode/step_size.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/rattle.hpp"
+#include "alembert/ode/rattle.hpp"
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 namespace alembert {
 

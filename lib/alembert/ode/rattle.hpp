@@ -8,10 +8,10 @@
 ///     q₁ = q + h/2 (v + w),                 M(q₁) w + p₀(q₁) = P         w: of (q₁, P); f(q₁) = 0 determines λ
 ///     p₁ = P + h/2 (F(q₁, w) + A(q₁)ᵀμ),    M(q₁) u₁ + p₀(q₁) = p₁       A(q₁) u₁ + ∂f/∂t = 0 determines μ
 ///
-/// with p, F and A of canonical.hpp at t (first line) and t + h. This is the two-stage Lobatto IIIA-IIIB pair for
-/// q' = H_p(p, q), p' = −H_q(p, q) − Aᵀλ, of order 2 (Jay); for constant M and forces that do not depend on rates
-/// it is Andersen's RATTLE; without constraints it is the Störmer-Verlet method. Loads outside V enter as in a
-/// forced discrete Lagrangian. The equations of a step are solved until the changes no longer shrink: Newton's
+/// with p, F and A of hamiltonian.hpp at t (first line) and t + h. This is the two-stage Lobatto IIIA-IIIB pair
+/// for q' = H_p(p, q), p' = −H_q(p, q) − Aᵀλ, of order 2 (Jay); for constant M and forces that do not depend on
+/// rates it is Andersen's RATTLE; without constraints it is the Störmer-Verlet method. Loads outside V enter as in
+/// a forced discrete Lagrangian. The equations of a step are solved until the changes no longer shrink: Newton's
 /// method for λ, with A(q₁) (M(q)⁻¹ + M(q₁)⁻¹) A(q)ᵀ h²/4, together with a fixed-point iteration for what depends
 /// on rates through M and F, which contracts as long as M and F change little in a step.
 ///
@@ -25,9 +25,9 @@
 
 #include <Eigen/Dense>
 
-#include "alembert/canonical.hpp"
-#include "alembert/stepper.hpp"
-#include "alembert/symplectic.hpp"
+#include "alembert/ode/hamiltonian.hpp"
+#include "alembert/ode/stepper.hpp"
+#include "alembert/ode/symplectic.hpp"
 
 namespace alembert {
 

@@ -15,8 +15,8 @@
 #include <optional>
 #include <vector>
 
-#include "alembert/events.hpp"
-#include "alembert/trajectory.hpp"
+#include "alembert/ode/events.hpp"
+#include "alembert/ode/trajectory.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/rhs.hpp"
+#include "alembert/ode/rhs.hpp"
 
 #include <algorithm>
 

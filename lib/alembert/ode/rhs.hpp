@@ -22,8 +22,8 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/module.hpp"
-#include "alembert/series.hpp"
+#include "alembert/native/module.hpp"
+#include "alembert/ode/series.hpp"
 
 namespace alembert {
 
@@ -38,12 +38,12 @@ struct Rhs {
     std::shared_ptr<const void> context = {};
     Call call = nullptr;
     Call jacobian = nullptr;  ///< writes dimension² numbers
-    double effort = 0;        ///< about how many ns a call takes, predicted from counts (pace.hpp); 0: not known
-    Series series = {};       ///< of the motion, for the method taylor; may be missing
+    double effort = 0;   ///< about how many ns a call takes, predicted from counts (cost_model.hpp); 0: not known
+    Series series = {};  ///< of the motion, for the method taylor; may be missing
     std::shared_ptr<const Canonical> canonical =
-        {};  ///< momenta and constraints, for the method rattle (canonical.hpp); may be missing
+        {};  ///< momenta and constraints, for the method rattle (hamiltonian.hpp); may be missing
     Call energies =
-        nullptr;  ///< writes T and V at a state, for regularized runs (regularized.hpp); may be missing
+        nullptr;  ///< writes T and V at a state, for regularized runs (time_transformation.hpp); may be missing
     /// Writes the rates of the components that depend on velocities alone, q and the time of a regularized system,
     /// and leaves the others; null for systems in t, where these are q' = v.
     Call drift = nullptr;

@@ -18,7 +18,7 @@
 #include <limits>
 #include <vector>
 
-#include "alembert/rhs.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 

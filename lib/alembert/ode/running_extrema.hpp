@@ -3,7 +3,7 @@
 
 /// Least and greatest value and mean over time of each component of a state, along one motion.
 ///
-///     Along along(coordinates, size);
+///     RunningExtrema along(coordinates, size);
 ///     along(t, state, rate);          // at the start and after each step
 ///     along.values();                 // the least of each, then the greatest, then the means
 ///
@@ -20,13 +20,13 @@
 
 namespace alembert {
 
-class Along {
+class RunningExtrema {
 public:
     /// Into how many pieces a step of a power series is divided, which is several times as long as others.
     static constexpr int pieces_of_series = 16;
 
-    Along() = default;
-    Along(int coordinates, int size)
+    RunningExtrema() = default;
+    RunningExtrema(int coordinates, int size)
         : coordinates_(static_cast<std::size_t>(coordinates)),
           least_(static_cast<std::size_t>(size), HUGE_VAL),
           greatest_(static_cast<std::size_t>(size), -HUGE_VAL),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/saddle_point.hpp"
+#include "alembert/ode/saddle_point.hpp"
 
 #include <cmath>
 
-#include "alembert/dense.hpp"
+#include "alembert/base/dense.hpp"
 
 namespace alembert {
 

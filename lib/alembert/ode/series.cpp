@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/series.hpp"
+#include "alembert/ode/series.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "alembert/error.hpp"
-#include "alembert/module.hpp"
+#include "alembert/base/error.hpp"
+#include "alembert/native/module.hpp"
 
 namespace alembert {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/series_sum.hpp"
+#include "alembert/ode/series_sum.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 
-#include "alembert/registers.hpp"
+#include "alembert/native/cpu_features.hpp"
 
 namespace alembert {
 

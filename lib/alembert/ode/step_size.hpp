@@ -24,7 +24,7 @@
 #include <span>
 #include <vector>
 
-#include "alembert/rhs.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 
@@ -60,11 +60,12 @@ private:
 };
 
 /// A first step so short that the rate changes little over an Euler step of that length: the algorithm of Hairer,
-/// Nørsett, Wanner I, §II.4, "Starting step size", with the maximum norm of step.hpp. It takes one evaluation.
-/// `order` is as above. They try 1e-6 s where the state or the rate is zero, take 100 times that at most, and
-/// shorten the step for the rate alone too. Here a state at rest, which knows no time but that of the run, tries a
-/// part of it that is no period of a load, and takes a tenth of it if the rate there would not move it beyond the
-/// tolerance in the whole run; and a state of zeros may move as long as its rate takes to change by itself.
+/// Nørsett, Wanner I, §II.4, "Starting step size", with the maximum norm of explicit_rk.hpp. It takes one
+/// evaluation. `order` is as above. They try 1e-6 s where the state or the rate is zero, take 100 times that at
+/// most, and shorten the step for the rate alone too. Here a state at rest, which knows no time but that of the
+/// run, tries a part of it that is no period of a load, and takes a tenth of it if the rate there would not move
+/// it beyond the tolerance in the whole run; and a state of zeros may move as long as its rate takes to change by
+/// itself.
 inline double starting_step(const Rhs& rhs, double t, const double* state, const double* rate, double tolerance,
                             int order, double longest) {
     const int controlled = rhs.dimension - rhs.extra;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One step of a method without a tableau: the members that run.hpp needs, around a formula that gives the change
-/// of the state.
+/// One step of a method without a tableau: the members that driver.hpp needs, around a formula that gives the
+/// change of the state.
 ///
-///     Stepper<Gauss> step(rhs, t, state, tolerance);      // the members are those of Step (step.hpp)
+///     Stepper<Gauss> step(rhs, t, state, tolerance);      // the members are those of Step (explicit_rk.hpp)
 ///
 /// A formula is a class with
 ///
@@ -22,7 +22,7 @@
 /// polynomial have `interpolate(ends, theta, out)`. If the steps of a formula obey the constraints by themselves,
 /// it declares `static constexpr bool keeps_constraints = true` and is not projected.
 ///
-/// The state is the sum of two doubles as in step.hpp, and errors are measured as in that file.
+/// The state is the sum of two doubles as in explicit_rk.hpp, and errors are measured as in that file.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@
 #include <span>
 #include <vector>
 
-#include "alembert/rhs.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 

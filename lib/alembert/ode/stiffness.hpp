@@ -22,7 +22,7 @@
 #include <cmath>
 #include <vector>
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace alembert {
 

@@ -11,9 +11,9 @@
 /// there are quadratures: these need the rate at q₁, v₁, and are integrated by the trapezoidal rule, which keeps
 /// the substep symmetric.
 ///
-/// In a time of its own (regularized.hpp) q and t drift at rates that depend on v, and v is kicked at rates that
-/// depend on q. The state is (q, v, t), and a substep is drift, kick, drift, because that one stays on Kepler's
-/// ellipses.
+/// In a time of its own (time_transformation.hpp) q and t drift at rates that depend on v, and v is kicked at
+/// rates that depend on q. The state is (q, v, t), and a substep is drift, kick, drift, because that one stays on
+/// Kepler's ellipses.
 ///
 /// The method has order 2 and is stable for the oscillator if hω < 2. The composition takes 17 such steps with
 /// lengths γ_i h and has order 8.
@@ -26,7 +26,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "alembert/stepper.hpp"
+#include "alembert/ode/stepper.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Explicit Runge-Kutta methods as tables of numbers; step.hpp turns them into code.
+/// Explicit Runge-Kutta methods as tables of numbers; explicit_rk.hpp turns them into code.
 ///
 ///     k_i = f(t + c_i h, y + h Σ_{j<i} a_ij k_j),  i < s;     y₁ = y + h Σ_j a_sj k_j;     k_s = f(t + h, y₁)
 ///
@@ -9,7 +9,7 @@
 /// the others. The rows after it belong to dense output and are evaluated only in steps whose interior is needed.
 ///
 /// Error estimate: one row e gives the vector h Σ_{j≤s} e_j k_j. Two rows give a fifth- and a third-order
-/// estimate, which step.hpp combines.
+/// estimate, which explicit_rk.hpp combines.
 ///
 /// Dense output (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §II.6), θ =
 /// 0…1:

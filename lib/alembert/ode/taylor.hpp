@@ -18,20 +18,20 @@
 /// pulse or the jump of a steep tanh: a step is repeated with half its length where the rate at its end is not
 /// that of the polynomial. Where the terms of a series do not decay, as in free flight far from everything,
 /// nothing but the tolerance or the end of the run limits the step: then the rate is compared within it, too, at
-/// places that are a 64th of the run apart (straight.hpp). (What is over between two of these, or is hidden within
-/// a step whose terms decay, is not seen; steps of a given length are not checked.) If products of series take all
-/// the time, this is Jorba & Zou's order (§3.1), otherwise it is higher. The polynomial is kept, so that a state
-/// within the step only costs its evaluation. `error` is the last term.
+/// places that are a 64th of the run apart (missed_feature_check.hpp). (What is over between two of these, or is
+/// hidden within a step whose terms decay, is not seen; steps of a given length are not checked.) If products of
+/// series take all the time, this is Jorba & Zou's order (§3.1), otherwise it is higher. The polynomial is kept,
+/// so that a state within the step only costs its evaluation. `error` is the last term.
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <new>
 
-#include "alembert/series_length.hpp"
-#include "alembert/series_sum.hpp"
-#include "alembert/stepper.hpp"
-#include "alembert/straight.hpp"
+#include "alembert/ode/missed_feature_check.hpp"
+#include "alembert/ode/series_length.hpp"
+#include "alembert/ode/series_sum.hpp"
+#include "alembert/ode/stepper.hpp"
 
 namespace alembert {
 
@@ -56,8 +56,8 @@ inline int taylor_order(double tolerance, double order_cost = 0, double product_
     return best;
 }
 
-/// The effort of a step of this order in ns (pace.hpp), fitted to 77 systems of 2 to 36 components in memory, from
-/// which it differs by 9 % (root mean square).
+/// The effort of a step of this order in ns (cost_model.hpp), fitted to 77 systems of 2 to 36 components in
+/// memory, from which it differs by 9 % (root mean square).
 inline double taylor_effort(double order_cost, double product_cost, int order, int components) {
     constexpr double each_step = 165, each_component = 6.5, each_order = 45, each_product = 103;
     return each_step + each_component * components + each_order * order_cost * order +
@@ -99,7 +99,7 @@ public:
     /// 30).
     double stable_interval() const { return 1.3 + 0.37 * order_; }
 
-    /// Of one series with its step (pace.hpp).
+    /// Of one series with its step (cost_model.hpp).
     double effort() const { return effort_; }
 
     bool increment(Ends& ends, double h, double* change, double*) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/series_pace.hpp"
+#include "alembert/ode/taylor_switch.hpp"
 
 #include <cmath>
 #include <vector>
 
-#include "alembert/taylor.hpp"
+#include "alembert/ode/taylor.hpp"
 
 namespace alembert {
 

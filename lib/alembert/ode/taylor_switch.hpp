@@ -11,15 +11,15 @@
 /// as long as half of the effort that is left would not pay for making the series. Then the series is evaluated at
 /// one state and, while it seems cheaper, at two more, four steps apart. Its effort per time is the mean of
 /// effort/length, weighted with the steps of the run; it must be two thirds of that of the run over the same time
-/// (pace.hpp), or less. A look takes no more than a fortieth of what the run has taken until then, and after one
-/// that finds nothing the run takes four times as much before the next, so that looks cost a small part of any
+/// (cost_model.hpp), or less. A look takes no more than a fortieth of what the run has taken until then, and after
+/// one that finds nothing the run takes four times as much before the next, so that looks cost a small part of any
 /// run. Throws what the making of the series throws.
 
 #include <functional>
 #include <optional>
 #include <utility>
 
-#include "alembert/rhs.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/regularized.hpp"
+#include "alembert/ode/time_transformation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "alembert/disturbance.hpp"
-#include "alembert/run.hpp"
+#include "alembert/ode/disturbance.hpp"
+#include "alembert/ode/driver.hpp"
 
 namespace alembert {
 namespace {
@@ -156,7 +156,7 @@ private:
         inner.when_cheaper = {};
         inner.by = {};
         if (options_.duration == 0) inner.duration = 0;
-        inner.on_stretch = [this](const Stretch& step) { return look(step); };
+        inner.on_step_view = [this](const StepView& step) { return look(step); };
         inner.on_step = [this](double, std::span<const double> state, std::span<const double>) { tell(state); };
         if (options_.project)
             inner.project = [this](double, double* state) { options_.project(time_of(state), state); };
@@ -189,7 +189,7 @@ private:
     }
 
     /// Records the rows in a step; true if the end of the run is in it.
-    bool look(const Stretch& step) {
+    bool look(const StepView& step) {
         const double begin = time_of(step_start_.data()), reached = time_of(step.end_state);
         for (;; ++next_row_) {
             const double t = grid_ + static_cast<double>(next_row_) * interval_;
@@ -206,7 +206,7 @@ private:
 
     /// The place θ in a step at which its dense output reaches t, and the state there in `row_`, moved by what is
     /// left of the time. By Newton's method, within bounds that shrink.
-    double place_of(const Stretch& step, double begin, double reached, double t) {
+    double place_of(const StepView& step, double begin, double reached, double t) {
         double low = 0, high = 1, theta = (t - begin) / (reached - begin), left = 0;
         const double h = step.end - step.start;
         std::vector<double>& rate = inner_rate_;
@@ -233,7 +233,7 @@ private:
         double left = 0;
         for (int round = 0; round < most_rounds && h > 0; ++round) {
             Options last = inner_options();
-            last.on_stretch = {};
+            last.on_step_view = {};
             last.on_step = {};
             last.start = 0;
             last.duration = last.sample = h;

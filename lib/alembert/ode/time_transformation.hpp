@@ -34,7 +34,7 @@
 /// Astron. J. 118 (1999) 2532-2541; Hairer, Lubich, Wanner,
 /// Geometric Numerical Integration, 2nd ed. 2006, §VIII.2.
 
-#include "alembert/integrate.hpp"
+#include "alembert/ode/integrate.hpp"
 
 namespace alembert {
 

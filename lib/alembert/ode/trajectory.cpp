@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "alembert/trajectory.hpp"
+#include "alembert/ode/trajectory.hpp"
 
 #include <cmath>
 

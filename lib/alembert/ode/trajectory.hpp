@@ -27,10 +27,10 @@ enum class FailureKind {
     not_a_number,    ///< a rate is infinite or not a number where a step must start
     step_underflow,  ///< the step has become shorter than 16 ε |t|, so that time hardly advances
     budget_used_up,
-    no_contact_mode,  ///< contacts that cannot all stay closed or open (phases.hpp)
+    no_contact_mode,  ///< contacts that cannot all stay closed or open (hybrid_motion.hpp)
     endless_kicks,    ///< impulses of events after which there are no rates, or infinitely many in a finite time
-                      ///< (phases.hpp)
-    no_side           ///< a sign in the right-hand side has no consistent value, or more than one (switching.hpp)
+                      ///< (hybrid_motion.hpp)
+    no_side           ///< a sign in the right-hand side has no consistent value, or more than one (filippov.hpp)
 };
 
 struct Failure {
@@ -46,7 +46,7 @@ struct EventRecord {
     std::string name;
     double time = 0;
     std::vector<double> state;
-    /// The generalized impulse, by coordinate, if the event has one (phases.hpp).
+    /// The generalized impulse, by coordinate, if the event has one (hybrid_motion.hpp).
     std::vector<double> impulse = {};
     double energy_gain = 0;  ///< the work of the impulse, ½ impulse·(q'⁻ + q'⁺)
 };
@@ -72,7 +72,7 @@ struct Switch {
     double largest_eigenvalue;  ///< the modulus of the largest eigenvalue of ∂f/∂y at that time, 1/s
     double step;                ///< the step at that time, in s
     Why why = Why::stiff;
-    double effort_per_time = 0;  ///< of the method until then (pace.hpp)
+    double effort_per_time = 0;  ///< of the method until then (cost_model.hpp)
 };
 
 struct Statistics {

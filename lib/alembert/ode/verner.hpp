@@ -15,7 +15,7 @@
 /// Both have bounded regions of stability: along the negative axis the first leaves |R(z)| ≤ 1 at about z = -4.64,
 /// the second at -4.48.
 
-#include "alembert/tableau.hpp"
+#include "alembert/ode/tableau.hpp"
 
 namespace alembert {
 
