@@ -10,7 +10,7 @@ foreach(line IN LISTS lines)
   endif()
 endforeach()
 list(JOIN rooms "|" any)
-foreach(room IN LISTS rooms)
+foreach(room IN LISTS rooms ITEMS .)  # and alembert.hpp, all of them in one header
   file(GLOB headers RELATIVE ${SOURCE} ${SOURCE}/${room}/*.hpp)
   foreach(header IN LISTS headers)
     file(READ ${SOURCE}/${header} text)

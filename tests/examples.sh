@@ -30,3 +30,36 @@ prints homework "proved
 refuted: sign in x''*cos(theta)"
 prints controller 'the trolley is 0.000 m from its goal, the rope 0.000 rad from the vertical'
 "$work/prefix/bin/alembert" --version
+
+# The programs of docs/cpp.md: each block "```cpp NAME.cpp", and in the next block what it prints.
+mkdir "$work/cpp"
+awk -v folder="$work/cpp" '
+    /^```cpp [a-z]+\.cpp$/ { file = folder "/" $2; name = substr($2, 1, length($2) - 4); next }
+    /^```text$/ && name != "" { file = folder "/" name ".expected"; name = ""; next }
+    /^```$/ { file = ""; next }
+    file != "" { print > file }' "$root/docs/cpp.md"
+{
+    echo 'cmake_minimum_required(VERSION 3.25)'
+    echo 'project(alembert_cpp_page LANGUAGES CXX)'
+    echo 'find_package(alembert REQUIRED)'
+    for source in "$work"/cpp/*.cpp; do
+        name=$(basename "$source" .cpp)
+        echo "add_executable($name $name.cpp)"
+        echo "target_link_libraries($name PRIVATE alembert::generator)"
+    done
+    # Every installed name of a header of the runtime, the old ones too.
+    echo 'add_library(headers OBJECT headers.cc)'
+    echo 'target_link_libraries(headers PRIVATE alembert::runtime)'
+} >"$work/cpp/CMakeLists.txt"
+(cd "$work/prefix/include" && printf '#include <%s>\n' alembert/*.hpp alembert/{ode,hybrid,batch,native,base}/*.hpp) |
+    grep -v '<alembert/alembert.hpp>' >"$work/cpp/headers.cc"
+cmake -G Ninja -S "$work/cpp" -B "$work/cpp/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Debug \
+    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >>"$work/log" 2>&1 ||
+    { tail -n 30 "$work/log"; exit 1; }
+cmake --build "$work/cpp/build" >>"$work/log" 2>&1 || { tail -n 30 "$work/log"; exit 1; }
+for expected in "$work"/cpp/*.expected; do
+    name=$(basename "$expected" .expected)
+    printed=$("$work/cpp/build/$name") || { echo "docs/cpp.md: $name failed: $printed"; exit 1; }
+    [ "$printed" = "$(cat "$expected")" ] ||
+        { printf 'docs/cpp.md: %s printed:\n%s\nexpected:\n%s\n' "$name" "$printed" "$(cat "$expected")"; exit 1; }
+done

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "alembert/tolerances.hpp"
+#include "alembert/base/tolerances.hpp"
 #include "contact/contacts.hpp"
 #include "lower/lower.hpp"
 #include "model/sample_functions.hpp"

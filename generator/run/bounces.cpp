@@ -95,8 +95,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     result.digits = agreement < 1 ? static_cast<int>(std::floor(-std::log10(std::max(agreement, 1e-16)))) : 0;
     result.by = say(
         "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts and impulses");
-    constexpr std::array methods = {Method::dopri5, Method::dop853, Method::verner76, Method::verner98,
-                                    Method::abm,    Method::bdf,    Method::radau};
+    std::vector<Method> methods = all_methods();
+    std::erase_if(methods, [](Method one) { return has_fixed_step(one) || needs_series(one); });
     for (std::size_t k = 0; k < methods.size(); ++k) {
         const Method method = methods[k];
         if (!request.method.empty() && name(method) != request.method) continue;

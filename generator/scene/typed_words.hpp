@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "alembert/error.hpp"
+#include "alembert/base/error.hpp"
 #include "scene/known_names.hpp"
 
 namespace alembert {

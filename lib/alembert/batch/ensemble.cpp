@@ -15,10 +15,9 @@
 #include "alembert/batch/pack_driver.hpp"
 #include "alembert/batch/pack_explicit_rk.hpp"
 #include "alembert/batch/pack_taylor.hpp"
-#include "alembert/ode/dop853.hpp"
+#include "alembert/ode/method_table.hpp"
 #include "alembert/ode/projection.hpp"
 #include "alembert/ode/running_extrema.hpp"
-#include "alembert/ode/verner.hpp"
 
 namespace alembert {
 namespace {
@@ -46,28 +45,20 @@ void run_packed_series(const Ensemble& e, const Options& options, const MemberSo
         .go(width);
 }
 
-/// The function that runs members side by side; null if the method cannot.
+/// The function that runs members side by side by a method; null if the method cannot.
+template <class Row>
+constexpr Packed packed_by(const Row&) {
+    if constexpr (requires { Row::tableau; })
+        return run_packed<Row::tableau>;
+    else
+        return std::is_same_v<typename Row::Formula, Taylor> ? run_packed_series : nullptr;
+}
+
+constexpr std::array packed_by_method = for_each_method([](const auto& row) { return packed_by(row); });
+
 Packed packed_method(const Ensemble& e, const Options& options) {
-    switch (options.method) {
-        case Method::taylor:
-            return e.series_packs && options.step == 0 ? run_packed_series : nullptr;
-        case Method::euler:
-            return run_packed<euler_tableau>;
-        case Method::rk2:
-            return run_packed<rk2_tableau>;
-        case Method::rk4:
-            return run_packed<rk4_tableau>;
-        case Method::dopri5:
-            return run_packed<dopri5_tableau>;
-        case Method::dop853:
-            return run_packed<dop853_tableau>;
-        case Method::verner76:
-            return run_packed<verner76_tableau>;
-        case Method::verner98:
-            return run_packed<verner98_tableau>;
-        default:
-            return nullptr;
-    }
+    if (needs_series(options.method) && (!e.series_packs || options.step != 0)) return nullptr;
+    return packed_by_method[static_cast<std::size_t>(options.method)];
 }
 
 void need(bool good, const std::string& message) {

@@ -148,7 +148,7 @@ private:
 
     double stable_interval() const {
         if constexpr (requires { step_.stable_interval(); }) return step_.stable_interval();
-        return StiffnessWatch::stable_interval(options_.method);
+        return traits(options_.method).stable_interval;
     }
 
     bool takes_fixed_steps() const {
@@ -329,7 +329,7 @@ private:
     std::optional<Switch::Why> reason_to_come_back() {
         constexpr double of_a_series = 8;  // of the usual orders
         constexpr long window = Pace::window;
-        const double known = StiffnessWatch::stable_interval(*options_.turns.back);
+        const double known = traits(*options_.turns.back).stable_interval;
         const double border = (known > 0 ? known : of_a_series) / 2;
         mild_steps_ = step_.length() * largest_eigenvalue() < border ? mild_steps_ + 1 : 0;
         if (result_.statistics.steps % window != 0) return std::nullopt;

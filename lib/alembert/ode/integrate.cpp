@@ -13,19 +13,10 @@
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
 #include "alembert/base/process_time.hpp"
-#include "alembert/ode/abm.hpp"
-#include "alembert/ode/bdf.hpp"
-#include "alembert/ode/dop853.hpp"
 #include "alembert/ode/driver.hpp"
-#include "alembert/ode/gauss.hpp"
 #include "alembert/ode/hamiltonian.hpp"
-#include "alembert/ode/radau.hpp"
-#include "alembert/ode/rattle.hpp"
-#include "alembert/ode/symplectic.hpp"
-#include "alembert/ode/tableau.hpp"
-#include "alembert/ode/taylor.hpp"
+#include "alembert/ode/method_table.hpp"
 #include "alembert/ode/time_transformation.hpp"
-#include "alembert/ode/verner.hpp"
 
 namespace alembert {
 namespace {
@@ -84,52 +75,8 @@ Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options
     return Driver<AnyStep>(rhs, initial, options, events).go();
 }
 
-using Integration = Trajectory (*)(const Rhs&, const std::vector<double>&, const Options&, const Events&);
-
-struct Steps {
-    Method method;
-    bool fixed_step;
-    Integration run;
-};
-
-template <class AnyStep>
-constexpr Steps steps(Method method) {
-    return {method, AnyStep::has_fixed_step, run<AnyStep>};
-}
-
-/// In the order of Method.
-constexpr std::array by_method = {
-    steps<Step<euler_tableau>>(Method::euler),
-    steps<Step<rk2_tableau>>(Method::rk2),
-    steps<Step<rk4_tableau>>(Method::rk4),
-    steps<Step<dopri5_tableau>>(Method::dopri5),
-    steps<Step<dop853_tableau>>(Method::dop853),
-    steps<Step<verner76_tableau>>(Method::verner76),
-    steps<Step<verner98_tableau>>(Method::verner98),
-    steps<Stepper<Verlet>>(Method::verlet),
-    steps<Stepper<KahanLi8>>(Method::kahanli8),
-    steps<Stepper<Gauss>>(Method::gauss),
-    steps<Stepper<Rattle>>(Method::rattle),
-    steps<Stepper<Rattle8>>(Method::rattle8),
-    steps<Stepper<Abm>>(Method::abm),
-    steps<Stepper<Bdf>>(Method::bdf),
-    steps<Stepper<RadauOfAnyOrder>>(Method::radau),
-    steps<Stepper<Radau5>>(Method::radau5),
-    steps<Stepper<Radau9>>(Method::radau9),
-    steps<Stepper<Radau13>>(Method::radau13),
-    steps<Stepper<Taylor>>(Method::taylor),
-};
-
-/// Both tables are in the order of Method and say the same about it.
-constexpr bool tables_agree() {
-    if (by_method.size() != method_table.size()) return false;
-    for (std::size_t i = 0; i < by_method.size(); ++i)
-        if (by_method[i].method != static_cast<Method>(i) || method_table[i].method != static_cast<Method>(i) ||
-            by_method[i].fixed_step != method_table[i].fixed_step)
-            return false;
-    return true;
-}
-static_assert(tables_agree());
+constexpr std::array by_method =
+    for_each_method([](const auto& row) { return &run<typename std::remove_cvref_t<decltype(row)>::Steps>; });
 
 /// Integrates the rest of a run whose method was changed, with rows on the same grid: if it was found to be stiff,
 /// by turns of both methods. The longer a run has come back in vain, the longer it does not look for stiffness.
@@ -176,7 +123,7 @@ void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Even
                             : needs_series(rest.method) && !rhs.series ? once(series, options.rhs_when_cheaper)
                                                                        : rhs;
         if (options.on_method) options.on_method(rest.method);
-        Trajectory piece = by_method[static_cast<std::size_t>(rest.method)].run(system, state, rest, events);
+        Trajectory piece = by_method[static_cast<std::size_t>(rest.method)](system, state, rest, events);
         next = std::exchange(piece.statistics.switched, {});
         if (next) whole.statistics.later_switches.push_back(*next);
         append(whole, std::move(piece), *rest.grid, interval);
@@ -200,9 +147,9 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
         result.statistics.seconds = thread_seconds() - start;
         return result;
     }
-    Trajectory result =
-        options.by ? options.by(rhs, initial, options, events)
-                   : by_method[static_cast<std::size_t>(options.method)].run(rhs, initial, options, events);
+    Trajectory result = options.by
+                            ? options.by(rhs, initial, options, events)
+                            : by_method[static_cast<std::size_t>(options.method)](rhs, initial, options, events);
     if (result.statistics.switched && result.ending == Ending::completed) go_on(result, rhs, options, events);
     result.statistics.seconds = thread_seconds() - start;
     return result;

@@ -5,14 +5,25 @@
 #include <array>
 #include <iterator>
 
+#include "alembert/ode/method_table.hpp"
+
 namespace alembert {
 namespace {
+
+constexpr std::array method_table = for_each_method([](const auto& row) { return row.traits; });
+
+constexpr bool is_in_order() {
+    for (std::size_t i = 0; i < method_table.size(); ++i)
+        if (method_table[i].method != static_cast<Method>(i)) return false;
+    return true;
+}
+static_assert(is_in_order());
+
+}  // namespace
 
 const MethodTraits& traits(Method method) {
     return method_table[static_cast<std::size_t>(method)];
 }
-
-}  // namespace
 
 std::string_view name(Method method) {
     return traits(method).name;

@@ -6,10 +6,8 @@
 ///     const std::optional<Method> method = method_named("gauss");
 ///     has_fixed_step(*method), uses_jacobian(*method)      // true, true
 ///
-/// `integrate.hpp` describes each of them. A new method needs a value and a row here, and its steps in
-/// integrate.cpp.
+/// `integrate.hpp` describes each of them; what is known of them stands in one table (method_table.hpp).
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +42,9 @@ enum class Method {
 struct MethodTraits {
     Method method;
     std::string_view name;
+    int order = 0;  ///< 0 for methods that choose it
+    /// The value of −hλ up to which an explicit method is stable; 0 if it is not known, or chosen by the method.
+    double stable_interval = 0;
     bool fixed_step = false;
     bool jacobian = false;  ///< implicit: solves its equations with ∂f/∂y
     /// The method is only for systems q' = v, v' = a(q, t); the caller must make sure of that (symplectic.hpp).
@@ -52,32 +53,10 @@ struct MethodTraits {
     bool canonical = false;  ///< only for right-hand sides with Rhs::canonical
 };
 
-/// One row for each value of Method, in the same order.
-inline constexpr std::array method_table = {
-    MethodTraits{.method = Method::euler, .name = "euler", .fixed_step = true},
-    MethodTraits{.method = Method::rk2, .name = "rk2", .fixed_step = true},
-    MethodTraits{.method = Method::rk4, .name = "rk4", .fixed_step = true},
-    MethodTraits{.method = Method::dopri5, .name = "dopri5"},
-    MethodTraits{.method = Method::dop853, .name = "dop853"},
-    MethodTraits{.method = Method::verner76, .name = "verner76"},
-    MethodTraits{.method = Method::verner98, .name = "verner98"},
-    MethodTraits{.method = Method::verlet, .name = "verlet", .fixed_step = true, .separable = true},
-    MethodTraits{.method = Method::kahanli8, .name = "kahanli8", .fixed_step = true, .separable = true},
-    MethodTraits{.method = Method::gauss, .name = "gauss", .fixed_step = true, .jacobian = true},
-    MethodTraits{.method = Method::rattle, .name = "rattle", .fixed_step = true, .canonical = true},
-    MethodTraits{.method = Method::rattle8, .name = "rattle8", .fixed_step = true, .canonical = true},
-    MethodTraits{.method = Method::abm, .name = "abm"},
-    MethodTraits{.method = Method::bdf, .name = "bdf", .jacobian = true},
-    MethodTraits{.method = Method::radau, .name = "radau", .jacobian = true},
-    MethodTraits{.method = Method::radau5, .name = "radau5", .jacobian = true},
-    MethodTraits{.method = Method::radau9, .name = "radau9", .jacobian = true},
-    MethodTraits{.method = Method::radau13, .name = "radau13", .jacobian = true},
-    MethodTraits{.method = Method::taylor, .name = "taylor", .series = true},
-};
-
 /// The name of a method, "dop853" and so on.
 std::string_view name(Method method);
 std::optional<Method> method_named(std::string_view name);
+const MethodTraits& traits(Method method);
 bool has_fixed_step(Method method);
 bool uses_jacobian(Method method);
 bool needs_separable(Method method);

@@ -23,33 +23,16 @@
 #include <vector>
 
 #include "alembert/ode/integrate.hpp"
+#include "alembert/ode/methods.hpp"
 
 namespace alembert {
 
 class StiffnessWatch {
 public:
-    explicit StiffnessWatch(Method method) : StiffnessWatch(stable_interval(method)) {}
+    explicit StiffnessWatch(Method method) : StiffnessWatch(traits(method).stable_interval) {}
     /// `patience`: the steps before which nothing is found.
     explicit StiffnessWatch(double stable_interval, double dearer = 0, long patience = 0)
         : border_(0.7 * stable_interval), damped_border_(stable_interval / 7), dearer_(dearer), step_(-patience) {}
-
-    /// The value of −hλ up to which the method is stable; 0 if it is not known.
-    static double stable_interval(Method method) {
-        switch (method) {
-            case Method::dopri5:
-                return 3.31;
-            case Method::dop853:
-                return 6.1;
-            case Method::verner76:
-                return 4.64;
-            case Method::verner98:
-                return 4.48;
-            case Method::abm:
-                return 1.28;
-            default:
-                return 0;
-        }
-    }
 
     bool finds_stiff(const Rhs& rhs, double t, const double* y, const double* rate, double h) {
         if (border_ == 0 || ++step_ <= 0) return false;
