@@ -1,4 +1,4 @@
-# Headers of the runtime under the names that they had before they moved into folders: alembert/ode/integrate.hpp includes
+# Headers of the runtime under the names that they had before they moved into folders: alembert/NAME.hpp includes
 # alembert/ode/integrate.hpp. They are installed for one version, and nothing here includes them.
 # Needs INCLUDE (where the runtime's headers go, relative to the prefix).
 set(moved
