@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene that is made by a program: a chain of n rods on a ceiling, let go horizontally. Prints how many operations
 // one evaluation of its equations takes, and by how much a run changes the energy.
-#include <alembert/run/simulate.hpp>
+#include <alembert/simulate/simulate.hpp>
 #include <alembert/scene/draft.hpp>
 #include <cstdio>
 #include <string>

@@ -47,7 +47,8 @@ public:
     void energy_of_many(const std::vector<double>& times, const double* states, std::size_t count,
                         double* energies) const;
 
-    /// Functions for robots that were emitted (lower/robot_functions.hpp, lower/frame_functions.hpp).
+    /// Functions for robots that were emitted (program/lower/robot_functions.hpp,
+    /// program/lower/frame_functions.hpp).
     std::vector<std::string> function_names() const;
     const alembert_named_function& function(int which) const { return module_.functions()->list[which]; }
     /// q, v, a: count × coordinates; rates and accelerations that are null are zero. values: count × the matrix.

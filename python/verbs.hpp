@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "report/json.hpp"
-#include "run/rows.hpp"
+#include "present/report/json.hpp"
+#include "simulate/rows.hpp"
 
 namespace alembert {
 

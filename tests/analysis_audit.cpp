@@ -8,15 +8,15 @@
 #include <random>
 #include <set>
 
-#include "audit/audit.hpp"
-#include "audit/integral.hpp"
-#include "exact/variety.hpp"
-#include "lower/lower.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/audit/audit.hpp"
+#include "analysis/audit/integral.hpp"
+#include "analysis/exact/variety.hpp"
+#include "analysis/state/prepared.hpp"
+#include "analysis/state/redundancy.hpp"
 #include "model/energy.hpp"
-#include "notation/text.hpp"
+#include "program/lower/lower.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
-#include "state/redundancy.hpp"
 
 namespace analysis_audit {
 

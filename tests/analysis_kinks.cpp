@@ -9,11 +9,11 @@
 #include <numbers>
 
 #include "alembert/base/error.hpp"
-#include "formalism/formalisms.hpp"
-#include "linear/linearize.hpp"
-#include "lower/start.hpp"
+#include "model/formalism/formalisms.hpp"
 #include "program/germ.hpp"
+#include "program/lower/start.hpp"
 #include "scenes.hpp"
+#include "stability/linear/linearize.hpp"
 
 namespace analysis_kinks {
 

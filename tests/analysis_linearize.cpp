@@ -7,14 +7,14 @@
 #include <map>
 
 #include "alembert/base/error.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/prepared.hpp"
+#include "analysis/state/redundancy.hpp"
 #include "digits.hpp"
-#include "formalism/formalisms.hpp"
-#include "linear/linearize.hpp"
-#include "lower/lower.hpp"
+#include "model/formalism/formalisms.hpp"
+#include "program/lower/lower.hpp"
 #include "scenes.hpp"
-#include "state/assemble.hpp"
-#include "state/prepared.hpp"
-#include "state/redundancy.hpp"
+#include "stability/linear/linearize.hpp"
 
 namespace analysis_linearize {
 

@@ -12,40 +12,76 @@ forbid() { # REASON PATTERN FILES...
     printf '%s:\n%s\n' "$reason" "$found"
     failed=1
 }
-files() { find "$@" -name '*.?pp' | sort; }
+files() { find "$@" -name '*.?pp' | sort; } # FOLDER... [-maxdepth N]
 ginac='#include.*(ginac|cln/)'
 mapfile -t runtime < <(files lib)
 mapfile -t scene < <(files generator/scene)
-mapfile -t graph < <(files generator/program generator/emit generator/machine)
+mapfile -t graph < <(files generator/program generator/codegen | grep -v '^generator/program/lower/')
 mapfile -t generator < <(files generator | grep -v -e '^generator/commands' -e '^generator/main.cpp')
 mapfile -t not_reader < <(files lib generator | grep -v '^generator/scene/')
 mapfile -t not_module < <(files lib generator | grep -v '^lib/alembert/native/module.cpp')
 
-# The rooms of generator/rooms.txt: each includes only itself, what stands before it, and the runtime.
-mapfile -t rooms < <(sed -e '/^#/d' -e '/^$/d' -e 's/ .*//' generator/rooms.txt)
+# The chambers of generator/rooms.txt: each includes only itself, what stands before it, and the runtime.
+plan=$(sed -e '/^#/d' -e '/^$/d' generator/rooms.txt)
+mapfile -t chambers < <(sed -e '/ = /d' -e 's/ .*//' <<<"$plan")
+mapfile -t rooms < <(printf '%s\n' "${chambers[@]}" | sed 's|/.*||' | awk '!seen[$0]++')
 every=$(IFS='|'; echo "${rooms[*]}")
-later=$every
-for room in "${rooms[@]}"; do
-    later=${later#"$room"}
+later=$(IFS='|'; echo "${chambers[*]}")
+for chamber in "${chambers[@]}"; do
+    later=${later#"$chamber"}
     later=${later#|}
-    [ -d "generator/$room" ] || { echo "generator/rooms.txt names the room '$room', which does not exist"; failed=1; continue; }
+    [ -d "generator/$chamber" ] || { echo "generator/rooms.txt names '$chamber', which does not exist"; failed=1; continue; }
     [ -z "$later" ] && continue
-    mapfile -t inside < <(files "generator/$room")
-    forbid "the room $room includes a later one" "#include \"($later)/" "${inside[@]}"
+    mapfile -t inside < <(files "generator/$chamber" -maxdepth 1)
+    forbid "$chamber includes a later chamber" "#include \"($later)/[a-z_0-9]+\.hpp\"" "${inside[@]}"
 done
-for folder in generator/*/; do
-    [[ " ${rooms[*]} peers " == *" $(basename "$folder") "* ]] || { echo "$folder is not in generator/rooms.txt"; failed=1; }
+for folder in $(find generator -mindepth 1 -type d ! -path 'generator/peers*'); do
+    [[ " ${chambers[*]} " == *" ${folder#generator/} "* || " ${rooms[*]} " == *" ${folder#generator/} "* ]] ||
+        { echo "$folder is not in generator/rooms.txt"; failed=1; }
 done
+
+# included ROOM FROM...: the headers of a room that files elsewhere include, and no others stand at its door.
+included() {
+    local room=$1
+    shift
+    grep -rhoE "#include \"$room/[a-z_0-9/]+\.hpp" "$@" --include='*.?pp' | sed "s|.*\"$room/||" | sort -u
+}
+for room in "${rooms[@]}"; do
+    mapfile -t others < <(find generator -mindepth 1 -maxdepth 1 ! -name "$room" ! -name rooms.txt)
+    door=$(sed -n "s/^$room = //p" <<<"$plan" | tr ' ' '\n' | sort -u)
+    used=$(included "$room" "${others[@]}" python)
+    [ "$door" = "$used" ] || {
+        echo "generator/rooms.txt: the door of $room (<: nobody outside includes it; >: it is included and not listed)"
+        diff <(echo "$door") <(echo "$used") | grep '^[<>]'
+        failed=1
+    }
+done
+
+# --count: rooms, arrows between rooms, and floors: a room stands one floor above the highest that it includes.
+if [ "${1-}" = --count ]; then
+    declare -A floor
+    arrows=0 floors=0
+    for room in "${rooms[@]}"; do
+        floor[$room]=1
+        for other in "${rooms[@]}"; do
+            [ "$room" != "$other" ] && [ -n "$(included "$other" "generator/$room")" ] || continue
+            arrows=$((arrows + 1))
+            [ "${floor[$room]}" -gt "${floor[$other]:-0}" ] || floor[$room]=$((${floor[$other]} + 1))
+        done
+        [ "$floors" -ge "${floor[$room]}" ] || floors=${floor[$room]}
+    done
+    echo "${#rooms[@]} rooms, $arrows arrows between them, $floors floors"
+fi
 
 forbid 'the runtime includes the generator' "#include \"($every)/" "${runtime[@]}"
 forbid 'the runtime includes GPL libraries' "$ginac" "${runtime[@]}"
 forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
-forbid 'GiNaC in the rooms program, emit and machine' '#include.*(ginac|"(symbolic|notation|model|formalism|lower)/)' "${graph[@]}"
+forbid 'GiNaC in straight-line code' '#include.*(ginac|"(algebra|model|program/lower)/)' "${graph[@]}"
 forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
 forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
 mapfile -t not_options < <(files lib generator | grep -v -e '^generator/commands/\(verb.cpp\|help\|command_line.cpp\)')
 forbid 'CLI11 outside the files that walk through all verbs' '#include.*CLI' "${not_options[@]}"
-mapfile -t not_urdf < <(files lib generator | grep -v '^generator/urdf/')
+mapfile -t not_urdf < <(files lib generator | grep -v '^generator/scene/import/')
 forbid 'urdfdom outside its reader' '#include.*(urdf_|tinyxml|console_bridge)' "${not_urdf[@]}"
 mapfile -t not_server < <(files lib generator | grep -v '^generator/commands/page_server.cpp')
 forbid 'cpp-httplib outside the server of pages' '#include.*httplib' "${not_server[@]}"

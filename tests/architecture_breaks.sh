@@ -18,12 +18,12 @@ must_fail() { # FILE LINE
     fi
     mv "$copy/before" "$copy/$1"
 }
-must_fail generator/model/mechanism.hpp '#include "run/simulate.hpp"'
-must_fail generator/formalism/lagrange.cpp '#include "report/json.hpp"'
+must_fail generator/model/mechanism.hpp '#include "simulate/simulate.hpp"'
+must_fail generator/model/formalism/lagrange.cpp '#include "present/report/json.hpp"'
 must_fail generator/program/program.hpp '#include <ginac/ginac.h>'
-must_fail generator/emit/emit.cpp '#include "lower/lower.hpp"'
+must_fail generator/codegen/emit/emit.cpp '#include "program/lower/lower.hpp"'
 must_fail lib/alembert/ode/driver.hpp '#include "scene/scene.hpp"'
-must_fail generator/run/simulate.cpp '#include "commands/show.hpp"'
+must_fail generator/simulate/simulate.cpp '#include "commands/show.hpp"'
 must_fail generator/check/check.cpp '#include <toml++/toml.h>'
 must_fail generator/check/check.hpp $'namespace alembert {\nstruct Crossing {'
 must_fail generator/commands/show.cpp '#include <CLI/CLI.hpp>'

@@ -2,10 +2,10 @@
 // Verdicts on hand derivations: right ones in any form are proved, wrong ones are refuted and the slip is named.
 #include <doctest/doctest.h>
 
+#include "algebra/notation/text.hpp"
+#include "analysis/derive/derivation.hpp"
 #include "checked.hpp"
-#include "derive/derivation.hpp"
-#include "formalism/routh.hpp"
-#include "notation/text.hpp"
+#include "model/formalism/routh.hpp"
 
 namespace check_claims {
 

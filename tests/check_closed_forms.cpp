@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "analysis/state/prepared.hpp"
 #include "check/check.hpp"
 #include "checked.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace check_closed_forms {
 

@@ -7,9 +7,9 @@
 #include <map>
 
 #include "alembert/base/error.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/derive/derive.hpp"
 #include "checked.hpp"
-#include "derive/derive.hpp"
-#include "notation/text.hpp"
 
 namespace check_friction {
 

@@ -2,11 +2,11 @@
 // Rates that no inertia resists: their equations say that forces are in balance, or nothing.
 #include <doctest/doctest.h>
 
-#include "audit/audit.hpp"
+#include "analysis/audit/audit.hpp"
+#include "analysis/derive/derived.hpp"
+#include "analysis/state/force_balance.hpp"
 #include "checked.hpp"
-#include "derive/derived.hpp"
-#include "formalism/routh.hpp"
-#include "state/force_balance.hpp"
+#include "model/formalism/routh.hpp"
 
 namespace check_massless {
 

@@ -9,15 +9,15 @@
 #include <chrono>
 #include <cstdlib>
 
+#include "analysis/state/prepared.hpp"
 #include "branch_scenes.hpp"
 #include "check/check.hpp"
-#include "formalism/routh.hpp"
+#include "model/formalism/routh.hpp"
 #include "oracle.hpp"
 #include "rewritings.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 #include "slips.hpp"
-#include "state/prepared.hpp"
 
 namespace check_property {
 

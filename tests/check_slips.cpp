@@ -9,14 +9,14 @@
 #include <cstdlib>
 #include <map>
 
+#include "analysis/state/prepared.hpp"
 #include "check/check.hpp"
-#include "formalism/routh.hpp"
+#include "model/formalism/routh.hpp"
 #include "oracle.hpp"
 #include "rewritings.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 #include "slips.hpp"
-#include "state/prepared.hpp"
 
 namespace check_slips {
 

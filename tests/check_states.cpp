@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "checked.hpp"
-#include "formalism/routh.hpp"
+#include "model/formalism/routh.hpp"
 
 namespace check_states {
 

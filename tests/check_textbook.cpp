@@ -10,9 +10,9 @@
 #include <regex>
 #include <set>
 
+#include "algebra/notation/text.hpp"
+#include "analysis/derive/derive.hpp"
 #include "check/check.hpp"
-#include "derive/derive.hpp"
-#include "notation/text.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 

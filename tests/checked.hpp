@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "analysis/state/prepared.hpp"
 #include "check/check.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace alembert::test {
 

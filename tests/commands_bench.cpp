@@ -10,8 +10,8 @@
 #include <set>
 #include <sstream>
 
+#include "codegen/machine/encoder.hpp"
 #include "json.hpp"
-#include "machine/encoder.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 

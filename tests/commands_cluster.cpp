@@ -11,11 +11,11 @@
 #include <sstream>
 
 #include "files.hpp"
-#include "run/exact_sum.hpp"
-#include "run/quantile_sketch.hpp"
-#include "run/samples.hpp"
-#include "run/sweep_queue.hpp"
 #include "shell.hpp"
+#include "simulate/exact_sum.hpp"
+#include "simulate/quantile_sketch.hpp"
+#include "simulate/samples.hpp"
+#include "simulate/sweep_queue.hpp"
 #include "tools.hpp"
 
 namespace commands_cluster {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs through gimbal lock: near it a quaternion takes the place of the angles (run/charts.hpp). Held against the
-// same motions of scenes that have a quaternion from the start.
+// Runs through gimbal lock: near it a quaternion takes the place of the angles (simulate/charts.hpp). Held against
+// the same motions of scenes that have a quaternion from the start.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/language/catalogue.hpp"
+#include "base/language/say.hpp"
 #include "commands/language.hpp"
-#include "language/catalogue.hpp"
-#include "language/say.hpp"
 #include "program.hpp"
 #include "tools.hpp"
 

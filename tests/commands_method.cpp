@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "codegen/machine/encoder.hpp"
 #include "json.hpp"
-#include "machine/encoder.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
 

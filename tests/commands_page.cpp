@@ -12,10 +12,10 @@
 #include <sstream>
 #include <vector>
 
+#include "present/report/html.hpp"
+#include "present/report/page_plot.hpp"
+#include "present/report/sha256.hpp"
 #include "program.hpp"
-#include "report/html.hpp"
-#include "report/page_plot.hpp"
-#include "report/sha256.hpp"
 #include "scenes.hpp"
 
 namespace commands_page {

@@ -11,9 +11,9 @@
 #include <set>
 #include <sstream>
 
+#include "present/report/plot.hpp"
+#include "present/report/work_precision.hpp"
 #include "program.hpp"
-#include "report/plot.hpp"
-#include "report/work_precision.hpp"
 #include "scenes.hpp"
 
 namespace commands_plots {

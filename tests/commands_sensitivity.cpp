@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
+#include "analysis/state/assemble.hpp"
 #include "edits.hpp"
 #include "program.hpp"
-#include "run/reference.hpp"
-#include "run/simulate.hpp"
 #include "scenes.hpp"
-#include "state/assemble.hpp"
+#include "simulate/reference.hpp"
+#include "simulate/simulate.hpp"
 
 namespace commands_sensitivity {
 

@@ -12,8 +12,8 @@
 
 #include "json.hpp"
 #include "program.hpp"
-#include "run/samples.hpp"
 #include "scenes.hpp"
+#include "simulate/samples.hpp"
 
 namespace commands_sweep {
 

@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-#include "report/wrap.hpp"
+#include "present/report/wrap.hpp"
 #include "scenes.hpp"
 #include "shell.hpp"
 #include "tools.hpp"

@@ -2,11 +2,11 @@
 // The scene's definitions appear as names in the derived equations; and the sign of a printed equation.
 #include <doctest/doctest.h>
 
+#include "algebra/notation/text.hpp"
+#include "analysis/derive/derive.hpp"
+#include "analysis/state/prepared.hpp"
 #include "check/check.hpp"
-#include "derive/derive.hpp"
-#include "notation/text.hpp"
 #include "scene/claims_file.hpp"
-#include "state/prepared.hpp"
 
 namespace derive_names {
 

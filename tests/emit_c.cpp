@@ -13,10 +13,10 @@
 
 #include "program/differentiate.hpp"
 #include "program/interpret.hpp"
-#include "run/emission.hpp"
-#include "run/simulate.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
+#include "simulate/emission.hpp"
+#include "simulate/simulate.hpp"
 #include "tools.hpp"
 
 namespace emit_c {

@@ -12,13 +12,13 @@
 #include <set>
 #include <sstream>
 
-#include "emit/comment.hpp"
-#include "emit/names.hpp"
-#include "emit/reserved_words.hpp"
-#include "run/emission.hpp"
-#include "run/evaluate.hpp"
+#include "codegen/emit/comment.hpp"
+#include "codegen/emit/names.hpp"
+#include "codegen/emit/reserved_words.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
+#include "simulate/emission.hpp"
+#include "simulate/evaluate.hpp"
 
 namespace emit_heads {
 

@@ -10,13 +10,13 @@
 #include "alembert/batch/packs.hpp"
 #include "alembert/native/compile.hpp"
 #include "alembert/native/module.hpp"
-#include "emit/emit.hpp"
-#include "emit/parts.hpp"
-#include "formalism/formalisms.hpp"
-#include "formalism/recursive.hpp"
-#include "lower/choose.hpp"
+#include "analysis/state/prepared.hpp"
+#include "codegen/emit/emit.hpp"
+#include "codegen/emit/parts.hpp"
+#include "model/formalism/formalisms.hpp"
+#include "model/formalism/recursive.hpp"
+#include "program/lower/choose.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace emit_parts {
 

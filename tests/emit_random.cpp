@@ -11,12 +11,12 @@
 #include <fstream>
 
 #include "alembert/base/error.hpp"
-#include "emit/emit.hpp"
-#include "emit/taylor.hpp"
-#include "formalism/elements.hpp"
-#include "formalism/formalisms.hpp"
-#include "lower/choose.hpp"
+#include "codegen/emit/emit.hpp"
+#include "codegen/emit/taylor.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/formalisms.hpp"
 #include "program/differentiate.hpp"
+#include "program/lower/choose.hpp"
 #include "random_scene.hpp"
 #include "scenes.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "emit/register_order.hpp"
+#include "codegen/emit/register_order.hpp"
 
 namespace emit_register_order {
 

@@ -2,7 +2,7 @@
 // Sums whose late terms come last.
 #include <doctest/doctest.h>
 
-#include "emit/scheduled_sum.hpp"
+#include "codegen/emit/scheduled_sum.hpp"
 
 namespace emit_scheduled_sum {
 

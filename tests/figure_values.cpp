@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "figure/drawing.hpp"
-#include "lower/lower.hpp"
-#include "lower/start.hpp"
+#include "analysis/state/assemble.hpp"
+#include "present/figure/drawing.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/start.hpp"
 #include "scenes.hpp"
-#include "state/assemble.hpp"
 
 namespace figure_values {
 

@@ -9,17 +9,17 @@
 #include <cmath>
 #include <random>
 
-#include "agree/agree.hpp"
-#include "formalism/dalembert.hpp"
-#include "formalism/kane.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/rest.hpp"
-#include "lower/lower.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/agree/agree.hpp"
+#include "analysis/state/prepared.hpp"
+#include "model/formalism/dalembert.hpp"
+#include "model/formalism/kane.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/rest.hpp"
+#include "program/lower/lower.hpp"
 #include "program/modular.hpp"
 #include "program/prime_polynomial.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace formalism_agree {
 

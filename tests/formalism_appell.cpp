@@ -2,11 +2,11 @@
 // The Gibbs-Appell equations against closed forms of nonholonomic systems and against other routes.
 #include <doctest/doctest.h>
 
-#include "agree/agree.hpp"
-#include "formalism/appell.hpp"
-#include "formalism/kane.hpp"
-#include "formalism/routh.hpp"
+#include "analysis/agree/agree.hpp"
 #include "mechanisms.hpp"
+#include "model/formalism/appell.hpp"
+#include "model/formalism/kane.hpp"
+#include "model/formalism/routh.hpp"
 
 namespace formalism_appell {
 

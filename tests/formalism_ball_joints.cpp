@@ -6,16 +6,16 @@
 
 #include <random>
 
-#include "formalism/joint_tree.hpp"
-#include "formalism/recursive.hpp"
-#include "formalism/routh.hpp"
-#include "lower/choose.hpp"
-#include "lower/inverse.hpp"
-#include "lower/robot_functions.hpp"
+#include "analysis/state/prepared.hpp"
 #include "mechanisms.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "model/formalism/recursive.hpp"
+#include "model/formalism/routh.hpp"
 #include "program/interpret.hpp"
+#include "program/lower/choose.hpp"
+#include "program/lower/inverse.hpp"
+#include "program/lower/robot_functions.hpp"
 #include "program/modular.hpp"
-#include "state/prepared.hpp"
 
 namespace formalism_ball_joints {
 

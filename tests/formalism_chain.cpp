@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "formalism/planar_chain.hpp"
-#include "formalism/tree_recursions.hpp"
+#include "model/formalism/planar_chain.hpp"
+#include "model/formalism/tree_recursions.hpp"
 
 namespace formalism_chain {
 

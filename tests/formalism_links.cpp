@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "derive/derived.hpp"
-#include "formalism/joint_tree.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/recursive.hpp"
+#include "analysis/derive/derived.hpp"
 #include "link_scenes.hpp"
 #include "mechanisms.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/recursive.hpp"
 #include "program.hpp"
 #include "program/modular.hpp"
 

@@ -2,10 +2,10 @@
 // Maggi's equations against closed forms of nonholonomic systems and against other routes.
 #include <doctest/doctest.h>
 
-#include "agree/agree.hpp"
-#include "formalism/maggi.hpp"
-#include "formalism/routh.hpp"
+#include "analysis/agree/agree.hpp"
 #include "mechanisms.hpp"
+#include "model/formalism/maggi.hpp"
+#include "model/formalism/routh.hpp"
 
 namespace formalism_maggi {
 

@@ -6,18 +6,18 @@
 
 #include <random>
 
-#include "agree/agree.hpp"
-#include "emit/emit.hpp"
-#include "formalism/articulated_tree.hpp"
-#include "formalism/joint_tree.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/recursive.hpp"
+#include "analysis/agree/agree.hpp"
+#include "analysis/state/prepared.hpp"
+#include "codegen/emit/emit.hpp"
 #include "link_scenes.hpp"
-#include "lower/choose.hpp"
 #include "mechanisms.hpp"
+#include "model/formalism/articulated_tree.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/recursive.hpp"
 #include "program/flatten.hpp"
+#include "program/lower/choose.hpp"
 #include "program/modular.hpp"
-#include "state/prepared.hpp"
 
 namespace formalism_recursive {
 

@@ -4,22 +4,22 @@
 
 #include <cmath>
 
-#include "agree/agree.hpp"
 #include "alembert/native/compile.hpp"
 #include "alembert/ode/rhs.hpp"
-#include "derive/derivation.hpp"
-#include "emit/emit.hpp"
-#include "formalism/cancel.hpp"
-#include "formalism/kane.hpp"
-#include "formalism/kinematics.hpp"
-#include "formalism/lagrange1.hpp"
-#include "formalism/routh.hpp"
-#include "lower/choose.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/agree/agree.hpp"
+#include "analysis/derive/derivation.hpp"
+#include "analysis/state/prepared.hpp"
+#include "analysis/state/speeds.hpp"
+#include "codegen/emit/emit.hpp"
 #include "mechanisms.hpp"
 #include "model/energy.hpp"
-#include "notation/text.hpp"
-#include "state/prepared.hpp"
-#include "state/speeds.hpp"
+#include "model/formalism/cancel.hpp"
+#include "model/formalism/kane.hpp"
+#include "model/formalism/kinematics.hpp"
+#include "model/formalism/lagrange1.hpp"
+#include "model/formalism/routh.hpp"
+#include "program/lower/choose.hpp"
 
 namespace formalism_speeds {
 

@@ -4,24 +4,24 @@
 
 #include <fmt/format.h>
 
-#include "agree/agree.hpp"
-#include "audit/audit.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/agree/agree.hpp"
+#include "analysis/audit/audit.hpp"
+#include "analysis/derive/derivation.hpp"
+#include "analysis/state/prepared.hpp"
 #include "check/check.hpp"
-#include "derive/derivation.hpp"
-#include "formalism/formalisms.hpp"
-#include "formalism/kane.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/routh.hpp"
-#include "lower/choose.hpp"
-#include "lower/inverse.hpp"
-#include "lower/lower.hpp"
-#include "lower/start.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/formalisms.hpp"
+#include "model/formalism/kane.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/routh.hpp"
 #include "model/mechanism.hpp"
-#include "notation/text.hpp"
 #include "program/interpret.hpp"
+#include "program/lower/choose.hpp"
+#include "program/lower/inverse.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/start.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace formalism_table {
 

@@ -5,13 +5,13 @@
 
 #include "alembert/native/compile.hpp"
 #include "alembert/ode/rhs.hpp"
-#include "emit/emit.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/routh.hpp"
-#include "lower/choose.hpp"
+#include "analysis/state/prepared.hpp"
+#include "codegen/emit/emit.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/routh.hpp"
 #include "program/interpret.hpp"
+#include "program/lower/choose.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace generator_agreement {
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "formalism/routh.hpp"
-#include "lower/choose.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/prepared.hpp"
+#include "model/formalism/routh.hpp"
+#include "program/lower/choose.hpp"
 #include "scenes.hpp"
-#include "state/assemble.hpp"
-#include "state/prepared.hpp"
 
 namespace generator_claims {
 

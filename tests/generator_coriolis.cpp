@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
+#include "analysis/state/prepared.hpp"
 #include "dual.hpp"
-#include "formalism/elements.hpp"
-#include "formalism/schiehlen.hpp"
-#include "lower/lower.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/schiehlen.hpp"
+#include "program/lower/lower.hpp"
 #include "robot_functions.hpp"
-#include "run/evaluate.hpp"
-#include "state/prepared.hpp"
+#include "simulate/evaluate.hpp"
 
 namespace generator_coriolis {
 

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <random>
 
-#include "derive/derived.hpp"
-#include "lower/start.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "analysis/derive/derived.hpp"
 #include "program/interpret.hpp"
+#include "program/lower/start.hpp"
 #include "scenes.hpp"
-#include "symbolic/fourier.hpp"
 
 namespace generator_distances {
 

@@ -12,13 +12,13 @@
 #include <optional>
 
 #include "alembert/ode/integrate.hpp"
+#include "analysis/state/prepared.hpp"
 #include "by_python.hpp"
 #include "files.hpp"
-#include "fmu/unit.hpp"
 #include "fmu_master.hpp"
-#include "run/simulate.hpp"
 #include "shell.hpp"
-#include "state/prepared.hpp"
+#include "simulate/fmu/unit.hpp"
+#include "simulate/simulate.hpp"
 
 namespace generator_four_ways {
 

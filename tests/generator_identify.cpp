@@ -6,11 +6,11 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "lower/regressor.hpp"
-#include "rigid/identify.hpp"
+#include "analysis/rigid/identify.hpp"
+#include "analysis/state/prepared.hpp"
+#include "program/lower/regressor.hpp"
 #include "robot_functions.hpp"
-#include "run/inverse.hpp"
-#include "state/prepared.hpp"
+#include "simulate/inverse.hpp"
 
 namespace generator_identify {
 

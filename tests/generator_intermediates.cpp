@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include "symbolic/functions.hpp"
-#include "symbolic/intermediates.hpp"
+#include "algebra/symbolic/functions.hpp"
+#include "algebra/symbolic/intermediates.hpp"
 
 namespace generator_intermediates {
 

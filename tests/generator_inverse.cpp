@@ -5,13 +5,13 @@
 
 #include <random>
 
-#include "formalism/joint_tree.hpp"
-#include "formalism/recursive.hpp"
-#include "formalism/schiehlen.hpp"
-#include "lower/inverse.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/prepared.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "model/formalism/recursive.hpp"
+#include "model/formalism/schiehlen.hpp"
+#include "program/lower/inverse.hpp"
+#include "program/lower/lower.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace generator_inverse {
 

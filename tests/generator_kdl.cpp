@@ -12,11 +12,11 @@
 #include <map>
 #include <random>
 
-#include "lower/frame_functions.hpp"
-#include "lower/robot_functions.hpp"
-#include "lower/start.hpp"
+#include "analysis/state/prepared.hpp"
 #include "program/interpret.hpp"
-#include "state/prepared.hpp"
+#include "program/lower/frame_functions.hpp"
+#include "program/lower/robot_functions.hpp"
+#include "program/lower/start.hpp"
 
 namespace generator_kdl {
 

@@ -7,10 +7,10 @@
 #include "alembert/batch/packs.hpp"
 #include "alembert/native/compile.hpp"
 #include "alembert/native/module.hpp"
-#include "emit/emit.hpp"
-#include "formalism/lagrange.hpp"
-#include "lower/choose.hpp"
+#include "codegen/emit/emit.hpp"
+#include "model/formalism/lagrange.hpp"
 #include "program/jet.hpp"
+#include "program/lower/choose.hpp"
 #include "program/tape.hpp"
 #include "scenes.hpp"
 

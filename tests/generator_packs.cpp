@@ -11,13 +11,13 @@
 #include "alembert/base/dense.hpp"
 #include "alembert/batch/packs.hpp"
 #include "alembert/native/compile.hpp"
-#include "emit/emit.hpp"
-#include "formalism/formalisms.hpp"
-#include "lower/choose.hpp"
-#include "machine/encoder.hpp"
-#include "machine/memory_solver.hpp"
+#include "analysis/state/prepared.hpp"
+#include "codegen/emit/emit.hpp"
+#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/memory_solver.hpp"
+#include "model/formalism/formalisms.hpp"
+#include "program/lower/choose.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace generator_packs {
 

@@ -6,16 +6,16 @@
 #include <cmath>
 #include <random>
 
-#include "emit/emit.hpp"
-#include "formalism/formalisms.hpp"
-#include "lower/choose.hpp"
+#include "analysis/state/prepared.hpp"
+#include "codegen/emit/emit.hpp"
+#include "model/formalism/formalisms.hpp"
 #include "program/constants.hpp"
 #include "program/interpret.hpp"
+#include "program/lower/choose.hpp"
 #include "program/share.hpp"
 #include "program/solve.hpp"
 #include "scenes.hpp"
 #include "solved.hpp"
-#include "state/prepared.hpp"
 
 namespace generator_program {
 

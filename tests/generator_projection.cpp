@@ -10,13 +10,13 @@
 #include "alembert/base/dense.hpp"
 #include "alembert/native/compile.hpp"
 #include "alembert/ode/projection.hpp"
-#include "emit/emit.hpp"
-#include "formalism/routh.hpp"
-#include "lower/choose.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/prepared.hpp"
+#include "codegen/emit/emit.hpp"
+#include "model/formalism/routh.hpp"
+#include "program/lower/choose.hpp"
+#include "program/lower/lower.hpp"
 #include "scenes.hpp"
-#include "state/assemble.hpp"
-#include "state/prepared.hpp"
 
 namespace generator_projection {
 

@@ -14,14 +14,14 @@
 #include "alembert/native/compile.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/projection.hpp"
-#include "emit/emit.hpp"
-#include "formalism/kane.hpp"
-#include "lower/choose.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/prepared.hpp"
+#include "codegen/emit/emit.hpp"
+#include "model/formalism/kane.hpp"
+#include "program/lower/choose.hpp"
+#include "program/lower/lower.hpp"
 #include "scenes.hpp"
 #include "solved.hpp"
-#include "state/assemble.hpp"
-#include "state/prepared.hpp"
 
 namespace generator_projection_speeds {
 

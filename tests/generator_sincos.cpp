@@ -14,7 +14,7 @@
 #include "alembert/batch/packs.hpp"
 #include "alembert/native/compile.hpp"
 #include "alembert/native/module.hpp"
-#include "emit/emit.hpp"
+#include "codegen/emit/emit.hpp"
 
 namespace generator_sincos {
 

@@ -12,15 +12,15 @@
 
 #include "alembert/ode/integrate.hpp"
 #include "by_python.hpp"
-#include "equilibrium/equilibria.hpp"
-#include "fmu/unit.hpp"
 #include "fmu_master.hpp"
-#include "linear/about.hpp"
-#include "run/bench.hpp"
-#include "run/evaluate.hpp"
-#include "run/simulate.hpp"
-#include "run/sweep.hpp"
+#include "simulate/bench.hpp"
+#include "simulate/evaluate.hpp"
+#include "simulate/fmu/unit.hpp"
+#include "simulate/simulate.hpp"
+#include "simulate/sweep.hpp"
+#include "stability/equilibrium/equilibria.hpp"
 #include "stability/exponents.hpp"
+#include "stability/linear/about.hpp"
 #include "stability/stability.hpp"
 
 namespace generator_wrong_numbers {

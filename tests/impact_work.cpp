@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "allocations.hpp"
-#include "contact/impact.hpp"
-#include "formalism/lagrange.hpp"
+#include "analysis/contact/impact.hpp"
+#include "model/formalism/lagrange.hpp"
 #include "scenes.hpp"
 
 namespace impact_work {

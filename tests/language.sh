@@ -28,13 +28,13 @@ mixed=$(awk 'BEGIN { RS = "" } { sub(/.*\nmsgstr/, ""); gsub(/[{][{]|[}][}]/, ""
 texts() { # FILE...: the strings of C++ files, one a line
     xgettext --language=C++ --from-code=UTF-8 --no-wrap --output=- "$@" 2>/dev/null | sed -n 's/^\(msgid \)\?"\(.*\)"$/\2/p'
 }
-sed '/toml++, and/,$d' generator/language/libraries.cpp >"$work/patterns.cpp"
+sed '/toml++, and/,$d' generator/base/language/libraries.cpp >"$work/patterns.cpp"
 texts -a lib/alembert/*.?pp >"$work/runtime"
 texts --keyword --keyword=to_say:1 "$work/patterns.cpp" | sed 's/\\n/\n/g; s/{[^}]*}/\n/g' >"$work/parts"
 [ "$(wc -l <"$work/parts")" -ge 60 ] || fail 'the patterns of the runtime are not found'
 while IFS= read -r part; do
     [ "${#part}" -lt 12 ] || grep -qF -- "$part" "$work/runtime" ||
-        fail "generator/language/libraries.cpp waits for a message with '$part', which lib/ does not say"
+        fail "generator/base/language/libraries.cpp waits for a message with '$part', which lib/ does not say"
 done <"$work/parts"
 
 # What is run, and what must be Chinese in its output.

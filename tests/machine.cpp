@@ -11,16 +11,16 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/simd_math.hpp"
-#include "formalism/formalisms.hpp"
-#include "lower/choose.hpp"
-#include "machine/encoder.hpp"
-#include "machine/memory_solver.hpp"
+#include "analysis/state/prepared.hpp"
+#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/memory_solver.hpp"
 #include "machine_values.hpp"
+#include "model/formalism/formalisms.hpp"
 #include "program/differentiate.hpp"
+#include "program/lower/choose.hpp"
 #include "random_program.hpp"
 #include "random_scene.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace machine_code {
 

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "alembert/batch/packs.hpp"
-#include "machine/encoder.hpp"
-#include "machine/memory_solver.hpp"
+#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/memory_solver.hpp"
 #include "machine_values.hpp"
 #include "random_program.hpp"
 

@@ -9,8 +9,8 @@
 #include <cstdlib>
 
 #include "alembert/base/error.hpp"
-#include "run/simulate.hpp"
 #include "scenes.hpp"
+#include "simulate/simulate.hpp"
 
 namespace machine_runs {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/solver_functions.hpp"
+#include "codegen/emit/solver_functions.hpp"
 #include "program/interpret.hpp"
 
 namespace alembert::test {

@@ -14,12 +14,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "lower/lower.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/state/prepared.hpp"
+#include "present/report/derivation.hpp"
 #include "program/interpret.hpp"
-#include "report/derivation.hpp"
+#include "program/lower/lower.hpp"
 #include "scenes.hpp"
-#include "state/prepared.hpp"
 
 namespace alembert::test {
 

@@ -4,14 +4,14 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "agree/agree.hpp"
-#include "formalism/dalembert.hpp"
-#include "formalism/kane.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/roberson_wittenburg.hpp"
-#include "formalism/schiehlen.hpp"
+#include "analysis/agree/agree.hpp"
 #include "joint_scenes.hpp"
 #include "mechanisms.hpp"
+#include "model/formalism/dalembert.hpp"
+#include "model/formalism/kane.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/roberson_wittenburg.hpp"
+#include "model/formalism/schiehlen.hpp"
 #include "scene/joint_moves.hpp"
 
 namespace model_joint_trees {

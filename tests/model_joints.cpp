@@ -6,14 +6,14 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "formalism/dalembert.hpp"
-#include "formalism/kane.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/roberson_wittenburg.hpp"
-#include "formalism/routh.hpp"
-#include "formalism/schiehlen.hpp"
 #include "joint_scenes.hpp"
 #include "mechanisms.hpp"
+#include "model/formalism/dalembert.hpp"
+#include "model/formalism/kane.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/roberson_wittenburg.hpp"
+#include "model/formalism/routh.hpp"
+#include "model/formalism/schiehlen.hpp"
 
 namespace model_joints {
 

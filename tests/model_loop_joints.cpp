@@ -7,10 +7,10 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "formalism/routh.hpp"
+#include "analysis/state/assemble.hpp"
 #include "joint_scenes.hpp"
 #include "mechanisms.hpp"
-#include "state/assemble.hpp"
+#include "model/formalism/routh.hpp"
 
 namespace model_loop_joints {
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "analysis/derive/derived.hpp"
 #include "checked.hpp"
-#include "derive/derived.hpp"
 
 namespace model_moving_place {
 

@@ -6,9 +6,9 @@
 #include <map>
 #include <random>
 
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
 #include "model/energy.hpp"
-#include "state/assemble.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert::test {
 

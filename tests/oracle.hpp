@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "digits.hpp"
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert::test {

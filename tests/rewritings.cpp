@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "derive/derivation.hpp"
-#include "formalism/kane.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/derive/derivation.hpp"
+#include "model/formalism/kane.hpp"
 
 namespace alembert::test {
 

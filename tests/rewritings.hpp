@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert::test {

@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "lower/robot_functions.hpp"
 #include "program/interpret.hpp"
+#include "program/lower/robot_functions.hpp"
 #include "scenes.hpp"
 
 namespace alembert::test {

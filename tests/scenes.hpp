@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "files.hpp"
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 #include "sanitized.hpp"
 
 namespace alembert::test {

@@ -7,8 +7,8 @@
 #include <complex>
 #include <random>
 
-#include "linear/modes.hpp"
 #include "stability/conditions.hpp"
+#include "stability/linear/modes.hpp"
 #include "stability/spectrum.hpp"
 
 namespace stability_numbers {

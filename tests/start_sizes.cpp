@@ -10,11 +10,11 @@
 #include <random>
 
 #include "alembert/base/error.hpp"
-#include "derive/derived.hpp"
-#include "lower/lower.hpp"
+#include "analysis/derive/derived.hpp"
+#include "analysis/state/assemble.hpp"
+#include "program/lower/lower.hpp"
 #include "program/rounding.hpp"
 #include "scenes.hpp"
-#include "state/assemble.hpp"
 
 namespace start_sizes {
 

@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "derive/start_check.hpp"
-#include "state/prepared.hpp"
+#include "analysis/derive/start_check.hpp"
+#include "analysis/state/prepared.hpp"
 
 namespace state_warnings {
 

@@ -3,10 +3,10 @@
 
 #include <random>
 
-#include "notation/factor.hpp"
-#include "notation/irreducible.hpp"
-#include "symbolic/bounded_factor.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/notation/factor.hpp"
+#include "algebra/notation/irreducible.hpp"
+#include "algebra/symbolic/bounded_factor.hpp"
+#include "algebra/symbolic/fourier.hpp"
 #include "symbolic_cases.hpp"
 
 namespace symbolic_factor {

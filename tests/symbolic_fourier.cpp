@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/fourier.hpp"
+#include "algebra/symbolic/fourier.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

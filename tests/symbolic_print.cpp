@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "notation/latex.hpp"
-#include "notation/lettering.hpp"
-#include "notation/mathml.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/latex.hpp"
+#include "algebra/notation/lettering.hpp"
+#include "algebra/notation/mathml.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
 #include "symbolic_cases.hpp"
 
 namespace symbolic_print {

@@ -3,10 +3,10 @@
 
 #include <random>
 
-#include "notation/latex.hpp"
-#include "notation/mathml.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/latex.hpp"
+#include "algebra/notation/mathml.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
 #include "symbolic_cases.hpp"
 
 namespace symbolic_random {

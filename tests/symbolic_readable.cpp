@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/readable.hpp"
+#include "algebra/notation/readable.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -12,9 +12,9 @@
 #include <random>
 #include <sstream>
 
-#include "notation/latex.hpp"
-#include "notation/mathml.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/latex.hpp"
+#include "algebra/notation/mathml.hpp"
+#include "algebra/notation/text.hpp"
 #include "scene/expression.hpp"
 #include "symbolic_cases.hpp"
 

@@ -8,11 +8,11 @@
 #include <functional>
 #include <set>
 
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "analysis/derive/derivation.hpp"
 #include "check/nearest.hpp"
 #include "check/steady_factor.hpp"
-#include "derive/derivation.hpp"
-#include "notation/text.hpp"
-#include "symbolic/fourier.hpp"
 
 namespace alembert {
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/motions.hpp"
+#include "analysis/exact/motions.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

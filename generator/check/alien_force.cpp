@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/alien_force.hpp"
 
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
 
 namespace alembert {
 

@@ -6,7 +6,7 @@
 ///
 ///     ExactStates states(mechanism, any_motion(equations, mechanism), Motions::At::motion, 0, 0);
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

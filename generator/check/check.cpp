@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <map>
 
+#include "base/language/say.hpp"
 #include "check/arithmetic_error.hpp"
 #include "check/one_mode.hpp"
-#include "language/say.hpp"
 #include "scene/closed_contacts.hpp"
 #include "scene/sticking.hpp"
 

@@ -9,8 +9,8 @@
 /// A claim is an equation in the names that the scene declares. It is right if it holds at every state that obeys
 /// the constraints and their derivatives, with the accelerations and multipliers that the equations give there; so
 /// multiples, combinations and rewritings with the constraints are right in any form. This is decided by exact
-/// evaluation modulo 2⁶¹ − 1 at random such states (exact/motions.hpp), until the probability of an error is below
-/// 2⁻⁶⁰. If the normal form of claim − Σ c_i · equation_i is zero, that is a proof by itself.
+/// evaluation modulo 2⁶¹ − 1 at random such states (analysis/exact/motions.hpp), until the probability of an error
+/// is below 2⁻⁶⁰. If the normal form of claim − Σ c_i · equation_i is zero, that is a proof by itself.
 ///
 ///  - unknowns are functions of the state that the author leaves open. Claims are linear in them: B(state) μ =
 ///    d(state) must be solvable at every state. A claim whose row does not follow from the rows of the others is
@@ -22,13 +22,13 @@
 ///  - near a point: to first order (first_order.hpp).
 ///  - at rest: at states with q' = q'' = 0 that the equations allow.
 ///
-/// A false claim gets a state at which it fails, in exact numbers (exact/real_state.hpp).
+/// A false claim gets a state at which it fails, in exact numbers (analysis/exact/real_state.hpp).
 
+#include "analysis/exact/real_state.hpp"
 #include "check/verdict.hpp"
-#include "exact/real_state.hpp"
 #include "scene/scene.hpp"
 
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 
 namespace alembert {
 

@@ -18,9 +18,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "analysis/exact/exact_state.hpp"
 #include "check/claim_tree.hpp"
 #include "check/claims.hpp"
-#include "exact/exact_state.hpp"
 
 namespace alembert {
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "derive/derive.hpp"
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/derive/derive.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/held_functions.hpp"
-#include "notation/text.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

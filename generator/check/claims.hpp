@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "contact/impact.hpp"
-#include "exact/motions.hpp"
-#include "formalism/driven.hpp"
+#include "analysis/contact/impact.hpp"
+#include "analysis/exact/motions.hpp"
+#include "model/formalism/driven.hpp"
 #include "model/formulas.hpp"
 
 namespace alembert {
@@ -51,13 +51,13 @@ public:
     GiNaC::ex read_at_impact(const Expression& expression);
     /// The same with the values of constants that `define` gave.
     GiNaC::ex read_with_constants(const Expression& expression);
-    /// From now on the rates in mechanism and equations are counted from these (formalism/driven.hpp), and `read`
-    /// gives expressions in such rates.
+    /// From now on the rates in mechanism and equations are counted from these (model/formalism/driven.hpp), and
+    /// `read` gives expressions in such rates.
     void count_rates_from(GiNaC::exmap driven) { driven_ = std::move(driven); }
     const GiNaC::exmap& driven() const { return driven_; }
 
-    /// The rates after the scene's impulses (contact/impact.hpp), as expressions at the initial pose. Nothing if
-    /// they are known only as numbers, or not at all; `impact_obstacle` then gives the reason.
+    /// The rates after the scene's impulses (analysis/contact/impact.hpp), as expressions at the initial pose.
+    /// Nothing if they are known only as numbers, or not at all; `impact_obstacle` then gives the reason.
     const std::optional<Impact::Exact>& after_impact();
     const std::string& impact_obstacle() const { return impact_obstacle_; }
 

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <array>
 
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "analysis/exact/angle_sum.hpp"
+#include "base/language/say.hpp"
 #include "check/multiple.hpp"
 #include "check/root_form.hpp"
 #include "check/speaks_of_scene.hpp"
 #include "check/vanishing.hpp"
-#include "exact/angle_sum.hpp"
-#include "language/say.hpp"
 #include "model/energy.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
-#include "symbolic/fourier.hpp"
 
 namespace alembert {
 

@@ -11,11 +11,11 @@
 #include <set>
 #include <vector>
 
+#include "analysis/exact/exact_states.hpp"
 #include "check/absent.hpp"
 #include "check/claims.hpp"
 #include "check/counterexample.hpp"
 #include "check/verdict.hpp"
-#include "exact/exact_states.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/completeness.hpp"
 
+#include "analysis/exact/exact_states.hpp"
 #include "check/open_rows.hpp"
-#include "exact/exact_states.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/constants.hpp"
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "exact/expression_of.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/exact/expression_of.hpp"
 
 namespace alembert {
 

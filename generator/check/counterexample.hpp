@@ -7,13 +7,13 @@
 ///         shown->values;              // {"m", "3/7"}, {"theta", "2*atan(1/3)"} …
 ///         shown->residual;            // left − right there
 ///
-/// States are those of exact/real_state.hpp: fractions if possible, otherwise floats with 50 digits.
+/// States are those of analysis/exact/real_state.hpp: fractions if possible, otherwise floats with 50 digits.
 
 #include <set>
 
+#include "analysis/exact/real_state.hpp"
 #include "check/claims.hpp"
 #include "check/open_rows.hpp"
-#include "exact/real_state.hpp"
 
 namespace alembert {
 

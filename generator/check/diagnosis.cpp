@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <array>
 
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "base/language/say.hpp"
 #include "check/claim_arithmetic.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
 #include "check/speaks_of_scene.hpp"
 #include "check/vanishing.hpp"
-#include "formalism/rest.hpp"
-#include "language/say.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "model/formalism/rest.hpp"
 #include "scene/dimensions.hpp"
-#include "symbolic/fourier.hpp"
 
 namespace alembert {
 

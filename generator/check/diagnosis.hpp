@@ -11,10 +11,10 @@
 #include <optional>
 #include <set>
 
+#include "analysis/exact/exact_states.hpp"
 #include "check/absent.hpp"
 #include "check/claims.hpp"
 #include "check/slip.hpp"
-#include "exact/exact_states.hpp"
 
 namespace alembert {
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "base/language/say.hpp"
 #include "check/zero.hpp"
-#include "language/say.hpp"
-#include "lower/start.hpp"
 #include "model/parameter_values.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
-#include "symbolic/fourier.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

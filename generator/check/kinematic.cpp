@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "base/language/say.hpp"
 #include "check/any_motion.hpp"
 #include "check/vanishing.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

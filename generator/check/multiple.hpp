@@ -10,7 +10,7 @@
 /// It tries multiples of one equation by any function and, with up to three coordinates and no constraints, every
 /// combination (Cramer's rule). False means only that no combination was found.
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
 
 namespace alembert {
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "formalism/equations.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include "analysis/state/branch.hpp"
+#include "analysis/state/force_balance.hpp"
+#include "base/language/say.hpp"
 #include "check/any_motion.hpp"
 #include "check/arithmetic_error.hpp"
 #include "check/closed_claim.hpp"
@@ -14,12 +17,9 @@
 #include "check/kinematic.hpp"
 #include "check/open_claims.hpp"
 #include "check/solution.hpp"
-#include "formalism/driven.hpp"
-#include "formalism/elements.hpp"
-#include "formalism/routh.hpp"
-#include "language/say.hpp"
-#include "state/branch.hpp"
-#include "state/force_balance.hpp"
+#include "model/formalism/driven.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/routh.hpp"
 
 namespace alembert {
 
@@ -43,7 +43,7 @@ public:
           sheets_(sheets),
           now_{.scene = scene, .m = m, .e = e, .claims = claims_} {}
 
-    /// `m` and `e` have rates that are counted from these (formalism/driven.hpp).
+    /// `m` and `e` have rates that are counted from these (model/formalism/driven.hpp).
     void count_rates_from(const GiNaC::exmap& driven) { claims_.count_rates_from(driven); }
 
     Checked run() {

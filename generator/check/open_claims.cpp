@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/open_claims.hpp"
 
+#include "base/language/say.hpp"
 #include "check/open_rows.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

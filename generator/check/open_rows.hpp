@@ -12,8 +12,8 @@
 #include <optional>
 #include <set>
 
+#include "analysis/exact/exact_states.hpp"
 #include "check/claims.hpp"
-#include "exact/exact_states.hpp"
 
 namespace alembert {
 

@@ -3,9 +3,9 @@
 
 #include <stdexcept>
 
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
 #include "model/energy.hpp"
-#include "state/assemble.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
 #include "check/alien_force.hpp"
 #include "check/claim_arithmetic.hpp"
 #include "check/edits.hpp"
 #include "check/nearest.hpp"
 #include "check/needed_factor.hpp"
 #include "check/steady_factor.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
 
 namespace alembert {
 

@@ -18,7 +18,7 @@
 #include <optional>
 
 #include "check/absent.hpp"
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/slip_words.hpp"
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/language/say.hpp"
 #include "check/zero.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "exact/square_points.hpp"
+#include "analysis/exact/square_points.hpp"
 #include "program/reduce_rows.hpp"
 
 namespace alembert {

@@ -10,8 +10,8 @@
 /// equations of motion and the constraints with q' = q'' = 0, g_j products of at most two of the parameters,
 /// coordinates, sines, cosines and roots that occur, c_ij numbers. r lies in the span of the g_j E_i if it does at
 /// more random states than there are c_ij. No state of rest is needed, so equations of rest that cannot be solved
-/// one after the other (exact/motions.hpp) are no obstacle. The c_ij are not functions of the parameters, because
-/// such functions might have poles just where rest is possible, as 1/(m1 − m2) for two weights on a rope.
+/// one after the other (analysis/exact/motions.hpp) are no obstacle. The c_ij are not functions of the parameters,
+/// because such functions might have poles just where rest is possible, as 1/(m1 − m2) for two weights on a rope.
 
 #include <optional>
 

@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-#include "exact/exact_states.hpp"
+#include "analysis/exact/exact_states.hpp"
 
 namespace alembert {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/language/say.hpp"
 #include "check/verdict.hpp"
-#include "language/say.hpp"
 #include "model/energy.hpp"
 
 namespace alembert {

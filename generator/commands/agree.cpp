@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <unistd.h>
 
-#include "report/agree.hpp"
+#include "present/report/agree.hpp"
 
+#include "base/language/say.hpp"
 #include "commands/show.hpp"
 #include "commands/terminal.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

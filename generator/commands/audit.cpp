@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/audit.hpp"
+#include "present/report/audit.hpp"
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

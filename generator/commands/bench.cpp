@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/bench.hpp"
+#include "present/report/bench.hpp"
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

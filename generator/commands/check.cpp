@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <unistd.h>
 
-#include "report/check.hpp"
+#include "present/report/check.hpp"
 
+#include "base/language/say.hpp"
 #include "commands/show.hpp"
 #include "commands/terminal.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
 #include "scene/claims_file.hpp"
 
 namespace alembert {

@@ -10,14 +10,14 @@
 #include <iostream>
 
 #include "alembert/base/error.hpp"
+#include "base/language/libraries.hpp"
+#include "base/language/say.hpp"
 #include "commands/help.hpp"
 #include "commands/help_mistakes.hpp"
 #include "commands/language.hpp"
 #include "commands/streams.hpp"
 #include "commands/terminal.hpp"
 #include "commands/verb.hpp"
-#include "language/libraries.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

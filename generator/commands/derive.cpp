@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
-#include "report/derivation.hpp"
-#include "report/figure.hpp"
+#include "present/report/derivation.hpp"
+#include "present/report/figure.hpp"
 
 namespace alembert {
 

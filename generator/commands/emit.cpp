@@ -4,12 +4,12 @@
 #include <filesystem>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
-#include "report/emission.hpp"
+#include "present/report/emission.hpp"
 
 namespace alembert {
 

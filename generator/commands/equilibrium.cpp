@@ -5,14 +5,14 @@
 #include <iostream>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
-#include "report/branches.hpp"
-#include "report/equilibria.hpp"
+#include "present/report/branches.hpp"
+#include "present/report/equilibria.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/language/say.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
-#include "report/evaluation.hpp"
+#include "present/report/evaluation.hpp"
 
 namespace alembert {
 

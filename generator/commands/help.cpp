@@ -6,8 +6,8 @@
 #include <fmt/ranges.h>
 #include <algorithm>
 
+#include "base/language/say.hpp"
 #include "commands/values.hpp"
-#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

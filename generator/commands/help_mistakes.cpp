@@ -8,9 +8,9 @@
 #include <optional>
 #include <string_view>
 
+#include "base/language/say.hpp"
 #include "commands/help.hpp"
 #include "commands/values.hpp"
-#include "language/say.hpp"
 #include "scene/advice.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"

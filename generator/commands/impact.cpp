@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/impact.hpp"
+#include "present/report/impact.hpp"
 
+#include "base/language/say.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

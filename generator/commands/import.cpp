@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
+#include "scene/import/loops.hpp"
 #include "scene/text.hpp"
-#include "urdf/loops.hpp"
 
 namespace alembert {
 

@@ -6,8 +6,8 @@
 ///     const ImportedRobot arm = imported_robot("arm6.urdf", {.scene = {.drives = true}});
 ///     arm.scene.text;                       // the scene
 
-#include "report/json.hpp"
-#include "urdf/robot_scene.hpp"
+#include "present/report/json.hpp"
+#include "scene/import/robot_scene.hpp"
 
 namespace alembert {
 
@@ -24,7 +24,7 @@ struct ImportOptions {
     OtherFiles others = {};
     bool right_angles = false;  ///< 1.5708 and the like become right angles
     bool strict = false;        ///< refuses, with ModelError, a scene that leaves out what changes the motion
-    std::string loops = {};     ///< a file of joints that close loops (urdf/loops.hpp), or empty
+    std::string loops = {};     ///< a file of joints that close loops (scene/import/loops.hpp), or empty
 };
 
 /// Throws what `read_robot`, `close_loops` and `robot_scene` throw.

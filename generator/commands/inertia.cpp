@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/inertia.hpp"
+#include "present/report/inertia.hpp"
+#include "base/language/say.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

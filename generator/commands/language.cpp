@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "alembert/base/error.hpp"
-#include "language/catalogue.hpp"
-#include "language/say.hpp"
+#include "base/language/catalogue.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
-#include "report/linearization.hpp"
+#include "present/report/linearization.hpp"
 
 namespace alembert {
 

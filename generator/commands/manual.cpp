@@ -4,12 +4,12 @@
 
 #include <fmt/ranges.h>
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/help.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
-#include "report/page.hpp"
+#include "present/report/page.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Replaces page_server.cpp if the program is built without cpp-httplib.
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/page_server.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

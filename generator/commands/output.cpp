@@ -18,8 +18,8 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/temporary_files.hpp"
+#include "base/language/say.hpp"
 #include "commands/streams.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

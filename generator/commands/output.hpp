@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "archive/file_form.hpp"
+#include "base/archive/file_form.hpp"
 
 namespace alembert {
 
@@ -16,7 +16,7 @@ namespace alembert {
 /// be found out without writing. An empty path means that no file is requested. `inputs` are files that were read,
 /// which no output may overwrite; empty names are ignored.
 void check_output(const std::string& path, const std::vector<std::string>& inputs);
-/// The same, and a check of the name by what the file will hold (archive/file_form.hpp).
+/// The same, and a check of the name by what the file will hold (base/archive/file_form.hpp).
 void check_output(const std::string& path, FileForm form, const std::vector<std::string>& inputs);
 
 /// Writes the text to the file of that name. An ordinary file is written under a temporary name in the same folder

@@ -14,8 +14,8 @@
 #include <thread>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "report/sha256.hpp"
+#include "base/language/say.hpp"
+#include "present/report/sha256.hpp"
 
 namespace alembert {
 

@@ -2,13 +2,13 @@
 #include <filesystem>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
-#include "language/say.hpp"
-#include "report/scene_page.hpp"
+#include "present/report/scene_page.hpp"
 
 namespace alembert {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/values.hpp"
-#include "language/say.hpp"
 
 namespace alembert {
 

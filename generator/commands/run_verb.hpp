@@ -4,7 +4,7 @@
 /// The options that the verbs that integrate have in common.
 
 #include "commands/verb.hpp"
-#include "run/options.hpp"
+#include "simulate/options.hpp"
 
 namespace alembert {
 

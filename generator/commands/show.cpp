@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "commands/terminal.hpp"
-#include "report/wrap.hpp"
+#include "present/report/wrap.hpp"
 
 namespace alembert {
 

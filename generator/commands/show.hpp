@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/json.hpp"
+#include "present/report/json.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

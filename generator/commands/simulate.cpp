@@ -2,17 +2,17 @@
 #include <unistd.h>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
 #include "commands/terminal.hpp"
 #include "commands/values.hpp"
-#include "language/say.hpp"
-#include "report/motion_plot.hpp"
-#include "report/run.hpp"
-#include "report/table_file.hpp"
-#include "run/section.hpp"
+#include "present/report/motion_plot.hpp"
+#include "present/report/run.hpp"
+#include "present/report/table_file.hpp"
+#include "simulate/section.hpp"
 
 namespace alembert {
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/stability.hpp"
+#include "present/report/stability.hpp"
 
 #include <fmt/format.h>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/vary.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
-#include "report/stability_charts.hpp"
+#include "present/report/stability_charts.hpp"
 
 namespace alembert {
 

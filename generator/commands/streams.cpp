@@ -15,8 +15,8 @@
 #include <tuple>
 
 #include "alembert/native/temporary_files.hpp"
+#include "base/language/say.hpp"
 #include "commands/terminal.hpp"
-#include "language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

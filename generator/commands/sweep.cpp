@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
@@ -15,13 +16,12 @@
 #include "commands/values.hpp"
 #include "commands/vary.hpp"
 #include "commands/vary_from.hpp"
-#include "language/say.hpp"
-#include "report/sweep.hpp"
-#include "report/sweep_plot.hpp"
-#include "report/table_file.hpp"
-#include "run/samples.hpp"
-#include "run/shared_sweep.hpp"
-#include "run/swept_store.hpp"
+#include "present/report/sweep.hpp"
+#include "present/report/sweep_plot.hpp"
+#include "present/report/table_file.hpp"
+#include "simulate/samples.hpp"
+#include "simulate/shared_sweep.hpp"
+#include "simulate/swept_store.hpp"
 
 namespace alembert {
 

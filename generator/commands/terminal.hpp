@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "report/ink.hpp"
+#include "present/report/ink.hpp"
 
 namespace alembert {
 

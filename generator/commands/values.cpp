@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "alembert/ode/methods.hpp"
-#include "formalism/formalisms.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/formalisms.hpp"
 
 namespace alembert {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {

@@ -5,7 +5,7 @@
 ///
 ///     const Grid grid = grid_of({"theta1=0:3:4", "l1=1:2:2"}, scene);     // 8 points, the last name the fastest
 
-#include "run/grid.hpp"
+#include "scene/grid.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

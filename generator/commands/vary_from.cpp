@@ -10,9 +10,9 @@
 #include <fstream>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/vary.hpp"
 #include "commands/verb.hpp"
-#include "language/say.hpp"
 #include "scene/text.hpp"
 #include "scene/units.hpp"
 

@@ -6,7 +6,7 @@
 ///     theta1,l1            the names in the first line,
 ///     0.1,2.0              then a point in each line; numbers, or expressions such as pi/2
 
-#include "run/grid.hpp"
+#include "scene/grid.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

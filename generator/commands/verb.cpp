@@ -11,9 +11,9 @@
 #include <sstream>
 
 #include "alembert/base/error.hpp"
+#include "base/language/say.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
-#include "language/say.hpp"
 #include "model/constant.hpp"
 #include "scene/advice.hpp"
 #include "scene/known_names.hpp"

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 #include "scene/scene.hpp"
 #include "stability/point.hpp"
 

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 

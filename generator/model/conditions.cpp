@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "alembert/base/tolerances.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 #include "model/energy.hpp"

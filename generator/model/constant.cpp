@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "algebra/symbolic/functions.hpp"
+#include "base/language/say.hpp"
 #include "model/translate.hpp"
-#include "symbolic/functions.hpp"
 
 namespace alembert {
 

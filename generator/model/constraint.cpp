@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
 #include "model/translate.hpp"
 

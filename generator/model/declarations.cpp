@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "alembert/base/inertia.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "model/building.hpp"
 
 namespace alembert {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "symbolic/fourier.hpp"
-#include "symbolic/nonzero.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "algebra/symbolic/nonzero.hpp"
 
 namespace alembert {
 

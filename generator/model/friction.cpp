@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 

@@ -8,7 +8,7 @@
 // 0.
 #include "model/geometry.hpp"
 
-#include "symbolic/functions.hpp"
+#include "algebra/symbolic/functions.hpp"
 
 namespace alembert {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "symbolic/unspecified.hpp"
+#include "algebra/symbolic/unspecified.hpp"
 
 namespace alembert {
 

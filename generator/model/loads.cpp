@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "model/building.hpp"
 #include "model/energy.hpp"
 #include "model/joints.hpp"

@@ -151,10 +151,10 @@ struct Mechanism {
         /// Position in `rollings` of the rolling condition to which the row belongs.
         std::optional<int> rolling = {};
         /// The constraints of the scene in which the square of this one stands, for people; empty for those that
-        /// the scene gives (state/touching.hpp).
+        /// the scene gives (analysis/state/touching.hpp).
         std::string squared_in = {};
         /// Whether this says that forces are in balance along a rate that no inertia resists
-        /// (state/force_balance.hpp): the multiplier is zero on every motion.
+        /// (analysis/state/force_balance.hpp): the multiplier is zero on every motion.
         bool balance = false;
         bool norm = false;  ///< whether this is e·e = 1 of a quaternion: there is no inertia along its row
     };
@@ -214,7 +214,7 @@ struct Mechanism {
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
     std::vector<std::string> identities;  ///< rows of joints that hold in every position of the bodies
-    /// A rolling condition, for the choice of the axes of its rows (state/redundancy.hpp).
+    /// A rolling condition, for the choice of the axes of its rows (analysis/state/redundancy.hpp).
     struct Rolling {
         std::string name, axes;         ///< its name, and the frame along whose axes the contact is given
         std::vector<Constraint> along;  ///< the same rows along these axes, without those that hold identically

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

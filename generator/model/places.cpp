@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "model/joints.hpp"
 #include "model/parameter_values.hpp"
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/notation/factor.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "algebra/symbolic/functions.hpp"
 #include "model/parameter_values.hpp"
-#include "notation/factor.hpp"
-#include "notation/readable.hpp"
-#include "symbolic/fourier.hpp"
-#include "symbolic/functions.hpp"
 
 namespace alembert {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "symbolic/unspecified.hpp"
+#include "algebra/symbolic/unspecified.hpp"
 
 namespace alembert {
 

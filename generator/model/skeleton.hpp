@@ -12,7 +12,7 @@
 #include <array>
 #include <vector>
 
-#include "symbolic/intermediates.hpp"
+#include "algebra/symbolic/intermediates.hpp"
 
 namespace alembert {
 

@@ -5,11 +5,11 @@
 
 #include <cctype>
 
-#include "language/say.hpp"
+#include "algebra/symbolic/distance.hpp"
+#include "algebra/symbolic/functions.hpp"
+#include "algebra/symbolic/unspecified.hpp"
+#include "base/language/say.hpp"
 #include "scene/functions.hpp"
-#include "symbolic/distance.hpp"
-#include "symbolic/functions.hpp"
-#include "symbolic/unspecified.hpp"
 
 namespace alembert {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 /// SUNDIALS as a back end of `simulate`: a separate shared object, `alembert-sundials.so`, which CMake builds if
-/// it finds libsundials-dev. The program loads it when it is needed (run/sundials_methods.hpp), so that nothing of
-/// SUNDIALS is linked into either the program or the runtime.
+/// it finds libsundials-dev. The program loads it when it is needed (simulate/sundials_methods.hpp), so that
+/// nothing of SUNDIALS is linked into either the program or the runtime.
 ///
 /// cvode: y' = f(t, y) by BDF with variable order, Newton's method with the Jacobian of the Rhs if it has one, and
 /// Options::project as CVODE's projection. ida: without constraints the same equations in implicit form; with

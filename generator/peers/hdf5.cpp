@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// alembert-hdf5.so: see archive/hdf5.hpp.
+// alembert-hdf5.so: see base/archive/hdf5.hpp.
 #include <hdf5.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include "archive/hdf5.hpp"
+#include "base/archive/hdf5.hpp"
 
 namespace alembert {
 

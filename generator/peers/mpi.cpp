@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// alembert-mpi.so: see run/ranks.hpp.
+// alembert-mpi.so: see simulate/ranks.hpp.
 #include <mpi.h>
 
 #include <cstdlib>
 #include <string>
 
-#include "run/ranks.hpp"
+#include "simulate/ranks.hpp"
 
 namespace {
 

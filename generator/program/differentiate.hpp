@@ -16,7 +16,7 @@
 /// ∂(∂T/∂u)/∂u · u', with as many operations as T, if numbers at random states confirm this. The third
 /// differentiates the solved accelerations directly. Each is tried with several orders of elimination, and the one
 /// with the fewest operations is taken. A fourth route takes the equations that a caller has for it, those of a
-/// tree of joints (lower/perturbed_tree.hpp); for long programs it is the only one that is tried.
+/// tree of joints (program/lower/perturbed_tree.hpp); for long programs it is the only one that is tried.
 ///
 /// If the right-hand side has a kink, the entries are those of the side on which the state lies. On the kink
 /// itself abs, min and max have the mean of both sides (0 for abs, 1/2 for each argument of min and max), sign has

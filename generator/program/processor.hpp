@@ -20,7 +20,7 @@ constexpr double time_of(int operations, int functions, int chain) {
     return 0.36 * operations + 3 * functions + 0.65 * chain;
 }
 
-// The order of statements (emit/register_order.hpp).
+// The order of statements (codegen/emit/register_order.hpp).
 constexpr int registers = 30;  ///< values that stay in registers; there are 32 registers with AVX-512, and by
                                ///< renaming about as many without
 constexpr double fused =

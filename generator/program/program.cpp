@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

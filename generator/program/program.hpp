@@ -53,7 +53,8 @@ enum class Op : unsigned char {
     atan2,
     min,
     max,
-    unspecified,  ///< a call as in symbolic/unspecified.hpp; its first argument is the position of the function
+    unspecified,  ///< a call as in algebra/symbolic/unspecified.hpp; its first argument is the position of the
+                  ///< function
 };
 
 /// The scene language's name: "sin" for Op::sin …
@@ -127,7 +128,8 @@ enum class Group : unsigned char {
     stick_bound,        ///< its static coefficient over the kinetic one,
     friction,           ///< its coefficient while it slides,
     normal,             ///< its normal force,
-    determinant,        ///< and the divisor of that force if it is a multiplier, else 1 (lower/normal_forces.hpp)
+    determinant,        ///< and the divisor of that force if it is a multiplier, else 1
+                        ///< (program/lower/normal_forces.hpp)
     friction_column,    ///< ∂f/∂λ of friction whose normal force is a multiplier λ, a number for each speed;
                         ///< Root::constraint tells which λ
     slip_acceleration,  ///< the rate of the sliding velocity at q'' = 0
@@ -220,8 +222,8 @@ public:
     std::vector<std::string> source_labels;
 
     /// Nodes with this source are signs of a reaction on which a dry friction acts. A scene does not write them;
-    /// they come from the solution for the normal forces (lower/normal_forces.hpp), and all but the last round of
-    /// that solution look at trial values.
+    /// they come from the solution for the normal forces (program/lower/normal_forces.hpp), and all but the last
+    /// round of that solution look at trial values.
     struct ReactionSign {
         int source;
         std::string friction;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "program/series_building.hpp"
 
 namespace alembert {

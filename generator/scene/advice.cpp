@@ -5,9 +5,9 @@
 #include <iterator>
 #include <string>
 
-#include "language/say.hpp"
+#include "base/language/greek.hpp"
+#include "base/language/say.hpp"
 #include "scene/functions.hpp"
-#include "scene/greek.hpp"
 #include "scene/keys.hpp"
 
 namespace alembert {

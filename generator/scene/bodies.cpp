@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/keys.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/check_claim.hpp"
 #include "scene/names.hpp"
 #include "scene/quantity.hpp"

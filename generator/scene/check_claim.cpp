@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/sticking.hpp"
 #include "scene/text.hpp"
 

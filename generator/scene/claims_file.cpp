@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/check.hpp"
 #include "scene/claim_mode.hpp"
 #include "scene/known_names.hpp"

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

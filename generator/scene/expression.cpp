@@ -21,7 +21,7 @@
 #include <optional>
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/functions.hpp"
 #include "scene/hints.hpp"
 #include "scene/text.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/advice.hpp"
 #include "scene/keys.hpp"
 #include "scene/text.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/advice.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/quaternions.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/greek.hpp"
+#include "base/language/greek.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"

@@ -5,7 +5,7 @@
 
 #include "scene/tables.hpp"
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

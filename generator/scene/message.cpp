@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/functions.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/quaternions.hpp"

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/quaternions.hpp"
 #include "scene/text.hpp"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/advice.hpp"
 #include "scene/functions.hpp"
 #include "scene/text.hpp"

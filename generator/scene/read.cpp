@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/advice.hpp"
 #include "scene/check.hpp"
 #include "scene/dimension_check.hpp"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/functions.hpp"
 #include "scene/text.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "alembert/ode/methods.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/advice.hpp"
 #include "scene/claim_mode.hpp"
 #include "scene/tables.hpp"

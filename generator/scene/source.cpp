@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "language/libraries.hpp"
-#include "language/say.hpp"
+#include "base/language/libraries.hpp"
+#include "base/language/say.hpp"
 #include "scene/file_mistakes.hpp"
 #include "scene/text.hpp"
 

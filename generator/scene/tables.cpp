@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

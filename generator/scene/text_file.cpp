@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

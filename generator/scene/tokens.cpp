@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/language/greek.hpp"
 #include "scene/advice.hpp"
 #include "scene/functions.hpp"
-#include "scene/greek.hpp"
 #include "scene/text.hpp"
 #include "scene/typed.hpp"
 #include "scene/unit_text.hpp"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/dimensions.hpp"
 #include "scene/text.hpp"
 #include "scene/unit_text.hpp"

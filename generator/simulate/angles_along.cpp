@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/angles_along.hpp"
+#include "simulate/angles_along.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -16,7 +16,7 @@
 
 #include <Eigen/Geometry>
 
-#include "run/angles_of_frame.hpp"
+#include "simulate/angles_of_frame.hpp"
 
 namespace alembert {
 

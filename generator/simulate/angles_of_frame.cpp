@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/angles_of_frame.hpp"
+#include "simulate/angles_of_frame.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/bench.hpp"
+#include "simulate/bench.hpp"
 
 #include <fmt/format.h>
 
@@ -11,21 +11,21 @@
 
 #include "alembert/base/argument.hpp"
 #include "alembert/native/compile.hpp"
-#include "emit/emit.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/quick_times.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/emit.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/quick_times.hpp"
 #include "program/recurrence.hpp"
 #include "program/switches.hpp"
-#include "run/bounces.hpp"
-#include "run/canonical.hpp"
-#include "run/first_accelerations.hpp"
-#include "run/loaded_modes.hpp"
-#include "run/method.hpp"
-#include "run/peers.hpp"
-#include "run/separable.hpp"
-#include "run/solver_code.hpp"
-#include "state/assemble.hpp"
+#include "simulate/bounces.hpp"
+#include "simulate/canonical.hpp"
+#include "simulate/first_accelerations.hpp"
+#include "simulate/loaded_modes.hpp"
+#include "simulate/method.hpp"
+#include "simulate/peers.hpp"
+#include "simulate/separable.hpp"
+#include "simulate/solver_code.hpp"
 
 namespace alembert {
 

@@ -7,10 +7,10 @@
 ///     const Bench measured = bench(read_scene("scenes/benchmark/pleiades.toml"), {.wishes = {.duration = 3}});
 ///     measured.runs[0].error, measured.runs[0].seconds;
 
-#include "derive/derived.hpp"
-#include "run/measure.hpp"
-#include "run/options.hpp"
-#include "run/reference.hpp"
+#include "analysis/derive/derived.hpp"
+#include "simulate/measure.hpp"
+#include "simulate/options.hpp"
+#include "simulate/reference.hpp"
 
 namespace alembert {
 

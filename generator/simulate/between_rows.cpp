@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/between_rows.hpp"
+#include "simulate/between_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "alembert/base/tolerances.hpp"
-#include "language/say.hpp"
-#include "run/loaded_modes.hpp"
-#include "state/assemble.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "simulate/loaded_modes.hpp"
 
 namespace alembert {
 

@@ -14,7 +14,7 @@
 #include <memory>
 #include <span>
 
-#include "run/simulate.hpp"
+#include "simulate/simulate.hpp"
 
 namespace alembert {
 

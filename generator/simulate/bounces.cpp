@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/bounces.hpp"
+#include "simulate/bounces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 
 #include "alembert/base/process_time.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "language/say.hpp"
-#include "run/loaded_modes.hpp"
+#include "base/language/say.hpp"
+#include "simulate/loaded_modes.hpp"
 
 namespace alembert {
 

@@ -12,8 +12,8 @@
 /// method, in doubles; its digits are those in which another method agrees. `seconds` is processor time of the
 /// whole run, impacts included.
 
-#include "run/measure.hpp"
-#include "run/options.hpp"
+#include "simulate/measure.hpp"
+#include "simulate/options.hpp"
 
 namespace alembert {
 

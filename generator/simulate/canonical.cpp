@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/canonical.hpp"
+#include "simulate/canonical.hpp"
 
 #include <fmt/format.h>
 
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 
 namespace alembert {
 

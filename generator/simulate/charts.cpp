@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/charts.hpp"
+#include "simulate/charts.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "alembert/base/dense.hpp"
 #include "alembert/ode/driver.hpp"
 #include "alembert/ode/projection.hpp"
-#include "language/say.hpp"
-#include "run/angles_along.hpp"
-#include "run/solver_code.hpp"
+#include "base/language/say.hpp"
+#include "simulate/angles_along.hpp"
+#include "simulate/solver_code.hpp"
 
 namespace alembert {
 

@@ -22,10 +22,10 @@
 #include <optional>
 
 #include "alembert/ode/integrate.hpp"
-#include "derive/derived.hpp"
-#include "run/angles_of_frame.hpp"
-#include "run/method.hpp"
-#include "run/options.hpp"
+#include "analysis/derive/derived.hpp"
+#include "simulate/angles_of_frame.hpp"
+#include "simulate/method.hpp"
+#include "simulate/options.hpp"
 
 namespace alembert {
 

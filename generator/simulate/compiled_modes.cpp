@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/compiled_modes.hpp"
+#include "simulate/compiled_modes.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "alembert/base/process_time.hpp"
-#include "contact/contacts.hpp"
+#include "analysis/contact/contacts.hpp"
 #include "model/friction.hpp"
 #include "program/differentiate.hpp"
-#include "run/canonical.hpp"
-#include "run/first_accelerations.hpp"
-#include "run/sides.hpp"
+#include "simulate/canonical.hpp"
+#include "simulate/first_accelerations.hpp"
+#include "simulate/sides.hpp"
 
 namespace alembert {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 /// The contact modes of a scene, each derived and made into code (solver_code.hpp) when a motion first needs it.
-/// They hold no numbers of a motion, so that any number of motions share them (run/loaded_modes.hpp), on several
-/// threads.
+/// They hold no numbers of a motion, so that any number of motions share them (simulate/loaded_modes.hpp), on
+/// several threads.
 ///
 ///     CompiledModes compiled(wishes, derived, Work::left_out, method);
 ///     const CompiledMode& lying = compiled({0}, first);
@@ -19,12 +19,12 @@
 #include "alembert/native/module.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "alembert/ode/series.hpp"
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 #include "program/event_code.hpp"
 #include "program/quotient_signs.hpp"
 #include "program/switches.hpp"
-#include "run/method.hpp"
-#include "run/solver_code.hpp"
+#include "simulate/method.hpp"
+#include "simulate/solver_code.hpp"
 
 namespace alembert {
 

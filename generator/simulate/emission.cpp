@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/emission.hpp"
+#include "simulate/emission.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
-#include "emit/casadi.hpp"
-#include "emit/names.hpp"
-#include "emit/standalone.hpp"
-#include "language/say.hpp"
-#include "lower/frame_functions.hpp"
-#include "lower/operational_space.hpp"
-#include "lower/regressor.hpp"
-#include "lower/robot_functions.hpp"
-#include "run/wrenches.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/casadi.hpp"
+#include "codegen/emit/names.hpp"
+#include "codegen/emit/standalone.hpp"
+#include "program/lower/frame_functions.hpp"
+#include "program/lower/operational_space.hpp"
+#include "program/lower/regressor.hpp"
+#include "program/lower/robot_functions.hpp"
 #include "scene/text.hpp"
-#include "state/assemble.hpp"
+#include "simulate/wrenches.hpp"
 
 namespace alembert {
 

@@ -8,8 +8,8 @@
 
 #include <optional>
 
-#include "derive/derived.hpp"
-#include "emit/emit.hpp"
+#include "analysis/derive/derived.hpp"
+#include "codegen/emit/emit.hpp"
 #include "program/differentiate.hpp"
 
 namespace alembert {

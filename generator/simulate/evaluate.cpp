@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/evaluate.hpp"
+#include "simulate/evaluate.hpp"
 
 #include <fmt/format.h>
 
@@ -8,16 +8,16 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "contact/contacts.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/robot_functions.hpp"
+#include "analysis/contact/contacts.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/diagnose.hpp"
+#include "base/language/say.hpp"
 #include "model/friction.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/robot_functions.hpp"
 #include "program/without_rounding.hpp"
-#include "run/held_state.hpp"
-#include "run/sides.hpp"
-#include "state/assemble.hpp"
-#include "state/diagnose.hpp"
+#include "simulate/held_state.hpp"
+#include "simulate/sides.hpp"
 
 namespace alembert {
 

@@ -10,8 +10,8 @@
 #include <array>
 #include <optional>
 
-#include "derive/derived.hpp"
-#include "reaction/joint_reactions.hpp"
+#include "analysis/derive/derived.hpp"
+#include "analysis/reaction/joint_reactions.hpp"
 
 namespace alembert {
 
@@ -48,8 +48,8 @@ struct Evaluation : Derived {
     std::vector<Reaction> reactions = {};                               ///< set if they were requested
     std::vector<JointLoad> joint_loads = {};                            ///< likewise
     std::vector<std::pair<std::string, double>> normal_reactions = {};  ///< likewise, of bodies that roll
-    /// M(q) and C(q, q') of M q'' + C q' + g = Q by Christoffel's symbols (lower/robot_functions.hpp), row by row;
-    /// set if they were requested.
+    /// M(q) and C(q, q') of M q'' + C q' + g = Q by Christoffel's symbols (program/lower/robot_functions.hpp), row
+    /// by row; set if they were requested.
     std::vector<std::vector<double>> mass = {}, coriolis = {};
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/exact_sum.hpp"
+#include "simulate/exact_sum.hpp"
 
 #include <bit>
 #include <cmath>

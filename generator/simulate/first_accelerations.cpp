@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/first_accelerations.hpp"
+#include "simulate/first_accelerations.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "run/held_state.hpp"
-#include "state/diagnose.hpp"
+#include "analysis/state/diagnose.hpp"
+#include "base/language/say.hpp"
+#include "simulate/held_state.hpp"
 
 namespace alembert {
 

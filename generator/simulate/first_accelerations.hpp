@@ -5,7 +5,7 @@
 ///
 ///     need_accelerations(derived, program, first);
 
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/friction_of_multipliers.hpp"
+#include "simulate/friction_of_multipliers.hpp"
 
 #include "program/interpret.hpp"
 

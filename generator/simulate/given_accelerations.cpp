@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/given_accelerations.hpp"
+#include "simulate/given_accelerations.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "alembert/base/argument.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

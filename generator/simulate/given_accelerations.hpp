@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

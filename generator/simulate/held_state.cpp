@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/held_state.hpp"
+#include "simulate/held_state.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "alembert/hybrid/filippov.hpp"
 #include "alembert/hybrid/mode_enumeration.hpp"
 #include "alembert/hybrid/sliding_mode.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -30,7 +30,7 @@ HeldState held_state(const Switched& s, State<double> state);
 std::optional<HeldState> standing_state(const Switched& s, State<double> state);
 
 /// Says which friction makes its own normal force grow without bound at the state before which a motion ended, if
-/// one does: there 1 − S D (lower/normal_forces.hpp) comes to zero.
+/// one does: there 1 − S D (program/lower/normal_forces.hpp) comes to zero.
 std::optional<std::string> jamming_friction(const Switched& s, const State<double>& state);
 
 /// The scene's parameters, followed by those that `program` has for friction in planes (model/friction.hpp) at

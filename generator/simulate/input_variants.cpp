@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/input_variants.hpp"
+#include "simulate/input_variants.hpp"
 
 #include <algorithm>
 
-#include "lower/quick_times.hpp"
+#include "program/lower/quick_times.hpp"
 
 namespace alembert {
 

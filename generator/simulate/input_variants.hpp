@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The times at which the inputs of the motions of a sweep change fast (lower/quick_times.hpp). Motions with the
-/// same parameters of inputs, start and duration are one variant and share one search, which takes about a
-/// millisecond.
+/// The times at which the inputs of the motions of a sweep change fast (program/lower/quick_times.hpp). Motions
+/// with the same parameters of inputs, start and duration are one variant and share one search, which takes about
+/// a millisecond.
 ///
 ///     InputVariants variants(program, starts, grid, {});
 ///     options.quick_times = *variants.quick_times(starts.at(grid.point(7)), 10);
@@ -15,8 +15,8 @@
 #include <set>
 
 #include "alembert/ode/input_time_scales.hpp"
-#include "lower/start.hpp"
-#include "run/grid.hpp"
+#include "program/lower/start.hpp"
+#include "scene/grid.hpp"
 
 namespace alembert {
 

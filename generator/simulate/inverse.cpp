@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/inverse.hpp"
+#include "simulate/inverse.hpp"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "language/say.hpp"
-#include "lower/inverse.hpp"
-#include "lower/lower.hpp"
-#include "run/given_accelerations.hpp"
-#include "run/inverse_speeds.hpp"
-#include "state/assemble.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/inverse.hpp"
+#include "program/lower/lower.hpp"
+#include "simulate/given_accelerations.hpp"
+#include "simulate/inverse_speeds.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 ///     const InverseLoads needed = inverse(scene, {.at = {{"q1''", 2}, {"q1", 0.3}}});
 ///     needed.loads[0];      // N m, along needed.coordinates[0]
 
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 
 namespace alembert {
 

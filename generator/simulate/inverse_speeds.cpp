@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/inverse_speeds.hpp"
+#include "simulate/inverse_speeds.hpp"
 
 #include <algorithm>
 
 #include "alembert/base/argument.hpp"
-#include "lower/lower.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

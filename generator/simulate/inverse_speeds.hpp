@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/loaded_modes.hpp"
+#include "simulate/loaded_modes.hpp"
 
 #include <fmt/format.h>
 
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/hamiltonian.hpp"
 #include "alembert/ode/taylor.hpp"
-#include "language/say.hpp"
-#include "run/first_accelerations.hpp"
-#include "run/friction_of_multipliers.hpp"
-#include "run/held_state.hpp"
-#include "run/sides.hpp"
-#include "run/sundials_methods.hpp"
+#include "base/language/say.hpp"
+#include "simulate/first_accelerations.hpp"
+#include "simulate/friction_of_multipliers.hpp"
+#include "simulate/held_state.hpp"
+#include "simulate/sides.hpp"
+#include "simulate/sundials_methods.hpp"
 
 namespace alembert {
 

@@ -14,9 +14,9 @@
 
 #include "alembert/hybrid/hybrid_motion.hpp"
 #include "alembert/ode/projection.hpp"
-#include "contact/contacts.hpp"
-#include "contact/kicks.hpp"
-#include "run/compiled_modes.hpp"
+#include "analysis/contact/contacts.hpp"
+#include "analysis/contact/kicks.hpp"
+#include "simulate/compiled_modes.hpp"
 
 namespace alembert {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/measure.hpp"
+#include "simulate/measure.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "formalism/routhian.hpp"
-#include "lower/lower.hpp"
+#include "model/formalism/routhian.hpp"
 #include "program/interpret.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -18,7 +18,7 @@
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/projection.hpp"
 #include "alembert/ode/series.hpp"
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/method.hpp"
+#include "simulate/method.hpp"
 
 #include <fmt/format.h>
 
@@ -10,17 +10,17 @@
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/taylor.hpp"
 #include "alembert/ode/verner.hpp"
-#include "emit/taylor.hpp"
-#include "language/say.hpp"
-#include "machine/series_steps.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/taylor.hpp"
+#include "codegen/machine/series_steps.hpp"
 #include "program/cost.hpp"
 #include "program/recurrence.hpp"
-#include "run/canonical.hpp"
-#include "run/regularization.hpp"
-#include "run/separable.hpp"
-#include "run/solver_code.hpp"
-#include "run/sundials_methods.hpp"
 #include "scene/advice.hpp"
+#include "simulate/canonical.hpp"
+#include "simulate/regularization.hpp"
+#include "simulate/separable.hpp"
+#include "simulate/solver_code.hpp"
+#include "simulate/sundials_methods.hpp"
 
 namespace alembert {
 

@@ -27,8 +27,8 @@
 /// steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
 
 #include "alembert/ode/integrate.hpp"
-#include "derive/derived.hpp"
-#include "run/options.hpp"
+#include "analysis/derive/derived.hpp"
+#include "simulate/options.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/options.hpp"
+#include "simulate/options.hpp"
 
 #include "alembert/base/argument.hpp"
 

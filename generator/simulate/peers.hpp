@@ -14,7 +14,7 @@
 
 #include <filesystem>
 
-#include "run/measure.hpp"
+#include "simulate/measure.hpp"
 
 namespace alembert {
 

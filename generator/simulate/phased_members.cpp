@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/phased_members.hpp"
+#include "simulate/phased_members.hpp"
 
 #include <algorithm>
 #include <limits>

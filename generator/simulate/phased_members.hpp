@@ -13,7 +13,7 @@
 /// A motion depends neither on those before it nor on the number of threads.
 
 #include "alembert/batch/ensemble.hpp"
-#include "run/loaded_modes.hpp"
+#include "simulate/loaded_modes.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/quantile_sketch.hpp"
+#include "simulate/quantile_sketch.hpp"
 
 #include <algorithm>
 #include <bit>

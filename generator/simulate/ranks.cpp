@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/ranks.hpp"
+#include "simulate/ranks.hpp"
 
 #include <unistd.h>
 
@@ -10,7 +10,7 @@
 #include "alembert/base/error.hpp"
 #include "alembert/native/module.hpp"
 #include "alembert/native/process.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

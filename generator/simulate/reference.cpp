@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/reference.hpp"
+#include "simulate/reference.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <ctime>
 
 #include "alembert/base/dense.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 #include "program/tape.hpp"
 
 namespace alembert {

@@ -15,9 +15,9 @@
 
 #include <optional>
 
-#include "formalism/equations.hpp"
-#include "lower/start.hpp"
-#include "run/quad_motion.hpp"
+#include "model/formalism/equations.hpp"
+#include "program/lower/start.hpp"
+#include "program/quad_motion.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/regularization.hpp"
+#include "simulate/regularization.hpp"
 
 #include <fmt/format.h>
 
-#include "language/say.hpp"
-#include "run/separable.hpp"
+#include "base/language/say.hpp"
+#include "simulate/separable.hpp"
 
 namespace alembert {
 

@@ -10,10 +10,10 @@
 /// alone, because energy is conserved; all others get the rescaled one.
 
 #include "alembert/ode/integrate.hpp"
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 #include "model/energy.hpp"
-#include "run/method.hpp"
-#include "run/options.hpp"
+#include "simulate/method.hpp"
+#include "simulate/options.hpp"
 
 namespace alembert {
 

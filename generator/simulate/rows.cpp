@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/rows.hpp"
+#include "simulate/rows.hpp"
 
 #include <fmt/ranges.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -3,8 +3,8 @@
 
 /// The rows of a run, for its CSV file and for plots.
 
-#include "reaction/joint_reactions.hpp"
-#include "run/loaded_modes.hpp"
+#include "analysis/reaction/joint_reactions.hpp"
+#include "simulate/loaded_modes.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/samples.hpp"
+#include "simulate/samples.hpp"
 
 #include <array>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

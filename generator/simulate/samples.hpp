@@ -23,7 +23,7 @@
 
 #include <cstdint>
 
-#include "run/grid.hpp"
+#include "scene/grid.hpp"
 
 namespace alembert {
 

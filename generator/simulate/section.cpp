@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/section.hpp"
+#include "simulate/section.hpp"
 
 #include <fmt/format.h>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "model/formulas.hpp"
 
 namespace alembert {

@@ -7,7 +7,7 @@
 ///     Run run = simulate(scene, wishes);
 ///     for (const EventRecord& crossing : take_crossings(run)) crossing.state;   // q, q', as integrated
 
-#include "run/simulate.hpp"
+#include "simulate/simulate.hpp"
 
 namespace alembert {
 

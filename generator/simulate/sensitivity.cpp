@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sensitivity.hpp"
+#include "simulate/sensitivity.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/ode/integrate.hpp"
-#include "language/libraries.hpp"
-#include "language/say.hpp"
+#include "analysis/state/start_derivatives.hpp"
+#include "base/language/libraries.hpp"
+#include "base/language/say.hpp"
 #include "program/variation.hpp"
-#include "state/start_derivatives.hpp"
 
 namespace alembert {
 

@@ -14,7 +14,7 @@
 ///
 /// The time of the end is held. By a parameter the whole derivative is meant, that of a run with another value:
 /// initial values that the scene writes with it change too. With constraints, guesses follow at the start
-/// (state/start_derivatives.hpp), and the columns of Φ stay tangent to the constraints.
+/// (analysis/state/start_derivatives.hpp), and the columns of Φ stay tangent to the constraints.
 
 #include <optional>
 #include <span>
@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "alembert/ode/integrate.hpp"
-#include "derive/derived.hpp"
-#include "lower/start.hpp"
+#include "analysis/derive/derived.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

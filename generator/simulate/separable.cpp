@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/separable.hpp"
+#include "simulate/separable.hpp"
 
 #include <fmt/format.h>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/shared_sweep.hpp"
+#include "simulate/shared_sweep.hpp"
 
 #include <atomic>
 #include <condition_variable>
@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "run/byte_text.hpp"
+#include "base/language/say.hpp"
+#include "simulate/byte_text.hpp"
 
 namespace alembert {
 

@@ -11,9 +11,9 @@
 ///     else if (ranks->rank == 0) run_first(sweeper, queue, shelf, {}, *ranks);
 ///     else run_other(sweeper, shelf, {}, *ranks);
 
-#include "run/ranks.hpp"
-#include "run/sweep_queue.hpp"
-#include "run/sweeper.hpp"
+#include "simulate/ranks.hpp"
+#include "simulate/sweep_queue.hpp"
+#include "simulate/sweeper.hpp"
 
 namespace alembert {
 

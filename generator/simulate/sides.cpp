@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sides.hpp"
+#include "simulate/sides.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "program/quotient_signs.hpp"
 
 namespace alembert {

@@ -12,8 +12,8 @@
 
 #include "alembert/hybrid/filippov.hpp"
 #include "alembert/native/module.hpp"
+#include "analysis/state/prepared.hpp"
 #include "program/switches.hpp"
-#include "state/prepared.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/simulate.hpp"
+#include "simulate/simulate.hpp"
 
 #include <fmt/format.h>
 
@@ -7,17 +7,17 @@
 
 #include "alembert/base/process_time.hpp"
 #include "alembert/ode/energy_error.hpp"
-#include "contact/contacts.hpp"
-#include "language/libraries.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/quick_times.hpp"
-#include "run/held_state.hpp"
-#include "run/method.hpp"
-#include "run/regularization.hpp"
-#include "run/sides.hpp"
-#include "run/trust.hpp"
-#include "state/assemble.hpp"
+#include "analysis/contact/contacts.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/libraries.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/quick_times.hpp"
+#include "simulate/held_state.hpp"
+#include "simulate/method.hpp"
+#include "simulate/regularization.hpp"
+#include "simulate/sides.hpp"
+#include "simulate/trust.hpp"
 
 namespace alembert {
 

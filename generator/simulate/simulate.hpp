@@ -15,12 +15,12 @@
 #include <optional>
 
 #include "alembert/hybrid/hybrid_motion.hpp"
-#include "run/charts.hpp"
-#include "run/estimate.hpp"
-#include "run/options.hpp"
-#include "run/rows.hpp"
-#include "run/sensitivity.hpp"
-#include "run/solver_code.hpp"
+#include "simulate/charts.hpp"
+#include "simulate/estimate.hpp"
+#include "simulate/options.hpp"
+#include "simulate/rows.hpp"
+#include "simulate/sensitivity.hpp"
+#include "simulate/solver_code.hpp"
 
 namespace alembert {
 

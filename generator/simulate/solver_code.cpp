@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/solver_code.hpp"
+#include "simulate/solver_code.hpp"
 
 #include <cstdlib>
 
 #include "alembert/base/error.hpp"
-#include "emit/taylor.hpp"
-#include "language/say.hpp"
-#include "machine/encoder.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/taylor.hpp"
+#include "codegen/machine/encoder.hpp"
 
 namespace alembert {
 

@@ -16,10 +16,10 @@
 /// as compiling. Momenta (`rattle`) and what runs after a motion was found stiff do not go over.
 
 #include "alembert/native/compile.hpp"
-#include "machine/memory_series.hpp"
-#include "machine/memory_series_packs.hpp"
-#include "machine/memory_solver.hpp"
-#include "run/options.hpp"
+#include "codegen/machine/memory_series.hpp"
+#include "codegen/machine/memory_series_packs.hpp"
+#include "codegen/machine/memory_solver.hpp"
+#include "simulate/options.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sundials_methods.hpp"
+#include "simulate/sundials_methods.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/process.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "peers/backend.hpp"
 
 namespace alembert {

@@ -10,7 +10,7 @@
 
 #include "alembert/native/module.hpp"
 #include "alembert/ode/integrate.hpp"
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 
 namespace alembert {
 

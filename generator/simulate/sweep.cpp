@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sweep.hpp"
+#include "simulate/sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "alembert/base/argument.hpp"
-#include "language/say.hpp"
-#include "run/sweeper.hpp"
+#include "base/language/say.hpp"
+#include "simulate/sweeper.hpp"
 
 namespace alembert {
 

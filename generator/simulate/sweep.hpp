@@ -6,9 +6,9 @@
 ///     const Sweep swept = sweep(scene, {{{"theta1", 0, 3, 1000}}}, {.duration = 10});
 ///     swept.members[7].final_coordinates[0];
 
-#include "derive/derived.hpp"
-#include "run/grid.hpp"
-#include "run/options.hpp"
+#include "analysis/derive/derived.hpp"
+#include "scene/grid.hpp"
+#include "simulate/options.hpp"
 
 namespace alembert {
 
@@ -45,8 +45,8 @@ struct SweepPart {
     std::size_t first = 0, count = 0;
 };
 
-/// The whole sweep in memory (run/sweeper.hpp for more than fit there). `threads` is 0 for as many as there are
-/// cores. Throws what Sweeper throws; std::invalid_argument if it is negative.
+/// The whole sweep in memory (simulate/sweeper.hpp for more than fit there). `threads` is 0 for as many as there
+/// are cores. Throws what Sweeper throws; std::invalid_argument if it is negative.
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int threads = 0);
 
 /// The names of the values at the end of each motion: t, coordinates, rates (theta1'), the scene's own speeds, and

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sweep_journal.hpp"
+#include "simulate/sweep_journal.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "alembert/base/error.hpp"
-#include "archive/zip.hpp"
-#include "language/say.hpp"
-#include "run/byte_text.hpp"
+#include "base/archive/zip.hpp"
+#include "base/language/say.hpp"
+#include "simulate/byte_text.hpp"
 
 namespace alembert {
 

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "run/sweep.hpp"
+#include "simulate/sweep.hpp"
 
 namespace alembert {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sweep_method.hpp"
+#include "simulate/sweep_method.hpp"
 
 #include <cmath>
 
 #include "alembert/base/error.hpp"
 #include "alembert/ode/taylor.hpp"
 #include "alembert/ode/verner.hpp"
-#include "language/say.hpp"
-#include "machine/memory_series_packs.hpp"
+#include "base/language/say.hpp"
+#include "codegen/machine/memory_series_packs.hpp"
 #include "model/energy.hpp"
-#include "run/solver_code.hpp"
+#include "simulate/solver_code.hpp"
 
 namespace alembert {
 

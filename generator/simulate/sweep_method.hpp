@@ -8,7 +8,7 @@
 /// The rules are those of one motion (method.hpp), with two differences: a step is that of rk4, and where eight
 /// motions go side by side, power series are taken if they are predicted to be faster there.
 
-#include "run/method.hpp"
+#include "simulate/method.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sweep_queue.hpp"
+#include "simulate/sweep_queue.hpp"
 
 #include <algorithm>
 

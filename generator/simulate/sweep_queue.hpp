@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "run/sweep.hpp"
+#include "simulate/sweep.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sweep_reduction.hpp"
+#include "simulate/sweep_reduction.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "run/byte_text.hpp"
+#include "base/language/say.hpp"
+#include "simulate/byte_text.hpp"
 
 namespace alembert {
 

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "run/exact_sum.hpp"
-#include "run/quantile_sketch.hpp"
-#include "run/sweep.hpp"
+#include "simulate/exact_sum.hpp"
+#include "simulate/quantile_sketch.hpp"
+#include "simulate/sweep.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sweep_rows.hpp"
+#include "simulate/sweep_rows.hpp"
 
-#include "run/byte_text.hpp"
+#include "simulate/byte_text.hpp"
 
 namespace alembert {
 

@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-#include "run/sweep.hpp"
+#include "simulate/sweep.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/sweeper.hpp"
+#include "simulate/sweeper.hpp"
 
 #include <fmt/format.h>
 
@@ -11,17 +11,17 @@
 
 #include "alembert/base/process_time.hpp"
 #include "alembert/native/fingerprint.hpp"
-#include "emit/emit.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/emit.hpp"
 #include "program/event_code.hpp"
-#include "run/method.hpp"
-#include "run/regularization.hpp"
-#include "run/rows.hpp"
-#include "run/sides.hpp"
-#include "run/solver_code.hpp"
-#include "run/sweep_method.hpp"
-#include "state/assemble.hpp"
+#include "program/lower/lower.hpp"
+#include "simulate/method.hpp"
+#include "simulate/regularization.hpp"
+#include "simulate/rows.hpp"
+#include "simulate/sides.hpp"
+#include "simulate/solver_code.hpp"
+#include "simulate/sweep_method.hpp"
 
 namespace alembert {
 

@@ -19,11 +19,11 @@
 #include <optional>
 
 #include "alembert/batch/ensemble.hpp"
-#include "run/input_variants.hpp"
-#include "run/phased_members.hpp"
-#include "run/sweep.hpp"
-#include "state/inertia_check.hpp"
-#include "state/left_out.hpp"
+#include "analysis/state/inertia_check.hpp"
+#include "analysis/state/left_out.hpp"
+#include "simulate/input_variants.hpp"
+#include "simulate/phased_members.hpp"
+#include "simulate/sweep.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/swept_store.hpp"
+#include "simulate/swept_store.hpp"
 
 #include <algorithm>
 
-#include "run/byte_text.hpp"
+#include "simulate/byte_text.hpp"
 
 namespace alembert {
 

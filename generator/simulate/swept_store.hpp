@@ -16,9 +16,9 @@
 #include <map>
 #include <optional>
 
-#include "run/sweep_journal.hpp"
-#include "run/sweep_reduction.hpp"
-#include "run/sweep_rows.hpp"
+#include "simulate/sweep_journal.hpp"
+#include "simulate/sweep_reduction.hpp"
+#include "simulate/sweep_rows.hpp"
 
 namespace alembert {
 

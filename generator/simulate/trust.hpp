@@ -31,8 +31,8 @@
 #include <vector>
 
 #include "alembert/ode/input_time_scales.hpp"
-#include "run/estimate.hpp"
-#include "run/loaded_modes.hpp"
+#include "simulate/estimate.hpp"
+#include "simulate/loaded_modes.hpp"
 
 namespace alembert {
 

@@ -10,8 +10,8 @@
 namespace alembert {
 
 /// Adds a force at the point and a torque on its frame, along N, whose components are parameters with the value 0
-/// and names that begin with `prefix`. `place` is "P" or "P@F" (lower/scene_motion.hpp). Throws ModelError for
-/// names that the scene does not have, and for parameters that it has already.
+/// and names that begin with `prefix`. `place` is "P" or "P@F" (program/lower/scene_motion.hpp). Throws ModelError
+/// for names that the scene does not have, and for parameters that it has already.
 void with_wrench(Scene& scene, const std::string& place, const std::string& prefix);
 
 }  // namespace alembert

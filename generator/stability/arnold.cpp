@@ -9,11 +9,11 @@
 #include <cmath>
 #include <map>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "linear/dense_long.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
+#include "stability/linear/dense_long.hpp"
 
 namespace alembert {
 

@@ -11,7 +11,7 @@
 /// is divided until no piece differs from it by more than a hundredth of a pixel of the picture (chart_width ×
 /// chart_height pixels). In floating point: a picture and no proof. What is smaller than a cell may be missed.
 
-#include "run/grid.hpp"
+#include "scene/grid.hpp"
 #include "scene/units.hpp"
 #include "stability/spectra.hpp"
 

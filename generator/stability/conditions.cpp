@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "symbolic/bounded_factor.hpp"
+#include "algebra/symbolic/bounded_factor.hpp"
 
 namespace alembert {
 

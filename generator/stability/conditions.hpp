@@ -17,7 +17,7 @@
 
 #include <vector>
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

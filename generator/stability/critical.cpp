@@ -9,10 +9,10 @@
 #include <random>
 
 #include "alembert/base/dense.hpp"
-#include "language/say.hpp"
-#include "linear/dense_long.hpp"
+#include "base/language/say.hpp"
 #include "stability/exact_field.hpp"
 #include "stability/field.hpp"
+#include "stability/linear/dense_long.hpp"
 
 namespace alembert {
 

@@ -14,8 +14,8 @@
 #include <functional>
 #include <optional>
 
-#include "exact/square_points.hpp"
-#include "linear/tangent.hpp"
+#include "analysis/exact/square_points.hpp"
+#include "stability/linear/tangent.hpp"
 
 namespace alembert {
 

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -13,12 +13,12 @@
 #include "alembert/native/compile.hpp"
 #include "alembert/native/module.hpp"
 #include "alembert/ode/integrate.hpp"
-#include "emit/emit.hpp"
-#include "language/say.hpp"
-#include "linear/tangent.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/emit.hpp"
 #include "program/differentiate.hpp"
-#include "state/assemble.hpp"
+#include "program/lower/lower.hpp"
+#include "stability/linear/tangent.hpp"
 
 namespace alembert {
 

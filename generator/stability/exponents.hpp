@@ -12,7 +12,7 @@
 /// are put back into the tangent space then, and the state onto the constraints. In floating point: how far the
 /// estimates have settled is told, and nothing is proved.
 
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 
 namespace alembert {
 

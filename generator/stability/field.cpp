@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -8,9 +8,9 @@
 #include <random>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
+#include "program/lower/lower.hpp"
 #include "stability/periodic.hpp"
 
 namespace alembert {

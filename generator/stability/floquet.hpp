@@ -7,18 +7,17 @@
 ///     Φ(T)
 ///
 /// f and ∂f/∂x are the Program of the equations and its derivative, with 34 digits, integrated by extrapolation
-/// (run/quad_motion.hpp) at two tolerances. The difference of the two Φ is the radius of its entries, from which
-/// the discs of the multipliers follow. A start to which the motion does not return after the period is moved by
-/// Newton's method (shooting); if the equations do not contain t, the period is moved too. If all |ρ| < 1, the
-/// motion is asymptotically stable; if one |ρ| > 1, it is unstable (Lyapunov's first approximation, which holds
-/// for periodic motions too). Multipliers on the circle are critical. For linear equations with a Hamiltonian, a
-/// simple multiplier whose disc touches no other disc than its own mirror image in the circle lies on the circle
-/// (Krein; Yakubovich & Starzhinskii 1975), which proves stability. If the equations do not contain t, one
-/// multiplier, that along the motion, is 1 and is not counted: stability is then that of the orbit (Andronov &
-/// Witt).
-/// With constraints the multipliers are those of the tangent space (periodic.hpp).
+/// (program/quad_motion.hpp) at two tolerances. The difference of the two Φ is the radius of its entries, from
+/// which the discs of the multipliers follow. A start to which the motion does not return after the period is
+/// moved by Newton's method (shooting); if the equations do not contain t, the period is moved too. If all |ρ| <
+/// 1, the motion is asymptotically stable; if one |ρ| > 1, it is unstable (Lyapunov's first approximation, which
+/// holds for periodic motions too). Multipliers on the circle are critical. For linear equations with a
+/// Hamiltonian, a simple multiplier whose disc touches no other disc than its own mirror image in the circle lies
+/// on the circle (Krein; Yakubovich & Starzhinskii 1975), which proves stability. If the equations do not contain
+/// t, one multiplier, that along the motion, is 1 and is not counted: stability is then that of the orbit
+/// (Andronov & Witt). With constraints the multipliers are those of the tangent space (periodic.hpp).
 
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 #include "stability/verdict.hpp"
 
 namespace alembert {

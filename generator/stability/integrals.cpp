@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "derive/derived.hpp"
-#include "exact/motions.hpp"
-#include "formalism/elements.hpp"
-#include "lower/lower.hpp"
+#include "analysis/derive/derived.hpp"
+#include "analysis/exact/motions.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
 #include "stability/signs.hpp"
 
 namespace alembert {

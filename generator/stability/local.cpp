@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Notation of linear/tangent.cpp. Momenta p_c = ∂L/∂q'_c of cyclic coordinates that no load moves are constants of
-// the motion: with M_cc δw_c + M_co δw_o + B_c δr = 0 the rates of cyclic coordinates, and with them their zero
-// eigenvalues, are eliminated.
+// Notation of stability/linear/tangent.cpp. Momenta p_c = ∂L/∂q'_c of cyclic coordinates that no load moves are
+// constants of the motion: with M_cc δw_c + M_co δw_o + B_c δr = 0 the rates of cyclic coordinates, and with them
+// their zero eigenvalues, are eliminated.
 #include "stability/local.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
 #include "stability/exact_field.hpp"
 
 namespace alembert {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A scene near an equilibrium or a steady motion, in numbers with bounds: the algebra of linear/tangent.hpp,
-/// exact if the scene's numbers and their functions are exact.
+/// A scene near an equilibrium or a steady motion, in numbers with bounds: the algebra of
+/// stability/linear/tangent.hpp, exact if the scene's numbers and their functions are exact.
 ///
 ///     const Local local(near, exact_at);              // of linearize(scene, {.at = …})
 ///     local.A                                         // over local.states
@@ -11,9 +11,9 @@
 /// that the program had to find, and a state that is not exactly an equilibrium, are improved by Newton's method
 /// until the residual is 10⁻²⁸; their radius is then 10⁻²⁶.
 
-#include "linear/about.hpp"
-#include "linear/tangent.hpp"
 #include "stability/expansion.hpp"
+#include "stability/linear/about.hpp"
+#include "stability/linear/tangent.hpp"
 #include "stability/matrix.hpp"
 #include "stability/point.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
 #include "model/formulas.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
 #include "stability/lyapunov_samples.hpp"
 #include "stability/periodic.hpp"
 #include "stability/semidefinite.hpp"

@@ -10,9 +10,9 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -3,7 +3,7 @@
 
 /// V and dV/dt at many states near the point, in floating point: a hint, never a proof.
 
-#include "linear/about.hpp"
+#include "stability/linear/about.hpp"
 
 namespace alembert {
 

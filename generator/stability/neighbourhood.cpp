@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stability/neighbourhood.hpp"
 
-#include "lower/lower.hpp"
+#include "algebra/symbolic/exact_solve.hpp"
 #include "model/energy.hpp"
-#include "symbolic/exact_solve.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

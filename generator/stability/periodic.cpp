@@ -8,11 +8,11 @@
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
 #include "alembert/ode/integrate.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
 #include "program/differentiate.hpp"
-#include "run/quad_motion.hpp"
+#include "program/lower/lower.hpp"
+#include "program/quad_motion.hpp"
 
 namespace alembert {
 

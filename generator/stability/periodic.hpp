@@ -14,9 +14,9 @@
 
 #include <Eigen/Core>
 
-#include "derive/derived.hpp"
-#include "linear/tangent.hpp"
+#include "analysis/derive/derived.hpp"
 #include "program/variation.hpp"
+#include "stability/linear/tangent.hpp"
 
 namespace alembert {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lower/lower.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -4,7 +4,7 @@
 /// A scene's parameters and state as exactly as they are known. The decimals and expressions of the scene and
 /// typed values are exact; other numbers are doubles.
 
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 #include "stability/expansion.hpp"
 #include "stability/matrix.hpp"
 

@@ -7,14 +7,14 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "linear/linearize_symbolic.hpp"
-#include "lower/lower.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 #include "stability/conditions.hpp"
+#include "stability/linear/linearize_symbolic.hpp"
 #include "stability/verdict.hpp"
-#include "symbolic/fourier.hpp"
 
 namespace alembert {
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "formalism/elements.hpp"
-#include "lower/lower.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
 #include "stability/signs.hpp"
 
 namespace alembert {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "stability/exact_field.hpp"
 #include "stability/periodic.hpp"
 

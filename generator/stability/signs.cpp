@@ -6,7 +6,7 @@
 #include <random>
 
 #include "alembert/base/dense.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "stability/spectrum.hpp"
 
 namespace alembert {

@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "equilibrium/judge.hpp"
-#include "language/say.hpp"
-#include "linear/dense_long.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/left_out.hpp"
+#include "base/language/say.hpp"
 #include "model/friction.hpp"
+#include "program/lower/lower.hpp"
+#include "stability/equilibrium/judge.hpp"
+#include "stability/linear/dense_long.hpp"
 #include "stability/periodic.hpp"
-#include "state/left_out.hpp"
 
 namespace alembert {
 

@@ -9,9 +9,10 @@
 
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
+#include "program/lower/lower.hpp"
 #include "stability/arnold.hpp"
 #include "stability/conservative.hpp"
 #include "stability/critical.hpp"
@@ -21,7 +22,6 @@
 #include "stability/potential.hpp"
 #include "stability/reversible.hpp"
 #include "stability/verdict.hpp"
-#include "state/assemble.hpp"
 
 namespace alembert {
 

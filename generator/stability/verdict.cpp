@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -10,13 +10,13 @@
 #include <cmath>
 
 #include "alembert/native/compile.hpp"
-#include "derive/derived.hpp"
-#include "emit/taylor.hpp"
-#include "lower/lower.hpp"
-#include "lower/start.hpp"
-#include "machine/memory_series.hpp"
-#include "machine/memory_solver.hpp"
+#include "analysis/derive/derived.hpp"
+#include "codegen/emit/taylor.hpp"
+#include "codegen/machine/memory_series.hpp"
+#include "codegen/machine/memory_solver.hpp"
 #include "pack.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/start.hpp"
 #include "program/recurrence.hpp"
 
 namespace {

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "run/byte_text.hpp"
-#include "run/ranks.hpp"
-#include "run/sweep_journal.hpp"
-#include "run/sweep_queue.hpp"
+#include "simulate/byte_text.hpp"
+#include "simulate/ranks.hpp"
+#include "simulate/sweep_journal.hpp"
+#include "simulate/sweep_queue.hpp"
 
 using namespace alembert;
 

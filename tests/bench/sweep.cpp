@@ -13,13 +13,13 @@
 
 #include "alembert/base/process_time.hpp"
 #include "alembert/batch/ensemble.hpp"
-#include "derive/derived.hpp"
-#include "lower/lower.hpp"
-#include "lower/start.hpp"
-#include "machine/memory_series.hpp"
-#include "machine/memory_series_packs.hpp"
-#include "machine/memory_solver.hpp"
+#include "analysis/derive/derived.hpp"
+#include "codegen/machine/memory_series.hpp"
+#include "codegen/machine/memory_series_packs.hpp"
+#include "codegen/machine/memory_solver.hpp"
 #include "pack.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/start.hpp"
 #include "program/recurrence.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 // Files of claims about a small scene: the reader, and the claims as programs.
 #include "check/claims.hpp"
 #include "alembert/base/error.hpp"
-#include "formalism/formalisms.hpp"
+#include "model/formalism/formalisms.hpp"
 #include "model/translate.hpp"
 #include "scene/claims_file.hpp"
 #include "target.hpp"

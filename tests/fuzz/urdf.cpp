@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "alembert/base/error.hpp"
+#include "scene/import/robot_scene.hpp"
 #include "scene/scene.hpp"
 #include "target.hpp"
-#include "urdf/robot_scene.hpp"
 
 using namespace alembert;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 //     cos(nβ) + i·sin(nβ) = (cos β + i·sin β)ⁿ,   cos(α+β) = cos α cos β − sin α sin β,   sin² = 1 − cos²
-#include "notation/angles.hpp"
+#include "algebra/notation/angles.hpp"
 
 #include <algorithm>
 #include <map>

@@ -12,7 +12,7 @@
 
 #include <functional>
 
-#include "symbolic/polynomial.hpp"
+#include "algebra/symbolic/polynomial.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/common_factor.hpp"
+#include "algebra/notation/common_factor.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "notation/compose.hpp"
+#include "algebra/notation/compose.hpp"
 
 namespace alembert {
 

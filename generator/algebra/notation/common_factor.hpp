@@ -6,8 +6,8 @@
 ///
 ///     (m1+m2)·l1²·θ1″ + m2·l1·l2·θ2″·cos(θ1−θ2) + … = l1·F·cos θ1    ↦  l1
 
-#include "notation/factor.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/notation/factor.hpp"
+#include "algebra/symbolic/fourier.hpp"
 
 namespace alembert {
 

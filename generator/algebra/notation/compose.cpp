@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/compose.hpp"
+#include "algebra/notation/compose.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 
 #include <cln/integer.h>
 
-#include "notation/angles.hpp"
-#include "notation/differences.hpp"
+#include "algebra/notation/angles.hpp"
+#include "algebra/notation/differences.hpp"
 
 namespace alembert {
 

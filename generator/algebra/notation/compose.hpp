@@ -10,8 +10,8 @@
 
 #include <map>
 
-#include "notation/factor.hpp"
-#include "notation/phrase.hpp"
+#include "algebra/notation/factor.hpp"
+#include "algebra/notation/phrase.hpp"
 
 namespace alembert {
 

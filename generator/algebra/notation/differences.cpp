@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // c·(x + s·y)ⁿ has the coefficients c·binom(n, k)·sᵏ. The coefficients of the mixed products give c and s, because
 // powers of x or y alone may also come from other terms. With n = 2 there is one mixed product, and s is 1 or −1.
-#include "notation/differences.hpp"
+#include "algebra/notation/differences.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "notation/phrase.hpp"
+#include "algebra/notation/phrase.hpp"
 
 namespace alembert {
 

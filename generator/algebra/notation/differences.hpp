@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "symbolic/polynomial.hpp"
+#include "algebra/symbolic/polynomial.hpp"
 
 namespace alembert {
 

@@ -4,13 +4,13 @@
 // mechanism. Most polynomials that are linear in no variable are soon proved to be irreducible; the others are
 // given to GiNaC's factor (square-free, then multivariate Hensel lifting; Geddes, Czapor & Labahn, Algorithms for
 // Computer Algebra (1992), chapters 6 and 8).
-#include "notation/factor.hpp"
+#include "algebra/notation/factor.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
 
-#include "notation/irreducible.hpp"
+#include "algebra/notation/irreducible.hpp"
 
 namespace alembert {
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "symbolic/polynomial.hpp"
+#include "algebra/symbolic/polynomial.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/fractions.hpp"
+#include "algebra/notation/fractions.hpp"
 
 #include <algorithm>
 
-#include "notation/quotient.hpp"
-#include "symbolic/exact_solve.hpp"
+#include "algebra/notation/quotient.hpp"
+#include "algebra/symbolic/exact_solve.hpp"
 
 namespace alembert {
 

@@ -8,7 +8,7 @@
 /// Terms of the same degree in the momenta that are divided by functions of the state get a common denominator, in
 /// lowest terms and factored, where that is shorter.
 
-#include "notation/readable.hpp"
+#include "algebra/notation/readable.hpp"
 
 namespace alembert {
 

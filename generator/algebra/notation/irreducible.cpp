@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/irreducible.hpp"
+#include "algebra/notation/irreducible.hpp"
 
 #include <cstdint>
 #include <map>

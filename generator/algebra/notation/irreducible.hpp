@@ -5,7 +5,7 @@
 ///
 ///     is_surely_irreducible(a²·x² + b·x + 1, x, 1)
 
-#include "symbolic/polynomial.hpp"
+#include "algebra/symbolic/polynomial.hpp"
 
 namespace alembert {
 

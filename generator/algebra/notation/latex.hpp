@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "notation/phrase.hpp"
+#include "algebra/notation/phrase.hpp"
 
 namespace alembert {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/lettering.hpp"
+#include "algebra/notation/lettering.hpp"
 
 #include <fmt/format.h>
 
 #include <string_view>
 #include <vector>
 
-#include "scene/greek.hpp"
+#include "base/language/greek.hpp"
 
 namespace alembert {
 

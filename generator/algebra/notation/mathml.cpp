@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/mathml.hpp"
+#include "algebra/notation/mathml.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include <cln/integer.h>
 #include <cln/integer_io.h>
 
-#include "notation/lettering.hpp"
-#include "notation/text.hpp"
-#include "notation/unspecified.hpp"
+#include "algebra/notation/lettering.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/notation/unspecified.hpp"
 
 namespace alembert {
 

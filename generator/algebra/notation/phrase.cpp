@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/phrase.hpp"
+#include "algebra/notation/phrase.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <cln/integer.h>
 #include <cln/integer_io.h>
 
-#include "symbolic/functions.hpp"
+#include "algebra/symbolic/functions.hpp"
 
 namespace alembert {
 

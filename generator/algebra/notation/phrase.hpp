@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/polynomial.hpp"
+#include "algebra/symbolic/polynomial.hpp"
 
 namespace alembert {
 

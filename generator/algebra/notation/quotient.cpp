@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/quotient.hpp"
+#include "algebra/notation/quotient.hpp"
 
-#include "notation/compose.hpp"
-#include "notation/readable.hpp"
-#include "symbolic/bounded_factor.hpp"
-#include "symbolic/exact_solve.hpp"
+#include "algebra/notation/compose.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/symbolic/bounded_factor.hpp"
+#include "algebra/symbolic/exact_solve.hpp"
 
 namespace alembert {
 

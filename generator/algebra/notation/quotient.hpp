@@ -11,7 +11,7 @@
 #include <functional>
 #include <optional>
 
-#include "notation/phrase.hpp"
+#include "algebra/notation/phrase.hpp"
 
 namespace alembert {
 

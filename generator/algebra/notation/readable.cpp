@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/readable.hpp"
+#include "algebra/notation/readable.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "notation/angles.hpp"
-#include "notation/common_factor.hpp"
-#include "notation/compose.hpp"
-#include "notation/differences.hpp"
+#include "algebra/notation/angles.hpp"
+#include "algebra/notation/common_factor.hpp"
+#include "algebra/notation/compose.hpp"
+#include "algebra/notation/differences.hpp"
 
 namespace alembert {
 

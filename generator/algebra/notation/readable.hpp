@@ -16,8 +16,8 @@
 
 #include <optional>
 
-#include "notation/phrase.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/notation/phrase.hpp"
+#include "algebra/symbolic/fourier.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/text.hpp"
+#include "algebra/notation/text.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cln/integer.h>
 #include <cln/integer_io.h>
 
-#include "notation/unspecified.hpp"
+#include "algebra/notation/unspecified.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "notation/phrase.hpp"
+#include "algebra/notation/phrase.hpp"
 
 namespace alembert {
 

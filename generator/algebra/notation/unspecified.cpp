@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/unspecified.hpp"
+#include "algebra/notation/unspecified.hpp"
 
 #include <algorithm>
 
-#include "notation/text.hpp"
-#include "symbolic/unspecified.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/unspecified.hpp"
 
 namespace alembert {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// How a call of a function of [functions] is written (symbolic/unspecified.hpp): V(r), dV/dr, f''(x − c),
+/// How a call of a function of [functions] is written (algebra/symbolic/unspecified.hpp): V(r), dV/dr, f''(x − c),
 /// ∂²f/∂x∂y.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "notation/phrase.hpp"
+#include "algebra/notation/phrase.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/bounded_factor.hpp"
+#include "algebra/symbolic/bounded_factor.hpp"
 
 #include <algorithm>
 #include <set>

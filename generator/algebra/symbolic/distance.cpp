@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/distance.hpp"
+#include "algebra/symbolic/distance.hpp"
 
 #include <algorithm>
 #include <map>

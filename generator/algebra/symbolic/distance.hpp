@@ -9,7 +9,7 @@
 /// Such a sum keeps its digits where it is small, and what it becomes when it is multiplied out, 25 - 10x + x^2,
 /// does not. (With a parameter in place of the number, the readable form finds the sum again.)
 
-#include "symbolic/intermediates.hpp"
+#include "algebra/symbolic/intermediates.hpp"
 
 namespace alembert {
 

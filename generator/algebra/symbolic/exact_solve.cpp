@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/exact_solve.hpp"
+#include "algebra/symbolic/exact_solve.hpp"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 //
 // The functions 1, cos(k·θ), sin(k·θ), with the first nonzero entry of the integer vector k positive, are linearly
 // independent, which makes the form unique (Bronshtein & Semendyayev, Handbook of Mathematics, §7.4.1).
-#include "symbolic/fourier.hpp"
+#include "algebra/symbolic/fourier.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -14,7 +14,7 @@
 
 #include <cln/integer.h>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -23,7 +23,7 @@
 #include <optional>
 #include <vector>
 
-#include "symbolic/polynomial.hpp"
+#include "algebra/symbolic/polynomial.hpp"
 
 namespace alembert {
 

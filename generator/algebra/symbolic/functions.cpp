@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/functions.hpp"
+#include "algebra/symbolic/functions.hpp"
 
 #include <array>
 #include <stdexcept>
 
-#include "language/say.hpp"
-#include "symbolic/unspecified.hpp"
+#include "algebra/symbolic/unspecified.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

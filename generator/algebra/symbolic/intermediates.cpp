@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/intermediates.hpp"
+#include "algebra/symbolic/intermediates.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "symbolic/functions.hpp"
+#include "algebra/symbolic/functions.hpp"
 
 namespace alembert {
 

@@ -23,9 +23,9 @@
 #include <utility>
 #include <vector>
 
-#include "symbolic/symbols.hpp"
+#include "algebra/symbolic/symbols.hpp"
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

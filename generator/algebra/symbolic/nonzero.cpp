@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Bounds in units of the roundoff: of a sum Σ b + |s|, of a product |p| (Σ b/|x| + count), of f(x) |f'(x)| b +
 // |f(x)|.
-#include "symbolic/nonzero.hpp"
+#include "algebra/symbolic/nonzero.hpp"
 
 #include <cmath>
 #include <limits>

@@ -10,7 +10,7 @@
 /// §3.3). The result is true only if the value is 10⁵ times that bound; false means nothing. Only polynomials,
 /// powers, sines and cosines are evaluated; anything else gives false.
 
-#include "symbolic/intermediates.hpp"
+#include "algebra/symbolic/intermediates.hpp"
 
 namespace alembert {
 

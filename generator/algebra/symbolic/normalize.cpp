@@ -7,9 +7,9 @@
 
 #include <cln/real.h>
 
-#include "symbolic/fourier.hpp"
+#include "algebra/symbolic/fourier.hpp"
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/polynomial.hpp"
+#include "algebra/symbolic/polynomial.hpp"
 
 #include <algorithm>
 #include <set>
@@ -9,8 +9,8 @@
 
 #include <cln/integer.h>
 
-#include "language/say.hpp"
-#include "symbolic/functions.hpp"
+#include "algebra/symbolic/functions.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "symbolic/symbols.hpp"
+#include "algebra/symbolic/symbols.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/symbols.hpp"
+#include "algebra/symbolic/symbols.hpp"
 
 #include <stdexcept>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "symbolic/unspecified.hpp"
+#include "algebra/symbolic/unspecified.hpp"
 
 #include <array>
 #include <stdexcept>

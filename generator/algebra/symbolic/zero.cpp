@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "symbolic/fourier.hpp"
+#include "algebra/symbolic/fourier.hpp"
 
 namespace alembert {
 

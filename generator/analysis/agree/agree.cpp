@@ -2,7 +2,7 @@
 // Two systems of linear equations have the same solutions if and only if their reduced row echelon forms are
 // equal. A rational identity of degree d that is false holds at a random point of GF(p) with a probability of at
 // most d/p (Schwartz, J. ACM 27 (1980) 701; Zippel, EUROSAM 79). With Cramer's rule d ≤ 2 (n deg M + deg f).
-#include "agree/agree.hpp"
+#include "analysis/agree/agree.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@
 #include <cmath>
 #include <random>
 
-#include "agree/system.hpp"
-#include "exact/square_points.hpp"
-#include "language/say.hpp"
-#include "state/redundancy.hpp"
-#include "state/speeds.hpp"
+#include "analysis/agree/system.hpp"
+#include "analysis/exact/square_points.hpp"
+#include "analysis/state/redundancy.hpp"
+#include "analysis/state/speeds.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

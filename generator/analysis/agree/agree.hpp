@@ -16,8 +16,8 @@
 /// arithmetic too, otherwise `undecided`, because the modular evaluation does not know every identity between
 /// functions.
 
-#include "formalism/formalisms.hpp"
-#include "state/prepared.hpp"
+#include "analysis/state/prepared.hpp"
+#include "model/formalism/formalisms.hpp"
 
 namespace alembert {
 

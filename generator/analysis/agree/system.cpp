@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "agree/system.hpp"
+#include "analysis/agree/system.hpp"
 
 #include <algorithm>
 #include "program/reduce_rows.hpp"

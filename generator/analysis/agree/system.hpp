@@ -12,8 +12,8 @@
 #include <map>
 #include <optional>
 
-#include "lower/lower.hpp"
 #include "program/interpret.hpp"
+#include "program/lower/lower.hpp"
 #include "program/modular.hpp"
 
 namespace alembert {

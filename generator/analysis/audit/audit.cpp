@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "audit/audit.hpp"
+#include "analysis/audit/audit.hpp"
 
-#include "audit/description_poses.hpp"
+#include "analysis/audit/description_poses.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,20 +9,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "audit/integral.hpp"
-#include "formalism/routh.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "analysis/audit/integral.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/branch.hpp"
+#include "analysis/state/contradiction.hpp"
+#include "analysis/state/force_balance.hpp"
+#include "analysis/state/redundancy.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/routh.hpp"
 #include "model/sample_functions.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
-#include "state/assemble.hpp"
-#include "state/branch.hpp"
-#include "state/contradiction.hpp"
-#include "state/force_balance.hpp"
-#include "state/redundancy.hpp"
-#include "symbolic/fourier.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -14,11 +14,11 @@
 
 #include <array>
 
-#include "audit/integrability.hpp"
-#include "audit/singular_poses.hpp"
-#include "notation/phrase.hpp"
+#include "algebra/notation/phrase.hpp"
+#include "analysis/audit/integrability.hpp"
+#include "analysis/audit/singular_poses.hpp"
 
-#include "state/prepared.hpp"
+#include "analysis/state/prepared.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "audit/description_poses.hpp"
+#include "analysis/audit/description_poses.hpp"
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "formalism/lagrange.hpp"
-#include "lower/lower.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

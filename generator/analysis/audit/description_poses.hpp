@@ -11,7 +11,7 @@
 /// dependent. Nothing is found in mechanisms with constraints, with more than `most_described` coordinates, or
 /// whose M is singular everywhere.
 
-#include "audit/singular_poses.hpp"
+#include "analysis/audit/singular_poses.hpp"
 
 namespace alembert {
 

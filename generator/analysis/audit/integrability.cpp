@@ -2,7 +2,7 @@
 // The null fields X_f = ∂_f − Σ C_pf ∂_p of the rows in echelon form: their brackets, and those of the X_f with
 // brackets, have only pivot components. Left-normed brackets span all others, and brackets of one that is a
 // combination of earlier ones are combinations too.
-#include "audit/integrability.hpp"
+#include "analysis/audit/integrability.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,10 @@
 #include <cmath>
 
 #include "alembert/base/tolerances.hpp"
-#include "exact/null_fields.hpp"
-#include "exact/variety.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/exact/null_fields.hpp"
+#include "analysis/exact/variety.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 #include "program/reduce_rows.hpp"
 
 namespace alembert {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // μ w is closed if ∂(μ aⱼ)/∂xᵢ = ∂(μ aᵢ)/∂xⱼ for all i, j. Then F = Σ Fᵢ with ∂Fᵢ/∂xᵢ = μ aᵢ − ∂(F₁ + … +
 // Fᵢ₋₁)/∂xᵢ.
-#include "audit/integral.hpp"
+#include "analysis/audit/integral.hpp"
 
 #include <algorithm>
 
+#include "algebra/symbolic/fourier.hpp"
+#include "algebra/symbolic/functions.hpp"
 #include "model/energy.hpp"
-#include "symbolic/fourier.hpp"
-#include "symbolic/functions.hpp"
 
 namespace alembert {
 

@@ -12,7 +12,7 @@
 /// with f a power, sine, cosine, exponential and the like, and by parts with a polynomial. A result is
 /// differentiated again and compared by normal form. If none is found, that is no proof that there is no integral.
 
-#include "audit/integrability.hpp"
+#include "analysis/audit/integrability.hpp"
 
 namespace alembert {
 

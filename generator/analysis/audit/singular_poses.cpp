@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // r(q, v) = (f, Aᵀ v, (|v|² − 1)/2) = 0 by Levenberg's and Marquardt's steps (JᵀJ + μ) δ = −Jᵀ r (Nocedal &
 // Wright, Numerical Optimization (2006), §10.3).
-#include "audit/singular_poses.hpp"
+#include "analysis/audit/singular_poses.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "lower/lower.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/contacts.hpp"
+#include "analysis/contact/contacts.hpp"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "formalism/routh.hpp"
-#include "language/libraries.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/libraries.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/routh.hpp"
 #include "model/friction.hpp"
+#include "program/lower/lower.hpp"
 #include "program/partials.hpp"
 
 namespace alembert {

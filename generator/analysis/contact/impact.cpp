@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/impact.hpp"
+#include "analysis/contact/impact.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "alembert/base/tolerances.hpp"
-#include "contact/impact_algebra.hpp"
-#include "formalism/routh.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/contact/impact_algebra.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/routh.hpp"
 #include "model/friction.hpp"
+#include "program/lower/lower.hpp"
 #include "program/rounding.hpp"
-#include "state/assemble.hpp"
 
 namespace alembert {
 

@@ -21,10 +21,10 @@
 #include <vector>
 
 #include "alembert/hybrid/impact.hpp"
-#include "lower/start.hpp"
-#include "notation/readable.hpp"
+#include "algebra/notation/readable.hpp"
+#include "program/lower/start.hpp"
 
-#include "state/prepared.hpp"
+#include "analysis/state/prepared.hpp"
 
 namespace alembert {
 

@@ -3,16 +3,16 @@
 // [M −Aᵀ −Gᵀ; A 0 0; G 0 0] (q'⁺, Λ, Π) = (M q'⁻ + Q̂, −b, −c − e gap'⁻), where the contacts are those that were
 // struck, and e = 0 for those that did not approach. If a constraint is imposed and a contact bounces, the
 // constraint is imposed first: gap'⁻ is then that of the rates that solve the same system without Q̂ and G.
-#include "contact/impact_algebra.hpp"
+#include "analysis/contact/impact_algebra.hpp"
 
 #include <cmath>
 #include <set>
 
-#include "formalism/lagrange.hpp"
-#include "language/say.hpp"
-#include "notation/quotient.hpp"
-#include "symbolic/exact_solve.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/notation/quotient.hpp"
+#include "algebra/symbolic/exact_solve.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/lagrange.hpp"
 
 namespace alembert {
 

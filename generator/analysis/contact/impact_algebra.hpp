@@ -7,7 +7,7 @@
 /// guesses that moved, and angles that are plain decimals (cos 0.3 would not be readable). The numeric solution
 /// determines which contacts are struck, and the symbolic one is valid as long as these are struck.
 
-#include "contact/impact.hpp"
+#include "analysis/contact/impact.hpp"
 
 namespace alembert {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/kicks.hpp"
+#include "analysis/contact/kicks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "alembert/base/tolerances.hpp"
-#include "lower/lower.hpp"
-#include "state/assemble.hpp"
+#include "analysis/state/assemble.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "derive/abbreviations.hpp"
+#include "analysis/derive/abbreviations.hpp"
 
 #include <algorithm>
 #include <functional>

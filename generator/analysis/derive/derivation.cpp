@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "derive/derivation.hpp"
+#include "analysis/derive/derivation.hpp"
 
 #include <algorithm>
 #include <tuple>
 
-#include "derive/abbreviations.hpp"
-#include "derive/euler_form.hpp"
-#include "derive/intermediate_form.hpp"
-#include "derive/shares.hpp"
-#include "derive/unit_quaternions.hpp"
-#include "formalism/lagrange.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/derive/abbreviations.hpp"
+#include "analysis/derive/euler_form.hpp"
+#include "analysis/derive/intermediate_form.hpp"
+#include "analysis/derive/shares.hpp"
+#include "analysis/derive/unit_quaternions.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "formalism/formalisms.hpp"
-#include "notation/readable.hpp"
+#include "algebra/notation/readable.hpp"
+#include "model/formalism/formalisms.hpp"
 
 namespace alembert {
 

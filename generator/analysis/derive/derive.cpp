@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "derive/derive.hpp"
+#include "analysis/derive/derive.hpp"
 
 #include "alembert/base/error.hpp"
-#include "contact/contacts.hpp"
-#include "exact/expression_of.hpp"
-#include "reaction/joint_reactions.hpp"
+#include "analysis/contact/contacts.hpp"
+#include "analysis/exact/expression_of.hpp"
+#include "analysis/reaction/joint_reactions.hpp"
 #include "scene/sticking.hpp"
 
 namespace alembert {

@@ -6,8 +6,8 @@
 ///     const DerivedScene d = derive(read_scene("scenes/textbook/double_pendulum.toml"), {.by = "lagrange"});
 ///     latex(d.shown.equations[0].lhs);
 
-#include "derive/derivation.hpp"
-#include "derive/derived.hpp"
+#include "analysis/derive/derivation.hpp"
+#include "analysis/derive/derived.hpp"
 
 namespace alembert {
 

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "alembert/base/process_time.hpp"
-#include "audit/audit.hpp"
-#include "derive/start_check.hpp"
-#include "formalism/elements.hpp"
-#include "formalism/formalisms.hpp"
-#include "formalism/joint_tree.hpp"
-#include "formalism/recursive.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/perturbed_tree.hpp"
+#include "analysis/audit/audit.hpp"
+#include "analysis/derive/start_check.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/diagnose.hpp"
+#include "analysis/state/force_balance.hpp"
+#include "analysis/state/gimbal.hpp"
+#include "analysis/state/redundancy.hpp"
+#include "analysis/state/speeds.hpp"
+#include "analysis/state/touching.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/formalisms.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "model/formalism/recursive.hpp"
 #include "model/sample_functions.hpp"
-#include "state/assemble.hpp"
-#include "state/diagnose.hpp"
-#include "state/force_balance.hpp"
-#include "state/gimbal.hpp"
-#include "state/redundancy.hpp"
-#include "state/speeds.hpp"
-#include "state/touching.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/perturbed_tree.hpp"
 
 namespace alembert {
 

@@ -7,10 +7,10 @@
 ///     d.equations.M;
 ///     const Program program = lowered(d).program;
 
-#include "formalism/equations.hpp"
-#include "lower/choose.hpp"
+#include "analysis/state/prepared.hpp"
+#include "model/formalism/equations.hpp"
 #include "program/differentiate.hpp"
-#include "state/prepared.hpp"
+#include "program/lower/choose.hpp"
 
 namespace alembert {
 
@@ -59,7 +59,7 @@ void need_rates(const Derived& derived);
 Choice lowered(const Derived& derived, bool fold = false);
 
 /// The derivatives of a program that `lowered` gave with the same `fold`, by the tree of joints too where there is
-/// one (lower/perturbed_tree.hpp).
+/// one (program/lower/perturbed_tree.hpp).
 std::optional<Differentiated> derivatives_of(const Derived& derived, const Program& program,
                                              DerivativeWishes wishes = {}, bool fold = false);
 

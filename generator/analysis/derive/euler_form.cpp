@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "derive/euler_form.hpp"
+#include "analysis/derive/euler_form.hpp"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 /// of each of three speeds, the product of the two others gets the cyclic order, and the difference of moments
 /// before it gets a minus sign.
 
-#include "notation/readable.hpp"
+#include "algebra/notation/readable.hpp"
 
 namespace alembert {
 

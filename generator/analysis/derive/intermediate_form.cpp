@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "derive/intermediate_form.hpp"
+#include "analysis/derive/intermediate_form.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 #include <set>
 
-#include "lower/lower.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "formalism/equations.hpp"
-#include "notation/readable.hpp"
+#include "algebra/notation/readable.hpp"
+#include "model/formalism/equations.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

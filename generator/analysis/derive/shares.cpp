@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // row_r = Σ c_k row_k over the rows k of which it is a combination. For as many columns j, Σ_k c_k row_kj = row_rj
 // is solved by Cramer's rule, multiplied by the determinant.
-#include "derive/shares.hpp"
+#include "analysis/derive/shares.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "alembert/base/dense.hpp"
-#include "lower/lower.hpp"
-#include "state/contradiction.hpp"
+#include "analysis/state/contradiction.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

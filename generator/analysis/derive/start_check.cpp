@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "derive/start_check.hpp"
+#include "analysis/derive/start_check.hpp"
 
 #include <algorithm>
 
 #include "alembert/base/tolerances.hpp"
-#include "contact/contacts.hpp"
-#include "lower/lower.hpp"
+#include "analysis/contact/contacts.hpp"
+#include "analysis/state/assemble.hpp"
 #include "model/sample_functions.hpp"
-#include "state/assemble.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -2,12 +2,12 @@
 #pragma once
 
 /// Initial values that contradict the scene, told where equations are only shown. What computes from them refuses
-/// them (state/assemble.hpp, contact/contacts.hpp).
+/// them (analysis/state/assemble.hpp, analysis/contact/contacts.hpp).
 
 #include <vector>
 
-#include "lower/start.hpp"
 #include "model/mechanism.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "derive/unit_quaternions.hpp"
+#include "analysis/derive/unit_quaternions.hpp"
 
-#include "formalism/elements.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

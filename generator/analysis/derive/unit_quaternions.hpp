@@ -6,7 +6,7 @@
 /// Rotations are divided by e·e, so that T and V do not change along e (model/geometry.cpp). The derivatives are
 /// therefore right for every e, and afterwards e·e is replaced by 1 in each term.
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 #include "model/mechanism.hpp"
 
 namespace alembert {

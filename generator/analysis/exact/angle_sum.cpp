@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/angle_sum.hpp"
+#include "analysis/exact/angle_sum.hpp"
 
 #include <map>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/angle_variables.hpp"
+#include "analysis/exact/angle_variables.hpp"
 
 namespace alembert {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "exact/real_values.hpp"
+#include "analysis/exact/real_values.hpp"
 
 namespace alembert {
 

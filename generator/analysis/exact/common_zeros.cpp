@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/common_zeros.hpp"
+#include "analysis/exact/common_zeros.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 /// Angles v as x = tan((v − v0)/2^(halves + 1)), with a v0 of no particular value, so that x is finite also where
 /// v is half a turn.
 
-#include "exact/real_values.hpp"
+#include "analysis/exact/real_values.hpp"
 #include "program/turn.hpp"
 
 namespace alembert {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A state in exact arithmetic modulo a prime (exact/motions.hpp), with the numbers that a bound on the
+/// A state in exact arithmetic modulo a prime (analysis/exact/motions.hpp), with the numbers that a bound on the
 /// probability of an error needs.
 
 #include "program/modular.hpp"

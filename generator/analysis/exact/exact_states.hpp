@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "exact/motions.hpp"
+#include "analysis/exact/motions.hpp"
 
 namespace alembert {
 

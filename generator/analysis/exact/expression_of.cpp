@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/expression_of.hpp"
+#include "analysis/exact/expression_of.hpp"
 
 #include <map>
 
-#include "symbolic/functions.hpp"
-#include "symbolic/unspecified.hpp"
+#include "algebra/symbolic/functions.hpp"
+#include "algebra/symbolic/unspecified.hpp"
 
 namespace alembert {
 

@@ -3,9 +3,9 @@
 // the shares of multipliers of constraints that depend on each other.
 #include <algorithm>
 
-#include "exact/least_shares.hpp"
-#include "exact/motions.hpp"
-#include "exact/solve_condition.hpp"
+#include "analysis/exact/least_shares.hpp"
+#include "analysis/exact/motions.hpp"
+#include "analysis/exact/solve_condition.hpp"
 #include "program/reduce_rows.hpp"
 
 namespace alembert {

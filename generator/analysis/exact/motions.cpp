@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/motions.hpp"
+#include "analysis/exact/motions.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <set>
 
 #include "alembert/base/error.hpp"
-#include "exact/counted_angle.hpp"
-#include "exact/reduced_sums.hpp"
-#include "exact/solve_condition.hpp"
-#include "formalism/rest.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/exact/counted_angle.hpp"
+#include "analysis/exact/reduced_sums.hpp"
+#include "analysis/exact/solve_condition.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/rest.hpp"
 #include "model/held_functions.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

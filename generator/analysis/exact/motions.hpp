@@ -12,17 +12,17 @@
 /// tested hold for all values of the parameters), as the root of a polynomial. The polynomial is interpolated, all
 /// its roots in the field are found, and one of them is taken. An angle that occurs only in sines and cosines is
 /// found by the tangent of its half. Two constraints with two common unknowns that cannot be solved otherwise are
-/// solved together (exact/common_zeros.hpp). Conditions of a motion that cannot be solved in such an order are
-/// `loose`: the states are then on f(q, t) = const with any constants for these. A statement that holds there and
-/// does not divide by something that vanishes with f also holds on f = 0. With Positions::free no condition is
-/// solved, and all are loose: a combination of the equations of motion and the differentiated constraints holds
-/// there too, and no root has to exist. If equations of rest cannot be solved in such an order, there are no
-/// states, and `obstacle` says so; states in numbers obey them all the same. Rates obey A q' + b = 0,
+/// solved together (analysis/exact/common_zeros.hpp). Conditions of a motion that cannot be solved in such an
+/// order are `loose`: the states are then on f(q, t) = const with any constants for these. A statement that holds
+/// there and does not divide by something that vanishes with f also holds on f = 0. With Positions::free no
+/// condition is solved, and all are loose: a combination of the equations of motion and the differentiated
+/// constraints holds there too, and no root has to exist. If equations of rest cannot be solved in such an order,
+/// there are no states, and `obstacle` says so; states in numbers obey them all the same. Rates obey A q' + b = 0,
 /// accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
 /// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(): For a gap, in equations that
 /// contain it, the multiplier is random; for a redundant constraint it is its share of least norm in the forces
-/// (exact/least_shares.hpp), as for the constraints that are kept.
+/// (analysis/exact/least_shares.hpp), as for the constraints that are kept.
 ///
 /// Dry friction on a constraint has the normal force |λ|, so that the equations are linear in q'' and λ once the
 /// sign of each such λ is known. All signs are tried, from a random one on, and the first solution that has the
@@ -37,23 +37,23 @@
 /// Unknowns that the equations leave open at every state, such as the acceleration of a spin without a moment of
 /// inertia, are random (`open_unknowns`): what holds for all their values follows from the equations.
 ///
-/// With the scene's own branch given, `on_own_branch` draws states on that branch alone (exact/own_point.hpp), and
-/// conditions are solved for variables that they determine there: a branch on which an angle is π whatever the
-/// others are is lost where the condition is solved for one of these.
+/// With the scene's own branch given, `on_own_branch` draws states on that branch alone
+/// (analysis/exact/own_point.hpp), and conditions are solved for variables that they determine there: a branch on
+/// which an angle is π whatever the others are is lost where the condition is solved for one of these.
 ///
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
 /// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met. An
 /// equation of rest in parameters alone, g·(m₂ sin β − m₁ sin α) = 0, is solved for one of them if it has one
 /// factor besides parameters, which do not vanish. Equations that cannot be solved one after the other as they are
-/// may become so when they are combined (exact/reduced_sums.hpp).
+/// may become so when they are combined (analysis/exact/reduced_sums.hpp).
 
 #include <set>
 
-#include "exact/exact_state.hpp"
-#include "exact/own_point.hpp"
-#include "exact/solving_order.hpp"
-#include "exact/square_points.hpp"
-#include "formalism/equations.hpp"
+#include "analysis/exact/exact_state.hpp"
+#include "analysis/exact/own_point.hpp"
+#include "analysis/exact/solving_order.hpp"
+#include "analysis/exact/square_points.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 
@@ -63,7 +63,7 @@ public:
     enum class Positions { solved, free };
 
     /// Angles that are solved for may occur divided by up to 2^halves, and all others by up to 2^halvings
-    /// (exact/square_points.hpp), in the equations and in the expressions that will be evaluated.
+    /// (analysis/exact/square_points.hpp), in the equations and in the expressions that will be evaluated.
     Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0,
             int halvings = 0, Positions positions = Positions::solved, std::optional<OwnBranch> own = {});
     Motions(const Motions&) = delete;

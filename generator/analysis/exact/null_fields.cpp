@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Gauss-Jordan elimination with intermediate symbols and, in parallel, with numbers modulo the prime.
-#include "exact/null_fields.hpp"
+#include "analysis/exact/null_fields.hpp"
 
 #include <algorithm>
 

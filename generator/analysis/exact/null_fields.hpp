@@ -8,8 +8,8 @@
 /// Rows in echelon form, dz_p + Σ C_pf dz_f = 0 over the free variables f, have the null fields X_f = ∂_f − Σ C_pf
 /// ∂_p.
 
+#include "algebra/symbolic/intermediates.hpp"
 #include "program/modular.hpp"
-#include "symbolic/intermediates.hpp"
 
 namespace alembert {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/own_branch.hpp"
+#include "analysis/exact/own_branch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "exact/angle_variables.hpp"
-#include "exact/solve_together.hpp"
+#include "analysis/exact/angle_variables.hpp"
+#include "analysis/exact/solve_together.hpp"
 
 namespace alembert {
 

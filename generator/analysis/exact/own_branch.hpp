@@ -13,8 +13,8 @@
 #include <optional>
 #include <vector>
 
-#include "exact/real_values.hpp"
-#include "exact/solving_step.hpp"
+#include "analysis/exact/real_values.hpp"
+#include "analysis/exact/solving_step.hpp"
 #include "program/interpret.hpp"
 
 namespace alembert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/own_point.hpp"
+#include "analysis/exact/own_point.hpp"
 
 #include <cln/rational.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "exact/angle_variables.hpp"
-#include "exact/counted_angle.hpp"
-#include "exact/rational_polynomial.hpp"
+#include "analysis/exact/angle_variables.hpp"
+#include "analysis/exact/counted_angle.hpp"
+#include "analysis/exact/rational_polynomial.hpp"
 
 namespace alembert {
 

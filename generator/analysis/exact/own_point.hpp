@@ -21,13 +21,13 @@
 #include <optional>
 #include <vector>
 
-#include "exact/own_branch.hpp"
+#include "analysis/exact/own_branch.hpp"
 #include "program/prime_polynomial.hpp"
 
 namespace alembert {
 
 /// What is known of the own root of a step: `factor` vanishes at θ = Σ weight · x, with x as in
-/// exact/counted_angle.hpp for angles. It is empty if the condition has no other root.
+/// analysis/exact/counted_angle.hpp for angles. It is empty if the condition has no other root.
 struct OwnRoot {
     PrimePolynomial factor{};
     std::vector<std::pair<SolvedUnknown, Prime>> theta{};
@@ -35,7 +35,7 @@ struct OwnRoot {
 
 struct OwnPoint {
     std::map<RealState::Key, Prime> values;  ///< of variables that are not solved for
-    std::map<RealState::Key, Prime> angles;  ///< likewise, as x of exact/counted_angle.hpp
+    std::map<RealState::Key, Prime> angles;  ///< likewise, as x of analysis/exact/counted_angle.hpp
     std::vector<OwnRoot> roots;              ///< for each step
 };
 
@@ -44,7 +44,7 @@ public:
     /// log₂ of the number of values from which each free variable is drawn.
     static constexpr double field = 30;
 
-    /// `halves` as in exact/counted_angle.hpp. The other arguments must outlive it.
+    /// `halves` as in analysis/exact/counted_angle.hpp. The other arguments must outlive it.
     OwnPoints(const Program& program, const std::vector<SolvingStep>& steps, const OwnBranch& branch, int halves)
         : program_(program), steps_(steps), branch_(branch), halves_(halves) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/rational_polynomial.hpp"
+#include "analysis/exact/rational_polynomial.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/real_state.hpp"
+#include "analysis/exact/real_state.hpp"
 
 #include <cln/dfloat.h>
 #include <cln/rational.h>
@@ -10,9 +10,9 @@
 #include <random>
 #include <set>
 
-#include "exact/angle_variables.hpp"
-#include "exact/least_shares.hpp"
-#include "exact/solve_together.hpp"
+#include "analysis/exact/angle_variables.hpp"
+#include "analysis/exact/least_shares.hpp"
+#include "analysis/exact/solve_together.hpp"
 
 namespace alembert {
 

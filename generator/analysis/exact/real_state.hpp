@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// States of a mechanism in numbers that a reader can substitute (exact/real_values.hpp), with the accelerations
-/// and multipliers that follow from them exactly.
+/// States of a mechanism in numbers that a reader can substitute (analysis/exact/real_values.hpp), with the
+/// accelerations and multipliers that follow from them exactly.
 ///
 ///     for (unsigned seed = 0; seed < 100; ++seed)
 ///         if (const auto state = real_state(motions, claims, roots, seed))
 ///             // a counterexample
 ///             if (const auto r = evaluate(claims, *state, roots); r && !r->front().is_zero()) …
 
-#include "exact/motions.hpp"
-#include "exact/real_values.hpp"
+#include "analysis/exact/motions.hpp"
+#include "analysis/exact/real_values.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/real_values.hpp"
+#include "analysis/exact/real_values.hpp"
 
 #include <cln/integer.h>
 #include <cln/integer_io.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Gauss and Jordan's elimination in the terms, each of which counts as an unknown.
-#include "exact/reduced_sums.hpp"
+#include "analysis/exact/reduced_sums.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/solve_condition.hpp"
+#include "analysis/exact/solve_condition.hpp"
 
 #include <array>
 
-#include "exact/angle_sum.hpp"
-#include "exact/common_zeros.hpp"
-#include "exact/counted_angle.hpp"
+#include "analysis/exact/angle_sum.hpp"
+#include "analysis/exact/common_zeros.hpp"
+#include "analysis/exact/counted_angle.hpp"
 
 namespace alembert {
 

@@ -4,9 +4,9 @@
 /// Solves one condition for its variable, or two conditions for two variables, modulo the prime and at the random
 /// values of a state.
 
-#include "exact/exact_state.hpp"
-#include "exact/own_point.hpp"
-#include "exact/solving_order.hpp"
+#include "analysis/exact/exact_state.hpp"
+#include "analysis/exact/own_point.hpp"
+#include "analysis/exact/solving_order.hpp"
 
 namespace alembert {
 

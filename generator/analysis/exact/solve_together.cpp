@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/solve_together.hpp"
+#include "analysis/exact/solve_together.hpp"
 
-#include "exact/real_values.hpp"
+#include "analysis/exact/real_values.hpp"
 
 namespace alembert {
 

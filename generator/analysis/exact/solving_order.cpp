@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/solving_order.hpp"
+#include "analysis/exact/solving_order.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "exact/angle_sum.hpp"
+#include "analysis/exact/angle_sum.hpp"
 #include "program/prime_polynomial.hpp"
 
 namespace alembert {

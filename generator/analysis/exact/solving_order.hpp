@@ -14,8 +14,8 @@
 #include <set>
 #include <vector>
 
-#include "exact/own_branch.hpp"
-#include "exact/solving_step.hpp"
+#include "analysis/exact/own_branch.hpp"
+#include "analysis/exact/solving_step.hpp"
 
 namespace alembert {
 

@@ -2,7 +2,7 @@
 // The order of drawing is found from its end. The last variable is one that occurs in the fewest roots, and it
 // decides whether these exist; the one before is chosen in the same way from the other roots. So no root contains
 // a variable that is drawn after the one that decides it.
-#include "exact/square_points.hpp"
+#include "analysis/exact/square_points.hpp"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "exact/variety.hpp"
+#include "analysis/exact/variety.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "exact/solve_condition.hpp"
-#include "exact/solving_order.hpp"
-#include "exact/square_points.hpp"
+#include "analysis/exact/solve_condition.hpp"
+#include "analysis/exact/solving_order.hpp"
+#include "analysis/exact/square_points.hpp"
 
 namespace alembert {
 

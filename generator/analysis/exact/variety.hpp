@@ -7,8 +7,8 @@
 ///     variety.on_variety && evaluate_mod(program, variety.points[0], positions)->value[positions[0]].is_zero()
 ///
 /// Each f is solved for an unknown that it determines when those before it are known, or two together for two
-/// unknowns (exact/solving_order.hpp): coordinates, or a parameter. Points with solved parameters are generic
-/// points of
+/// unknowns (analysis/exact/solving_order.hpp): coordinates, or a parameter. Points with solved parameters are
+/// generic points of
 /// {(q, t, parameters): f = 0}: a statement that holds there holds for almost all parameters. No parameter is
 /// solved for that would have to take a value of its own, as L = 0 in L sin a + L sin b = 0. If the variety has
 /// several sheets, such as x·y = 0, each point is on one of them. If the equations have no such order, the points

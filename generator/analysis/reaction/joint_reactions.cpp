@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A released joint K between the parent's side and the joint itself: M₀ is the moment about the joint's point of
 // the parent, so that the moment about the point of the child, at the distance d, is M = M₀ − d × F.
-#include "reaction/joint_reactions.hpp"
+#include "analysis/reaction/joint_reactions.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/held_loads.hpp"
-#include "lower/inverse.hpp"
-#include "lower/lower.hpp"
+#include "analysis/reaction/rolling_release.hpp"
+#include "analysis/state/redundancy.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/geometry.hpp"
+#include "program/lower/held_loads.hpp"
+#include "program/lower/inverse.hpp"
+#include "program/lower/lower.hpp"
 #include "program/without_rounding.hpp"
-#include "reaction/rolling_release.hpp"
-#include "state/redundancy.hpp"
 
 namespace alembert {
 

@@ -19,8 +19,8 @@
 /// points, rolling and loops. Loads along the joint's own coordinate ([forces], dampers along it) do no work along
 /// c and therefore belong to the reaction: along a free axis R is the contribution of the drive. The reaction of a
 /// joint that closes a loop comes from its multipliers only, R = −A_cᵀλ, because its link is attached to the
-/// parent only. The first two terms come from one sweep for all joints (lower/held_loads.hpp); with [energy]
-/// kinetic from M and f.
+/// parent only. The first two terms come from one sweep for all joints (program/lower/held_loads.hpp); with
+/// [energy] kinetic from M and f.
 ///
 /// The force acts on the child at the joint's point of the child, the moment is about that point; both along the
 /// joint's axes in the body that is placed before the joint: the parent, unless the joint places its parent.

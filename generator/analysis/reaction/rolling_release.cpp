@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "reaction/rolling_release.hpp"
+#include "analysis/reaction/rolling_release.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rigid/coefficient_texts.hpp"
+#include "analysis/rigid/coefficient_texts.hpp"
 
 #include <fmt/format.h>
 

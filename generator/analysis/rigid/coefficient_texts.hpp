@@ -3,7 +3,7 @@
 
 /// The coefficients of base parameters as text: polynomials in the scene's parameters, or numbers.
 
-#include "rigid/column_dependence.hpp"
+#include "analysis/rigid/column_dependence.hpp"
 
 namespace alembert {
 

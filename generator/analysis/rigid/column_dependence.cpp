@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rigid/column_dependence.hpp"
+#include "analysis/rigid/column_dependence.hpp"
 
 #include <algorithm>
 #include <set>
 
 #include "alembert/base/error.hpp"
-#include "exact/motions.hpp"
-#include "exact/square_points.hpp"
-#include "formalism/routh.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/exact/motions.hpp"
+#include "analysis/exact/square_points.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/routh.hpp"
+#include "program/lower/lower.hpp"
 #include "program/reduce_rows.hpp"
 
 namespace alembert {

@@ -10,13 +10,13 @@
 ///
 /// With constraints, Y π = τ + Aᵀλ with multipliers that are not measured. What motion and loads show is Nᵀ Y π =
 /// Nᵀ τ, where the columns of N span the motions that A q' = 0 allows. The states are then random points of f(q,
-/// t) = 0 (exact/motions.hpp) with A q' + b = 0 and A q'' = γ.
+/// t) = 0 (analysis/exact/motions.hpp) with A q' + b = 0 and A q'' = γ.
 
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
 
-#include "lower/regressor.hpp"
+#include "program/lower/regressor.hpp"
 #include "program/modular.hpp"
 
 namespace alembert {

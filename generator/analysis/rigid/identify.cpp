@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rigid/identify.hpp"
+#include "analysis/rigid/identify.hpp"
 
 #include <fmt/format.h>
 
@@ -11,11 +11,11 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/start.hpp"
+#include "analysis/rigid/coefficient_texts.hpp"
+#include "base/language/say.hpp"
 #include "program/interpret.hpp"
-#include "rigid/coefficient_texts.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

@@ -8,18 +8,18 @@
 ///     const Identification found = identify(read_scene("scenes/gallery/six_joint_arm.toml"));
 ///     found.base.size();      // 36
 ///
-/// Columns of the regressor Y (lower/regressor.hpp) at many states that depend on each other in the same way at
-/// all of them show only together. The rank, and which columns depend on which, are exact: Y is evaluated modulo
-/// 2⁶¹ − 1 at random states. A column that depends on others is expressed by those before it in the order second
-/// moments, first moments, masses, each from the ground outwards; these keep their parameters, which become sums.
-/// Coefficients are polynomials of degree two in the scene's parameters where these are few, otherwise numbers:
-/// decimals of at most ten digits, or a fraction where decimals would not end and its denominator has at most
-/// three digits.
+/// Columns of the regressor Y (program/lower/regressor.hpp) at many states that depend on each other in the same
+/// way at all of them show only together. The rank, and which columns depend on which, are exact: Y is evaluated
+/// modulo 2⁶¹ − 1 at random states. A column that depends on others is expressed by those before it in the order
+/// second moments, first moments, masses, each from the ground outwards; these keep their parameters, which become
+/// sums. Coefficients are polynomials of degree two in the scene's parameters where these are few, otherwise
+/// numbers: decimals of at most ten digits, or a fraction where decimals would not end and its denominator has at
+/// most three digits.
 
 #include <string>
 #include <vector>
 
-#include "state/prepared.hpp"
+#include "analysis/state/prepared.hpp"
 
 namespace alembert {
 

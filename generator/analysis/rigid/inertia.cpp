@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "rigid/inertia.hpp"
+#include "analysis/rigid/inertia.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "alembert/base/inertia.hpp"
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/formulas.hpp"
 #include "model/geometry.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "program/lower/lower.hpp"
 #include "scene/text.hpp"
-#include "state/assemble.hpp"
-#include "symbolic/fourier.hpp"
 
 namespace alembert {
 

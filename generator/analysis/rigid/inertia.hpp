@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "alembert/base/rotation.hpp"
-#include "lower/start.hpp"
-#include "state/prepared.hpp"
+#include "analysis/state/prepared.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // f(q) = 0 is solved by q ← q − J⁺ f, where J = ∂f/∂q has the columns of the guesses only; J⁺ gives the least
 // change (Golub & Van Loan, §5.5).
-#include "state/assemble.hpp"
+#include "analysis/state/assemble.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 #include "program/rounding.hpp"
 
 namespace alembert {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "lower/start.hpp"
+#include "analysis/state/left_out.hpp"
+#include "program/lower/start.hpp"
 #include "program/program.hpp"
-#include "state/left_out.hpp"
 
 namespace alembert {
 

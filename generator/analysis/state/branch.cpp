@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A step q + d with A d = 0 leaves the positions by O(|d|²), and the search of least change that follows comes
 // back by as much. A change of another size is a jump to somewhere else, and the step is halved.
-#include "state/branch.hpp"
+#include "analysis/state/branch.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "alembert/base/dense.hpp"
-#include "state/assemble.hpp"
+#include "analysis/state/assemble.hpp"
 
 namespace alembert {
 

@@ -13,8 +13,8 @@
 #include <optional>
 #include <vector>
 
-#include "exact/own_branch.hpp"
-#include "lower/start.hpp"
+#include "analysis/exact/own_branch.hpp"
+#include "program/lower/start.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

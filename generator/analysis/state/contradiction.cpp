@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The constraints are left out one after the other. A constraint stays if leaving it out makes a state possible (a
 // deletion filter; Chinneck, Feasibility and Infeasibility in Optimization (2008), §6.1).
-#include "state/contradiction.hpp"
+#include "analysis/state/contradiction.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "lower/lower.hpp"
-#include "state/assemble.hpp"
-#include "state/redundancy.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/redundancy.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -10,7 +10,7 @@
 /// The search is numerical, from a fixed number of places around `start` with a fixed seed. If it finds no state,
 /// that is no proof that there is none.
 
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/force_balance.hpp"
+#include "analysis/state/force_balance.hpp"
 
 #include <algorithm>
 
-#include "exact/null_fields.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "analysis/exact/null_fields.hpp"
+#include "base/language/say.hpp"
 #include "model/constraint.hpp"
 #include "model/energy.hpp"
 #include "model/translate.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "program/lower/lower.hpp"
 #include "program/reduce_rows.hpp"
-#include "symbolic/fourier.hpp"
 
 namespace alembert {
 

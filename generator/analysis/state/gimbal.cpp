@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/gimbal.hpp"
+#include "analysis/state/gimbal.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

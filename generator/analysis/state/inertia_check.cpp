@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/inertia_check.hpp"
+#include "analysis/state/inertia_check.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "alembert/base/inertia.hpp"
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

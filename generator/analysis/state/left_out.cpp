@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A constraint a·q' + b = 0 follows from A q' + c = 0 if (a, b) = σᵀ(A, c) with some σ, wherever the positions
 // hold. A relation of analytic functions that holds at places chosen at random holds everywhere (but for chance).
-#include "state/left_out.hpp"
+#include "analysis/state/left_out.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 #include "program/rounding.hpp"
-#include "state/assemble.hpp"
 
 namespace alembert {
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

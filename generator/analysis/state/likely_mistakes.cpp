@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/likely_mistakes.hpp"
+#include "analysis/state/likely_mistakes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <optional>
 #include <random>
 
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -13,8 +13,8 @@
 
 #include <vector>
 
-#include "lower/start.hpp"
 #include "model/mechanism.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

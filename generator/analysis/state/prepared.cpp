@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/prepared.hpp"
+#include "analysis/state/prepared.hpp"
 
 #include <algorithm>
 
-#include "language/say.hpp"
-#include "state/inertia_check.hpp"
-#include "state/likely_mistakes.hpp"
-#include "state/redundancy.hpp"
-#include "state/touching.hpp"
+#include "analysis/state/inertia_check.hpp"
+#include "analysis/state/likely_mistakes.hpp"
+#include "analysis/state/redundancy.hpp"
+#include "analysis/state/touching.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "lower/start.hpp"
 #include "model/mechanism.hpp"
 #include "model/root_sheets.hpp"
+#include "program/lower/start.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/redundancy.hpp"
+#include "analysis/state/redundancy.hpp"
 
 #include <fmt/format.h>
 
@@ -10,13 +10,13 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/branch.hpp"
+#include "analysis/state/contradiction.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/sample_functions.hpp"
-#include "state/assemble.hpp"
-#include "state/branch.hpp"
-#include "state/contradiction.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

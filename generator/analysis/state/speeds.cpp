@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/speeds.hpp"
+#include "analysis/state/speeds.hpp"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 #include <random>
 
 #include "alembert/base/tolerances.hpp"
-#include "formalism/kinematics.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/start.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/kinematics.hpp"
 #include "model/sample_functions.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

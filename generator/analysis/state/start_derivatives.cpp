@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/start_derivatives.hpp"
+#include "analysis/state/start_derivatives.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 #include "program/partials.hpp"
 
 namespace alembert {

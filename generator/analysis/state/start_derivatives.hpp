@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

@@ -2,7 +2,7 @@
 // The elimination of a symmetric matrix G, xᵀGx = Σ_k d_k (x_k + Σ_{j>k} G_kj x_j / d_k)², proves G positive
 // semidefinite if each d_k is positive, or is zero together with its whole row (G. Golub & C. Van Loan, Matrix
 // Computations (2013), §4.2.8).
-#include "state/sum_of_squares.hpp"
+#include "analysis/state/sum_of_squares.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "state/touching.hpp"
+#include "analysis/state/touching.hpp"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,15 @@
 #include <algorithm>
 
 #include "alembert/base/dense.hpp"
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "analysis/state/contradiction.hpp"
+#include "analysis/state/sum_of_squares.hpp"
+#include "base/language/say.hpp"
 #include "model/constraint.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/sample_functions.hpp"
+#include "program/lower/lower.hpp"
 #include "program/rounding.hpp"
-#include "state/assemble.hpp"
-#include "state/contradiction.hpp"
-#include "state/sum_of_squares.hpp"
 
 namespace alembert {
 

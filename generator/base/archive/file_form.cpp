@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "archive/file_form.hpp"
+#include "base/archive/file_form.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "archive/hdf5.hpp"
+#include "base/archive/hdf5.hpp"
 
 #include <filesystem>
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/module.hpp"
 #include "alembert/native/process.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -12,7 +12,7 @@
 
 #include <string>
 
-#include "archive/stored_table.hpp"
+#include "base/archive/stored_table.hpp"
 
 namespace alembert {
 

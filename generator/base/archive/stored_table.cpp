@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "archive/stored_table.hpp"
+#include "base/archive/stored_table.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "archive/zip.hpp"
+#include "base/archive/zip.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "archive/zip.hpp"
+#include "base/archive/zip.hpp"
 
 #include <algorithm>
 #include <array>

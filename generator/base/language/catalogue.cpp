@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "language/catalogue.hpp"
+#include "base/language/catalogue.hpp"
 
 #include <algorithm>
 #include <cstdint>

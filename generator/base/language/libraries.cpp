@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "language/libraries.hpp"
+#include "base/language/libraries.hpp"
 
 #include <fmt/args.h>
 
@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "language/catalogue.hpp"
+#include "base/language/catalogue.hpp"
 
 namespace alembert {
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/casadi.hpp"
+#include "codegen/emit/casadi.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <kainjow/mustache.hpp>
 
 #include "alembert/base/error.hpp"
-#include "emit/solver_functions.hpp"
-#include "emit/templates.hpp"
-#include "emit/vocabulary.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/solver_functions.hpp"
+#include "codegen/emit/templates.hpp"
+#include "codegen/emit/vocabulary.hpp"
 
 namespace alembert {
 

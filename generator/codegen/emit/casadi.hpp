@@ -13,7 +13,7 @@
 /// a difference of order 4. Otherwise, and for robot functions, CasADi takes differences (its option `enable_fd`).
 /// The template is templates/casadi.c.mustache.
 
-#include "emit/emit.hpp"
+#include "codegen/emit/emit.hpp"
 
 namespace alembert {
 

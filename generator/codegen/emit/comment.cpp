@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/comment.hpp"
+#include "codegen/emit/comment.hpp"
 
 #include <cstdint>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/statement.hpp"
+#include "codegen/emit/statement.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/elementary.hpp"
+#include "codegen/emit/elementary.hpp"
 
 #include <algorithm>
 
-#include "emit/templates.hpp"
+#include "codegen/emit/templates.hpp"
 
 namespace alembert {
 

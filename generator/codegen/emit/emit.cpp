@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/emit.hpp"
+#include "codegen/emit/emit.hpp"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,13 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/abi.hpp"
-#include "emit/comment.hpp"
-#include "emit/elementary.hpp"
-#include "emit/head.hpp"
-#include "emit/layout.hpp"
-#include "emit/numbers.hpp"
-#include "emit/solver_functions.hpp"
-#include "emit/templates.hpp"
+#include "codegen/emit/comment.hpp"
+#include "codegen/emit/elementary.hpp"
+#include "codegen/emit/head.hpp"
+#include "codegen/emit/layout.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/solver_functions.hpp"
+#include "codegen/emit/templates.hpp"
 #include "program/processor.hpp"
 
 namespace alembert {

@@ -14,7 +14,7 @@
 
 #include <optional>
 
-#include "emit/statement.hpp"
+#include "codegen/emit/statement.hpp"
 #include "program/named_function.hpp"
 #include "program/processor.hpp"
 #include "program/program.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/function.hpp"
+#include "codegen/emit/function.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "emit/layout.hpp"
-#include "emit/parts.hpp"
-#include "emit/writer.hpp"
+#include "codegen/emit/layout.hpp"
+#include "codegen/emit/parts.hpp"
+#include "codegen/emit/writer.hpp"
 #include "program/processor.hpp"
 
 namespace alembert {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "emit/emit.hpp"
-#include "emit/statement.hpp"
-#include "emit/vocabulary.hpp"
+#include "codegen/emit/emit.hpp"
+#include "codegen/emit/statement.hpp"
+#include "codegen/emit/vocabulary.hpp"
 
 namespace alembert {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/head.hpp"
+#include "codegen/emit/head.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "emit/comment.hpp"
-#include "emit/layout.hpp"
-#include "emit/numbers.hpp"
-#include "emit/solver_functions.hpp"
+#include "codegen/emit/comment.hpp"
+#include "codegen/emit/layout.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/solver_functions.hpp"
 
 namespace alembert {
 

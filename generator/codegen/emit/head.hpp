@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "emit/emit.hpp"
-#include "emit/vocabulary.hpp"
+#include "codegen/emit/emit.hpp"
+#include "codegen/emit/vocabulary.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/layout.hpp"
+#include "codegen/emit/layout.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/names.hpp"
+#include "codegen/emit/names.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "emit/reserved_words.hpp"
+#include "codegen/emit/reserved_words.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/numbers.hpp"
+#include "codegen/emit/numbers.hpp"
 
 #include <cln/float.h>
 #include <cln/integer.h>
@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

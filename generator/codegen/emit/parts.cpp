@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/parts.hpp"
+#include "codegen/emit/parts.hpp"
 
 #include <fmt/format.h>
 

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/statement.hpp"
+#include "codegen/emit/statement.hpp"
 
 namespace alembert {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/projection_text.hpp"
+#include "codegen/emit/projection_text.hpp"
 
 #include <algorithm>
 #include <kainjow/mustache.hpp>
 
-#include "emit/names.hpp"
-#include "emit/solver_functions.hpp"
-#include "emit/templates.hpp"
+#include "codegen/emit/names.hpp"
+#include "codegen/emit/solver_functions.hpp"
+#include "codegen/emit/templates.hpp"
 
 namespace alembert {
 

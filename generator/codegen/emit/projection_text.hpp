@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "emit/statement.hpp"
+#include "codegen/emit/statement.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/register_order.hpp"
+#include "codegen/emit/register_order.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/reserved_words.hpp"
+#include "codegen/emit/reserved_words.hpp"
 
 #include <algorithm>
 #include <iterator>

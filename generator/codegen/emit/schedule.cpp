@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/schedule.hpp"
+#include "codegen/emit/schedule.hpp"
 
 #include <algorithm>
 #include <queue>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/scheduled_sum.hpp"
+#include "codegen/emit/scheduled_sum.hpp"
 
 #include <algorithm>
 #include <numeric>

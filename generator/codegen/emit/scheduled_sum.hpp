@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/expression.hpp"
+#include "codegen/emit/expression.hpp"
 
 namespace alembert {
 

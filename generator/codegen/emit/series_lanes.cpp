@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/series_lanes.hpp"
+#include "codegen/emit/series_lanes.hpp"
 
 #include <algorithm>
 #include <set>

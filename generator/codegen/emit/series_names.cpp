@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "emit/series_writer.hpp"
+#include "codegen/emit/series_writer.hpp"
 
 namespace alembert {
 

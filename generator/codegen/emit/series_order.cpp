@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <set>
 
-#include "emit/series_writer.hpp"
+#include "codegen/emit/series_writer.hpp"
 
 namespace alembert {
 

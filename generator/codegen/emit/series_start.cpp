@@ -6,8 +6,8 @@
 #include <set>
 
 #include "alembert/base/error.hpp"
-#include "emit/series_writer.hpp"
-#include "emit/writer.hpp"
+#include "codegen/emit/series_writer.hpp"
+#include "codegen/emit/writer.hpp"
 #include "program/solve.hpp"
 
 namespace alembert {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "emit/numbers.hpp"
-#include "emit/series_writer.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/series_writer.hpp"
 
 namespace alembert {
 

@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "emit/scheduled_sum.hpp"
-#include "emit/series_lanes.hpp"
+#include "codegen/emit/scheduled_sum.hpp"
+#include "codegen/emit/series_lanes.hpp"
 
 namespace alembert {
 

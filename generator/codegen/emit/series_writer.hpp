@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
-#include "emit/names.hpp"
-#include "emit/series_times.hpp"
-#include "emit/statement.hpp"
+#include "codegen/emit/names.hpp"
+#include "codegen/emit/series_times.hpp"
+#include "codegen/emit/statement.hpp"
 
 namespace alembert {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/solver_functions.hpp"
+#include "codegen/emit/solver_functions.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "emit/layout.hpp"
+#include "codegen/emit/layout.hpp"
 
 namespace alembert {
 

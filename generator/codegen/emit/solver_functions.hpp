@@ -4,7 +4,7 @@
 /// The functions of a solver (lib/alembert/native/abi.hpp): the values that each computes, and the titles of its
 /// sections.
 
-#include "emit/function.hpp"
+#include "codegen/emit/function.hpp"
 #include "program/named_function.hpp"
 
 namespace alembert {

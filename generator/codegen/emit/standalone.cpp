@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/standalone.hpp"
+#include "codegen/emit/standalone.hpp"
 
 #include <fmt/format.h>
 
 #include <kainjow/mustache.hpp>
 
 #include "alembert/base/argument.hpp"
-#include "emit/numbers.hpp"
-#include "emit/projection_text.hpp"
-#include "emit/solver_functions.hpp"
-#include "emit/templates.hpp"
-#include "emit/vocabulary.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/projection_text.hpp"
+#include "codegen/emit/solver_functions.hpp"
+#include "codegen/emit/templates.hpp"
+#include "codegen/emit/vocabulary.hpp"
 
 namespace alembert {
 

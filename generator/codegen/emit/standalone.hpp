@@ -8,7 +8,7 @@
 ///
 /// The template is templates/standalone.mustache.
 
-#include "emit/emit.hpp"
+#include "codegen/emit/emit.hpp"
 
 namespace alembert {
 

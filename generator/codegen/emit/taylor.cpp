@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/taylor.hpp"
+#include "codegen/emit/taylor.hpp"
 
 #include <fmt/format.h>
 
 #include <kainjow/mustache.hpp>
 
 #include "alembert/ode/series.hpp"
-#include "emit/elementary.hpp"
-#include "emit/numbers.hpp"
-#include "emit/series_writer.hpp"
-#include "emit/templates.hpp"
+#include "codegen/emit/elementary.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/series_writer.hpp"
+#include "codegen/emit/templates.hpp"
 
 namespace alembert {
 

@@ -15,7 +15,7 @@
 /// Throws ModelError for a program without accelerations (a singular system) and for functions without a power
 /// series.
 
-#include "emit/emit.hpp"
+#include "codegen/emit/emit.hpp"
 
 namespace alembert {
 

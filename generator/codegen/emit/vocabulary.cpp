@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/vocabulary.hpp"
+#include "codegen/emit/vocabulary.hpp"
 
 #include <fmt/format.h>
 

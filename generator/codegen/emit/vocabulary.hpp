@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/names.hpp"
+#include "codegen/emit/names.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

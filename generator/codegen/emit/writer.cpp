@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/writer.hpp"
+#include "codegen/emit/writer.hpp"
 
 #include <cln/float.h>
 #include <cln/real.h>
@@ -7,9 +7,9 @@
 
 #include <algorithm>
 
-#include "emit/numbers.hpp"
-#include "emit/register_order.hpp"
-#include "emit/schedule.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/register_order.hpp"
+#include "codegen/emit/schedule.hpp"
 #include "program/processor.hpp"
 
 namespace alembert {

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "emit/names.hpp"
-#include "emit/statement.hpp"
+#include "codegen/emit/names.hpp"
+#include "codegen/emit/statement.hpp"
 #include "program/program.hpp"
 #include "program/readiness.hpp"
 

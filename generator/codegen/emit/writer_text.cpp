@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "emit/expression.hpp"
-#include "emit/numbers.hpp"
-#include "emit/writer.hpp"
+#include "codegen/emit/expression.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/writer.hpp"
 
 namespace alembert {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "emit/writer.hpp"
+#include "codegen/emit/writer.hpp"
 #include "program/processor.hpp"
 
 namespace alembert {

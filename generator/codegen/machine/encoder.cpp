@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "machine/encoder.hpp"
+#include "codegen/machine/encoder.hpp"
 
 #include <bit>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "machine/lines.hpp"
+#include "codegen/machine/lines.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "alembert/batch/packs.hpp"
 #include "alembert/native/simd_math.hpp"
-#include "emit/schedule.hpp"
-#include "machine/pack_sines.hpp"
+#include "codegen/emit/schedule.hpp"
+#include "codegen/machine/pack_sines.hpp"
 #include "program/interpret.hpp"
 #include "program/processor.hpp"
 

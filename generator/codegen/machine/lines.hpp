@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-#include "emit/function.hpp"
+#include "codegen/emit/function.hpp"
 #include "program/readiness.hpp"
 
 namespace alembert::machine {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "machine/memory_series.hpp"
+#include "codegen/machine/memory_series.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "alembert/native/executable.hpp"
-#include "emit/names.hpp"
-#include "machine/registers.hpp"
-#include "machine/series_steps.hpp"
+#include "codegen/emit/names.hpp"
+#include "codegen/machine/registers.hpp"
+#include "codegen/machine/series_steps.hpp"
 
 namespace alembert {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "machine/memory_series_packs.hpp"
+#include "codegen/machine/memory_series_packs.hpp"
 
 #include <functional>
 #include <utility>
 
 #include "alembert/native/executable.hpp"
-#include "machine/registers.hpp"
-#include "machine/series_steps.hpp"
+#include "codegen/machine/registers.hpp"
+#include "codegen/machine/series_steps.hpp"
 
 namespace alembert {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "machine/memory_solver.hpp"
+#include "codegen/machine/memory_solver.hpp"
 
 #include "alembert/base/error.hpp"
 #include "alembert/batch/packs.hpp"
 #include "alembert/native/executable.hpp"
-#include "emit/solver_functions.hpp"
-#include "machine/registers.hpp"
+#include "codegen/emit/solver_functions.hpp"
+#include "codegen/machine/registers.hpp"
 
 namespace alembert {
 

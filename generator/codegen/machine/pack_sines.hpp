@@ -10,7 +10,7 @@
 
 #include <functional>
 
-#include "machine/lines.hpp"
+#include "codegen/machine/lines.hpp"
 
 namespace alembert::machine {
 

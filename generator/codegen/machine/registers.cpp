@@ -2,7 +2,7 @@
 // In straight-line code the next use of every value is known. When a register is needed, the value goes whose next
 // use lies furthest ahead, which takes the fewest loads (Belady, A study of replacement algorithms for a
 // virtual-storage computer, IBM Systems Journal 5, 1966). A value without a home is stored on the stack first.
-#include "machine/registers.hpp"
+#include "codegen/machine/registers.hpp"
 
 #include <algorithm>
 #include <bit>

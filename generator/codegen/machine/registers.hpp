@@ -10,8 +10,8 @@
 /// The function is called as System V's ABI for x86-64 says: t in xmm0, the arrays in rdi, rsi, rdx, rcx, r8, r9.
 /// With eight lanes, the first of these registers has the address of the times.
 
-#include "machine/encoder.hpp"
-#include "machine/lines.hpp"
+#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/lines.hpp"
 
 namespace alembert::machine {
 

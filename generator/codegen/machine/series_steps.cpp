@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "machine/series_steps.hpp"
+#include "codegen/machine/series_steps.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "alembert/base/error.hpp"
-#include "emit/series_lanes.hpp"
-#include "emit/series_times.hpp"
+#include "codegen/emit/series_lanes.hpp"
+#include "codegen/emit/series_times.hpp"
 #include "program/processor.hpp"
 #include "program/solve.hpp"
 

@@ -11,8 +11,8 @@
 /// the linear system, is computed once for all orders.
 
 #include "alembert/batch/pack_series.hpp"
-#include "emit/function.hpp"
-#include "emit/taylor.hpp"
+#include "codegen/emit/function.hpp"
+#include "codegen/emit/taylor.hpp"
 #include "program/recurrence.hpp"
 
 namespace alembert::machine {

@@ -4,11 +4,11 @@
 // components of ω. Terms of S without accelerations are left out, because their derivatives are zero. ∂S/∂u̇ is
 // linear in u̇:
 //   M = ∂²S/∂u̇²,   own = Q − ∂S/∂u̇ at u̇ = 0.
-#include "formalism/appell.hpp"
+#include "model/formalism/appell.hpp"
 
-#include "formalism/in_speeds.hpp"
-#include "formalism/newton_euler.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/in_speeds.hpp"
+#include "model/formalism/newton_euler.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {

@@ -10,7 +10,7 @@
 /// (kinematics.hpp). Nonholonomic constraints that the speeds eliminate need no multiplier; the other constraints
 /// enter with their multipliers.
 
-#include "formalism/steps.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

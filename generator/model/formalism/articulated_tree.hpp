@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "formalism/tree_recursions.hpp"
+#include "model/formalism/tree_recursions.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "formalism/ball_joint.hpp"
+#include "model/formalism/ball_joint.hpp"
 
 #include <algorithm>
 

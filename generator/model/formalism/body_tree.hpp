@@ -19,7 +19,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "formalism/spatial.hpp"
+#include "model/formalism/spatial.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // With s = sin x, c = cos x the ring consists of polynomials modulo s² + c² − 1. If c is reduced to its first
 // power, a numerator N₀ + N₁ c is divisible by s^k if and only if N₀ and N₁ are; the same with s and c exchanged.
-#include "formalism/cancel.hpp"
+#include "model/formalism/cancel.hpp"
 
-#include "formalism/elements.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

@@ -2,10 +2,10 @@
 // Σ (F − m a)·δr = 0  (Zhang & Qin (1-22), (1-44)),   δr = Σ ∂r/∂q_i δq_i.
 // A rigid body's points are r = r_C + Σ ρ_k e_k with its axes e_k; with J_kl = ∫ ρ_k ρ_l dm = ½ tr(I) δ_kl − I_kl
 //   Σ dm a·δr = m r̈_C·δr_C + Σ J_kl ë_k·δe_l.
-#include "formalism/dalembert.hpp"
+#include "model/formalism/dalembert.hpp"
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

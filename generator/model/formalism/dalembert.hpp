@@ -9,7 +9,7 @@
 /// A rigid body consists of its mass points, r_C + R ρ, so that no angular velocity is needed. (Torques use
 /// ∂ω/∂q', because only the rotation on which they do work is known.) Constraints enter with their multipliers.
 
-#include "formalism/steps.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

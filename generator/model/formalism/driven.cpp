@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A q' + b = 0, solved row by row: a row with one rate that is not known yet gives it.
-#include "formalism/driven.hpp"
+#include "model/formalism/driven.hpp"
 
-#include "formalism/elements.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

@@ -9,7 +9,7 @@
 ///
 /// Rates that are counted from these have zeros at rest: q' becomes q' + c.
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

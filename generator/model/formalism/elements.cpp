@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The force of a spring on its end P₂ is −k (1 − d₀/|d|) d, d = r₂ − r₁, and the opposite on P₁. Steiner (Zhang &
 // Qin, chapter 2): I_C = I_P − m (d·d E − d dᵀ), d from P to C along the body's axes.
-#include "formalism/elements.hpp"
+#include "model/formalism/elements.hpp"
 
 #include <fmt/format.h>
 
-#include "language/say.hpp"
+#include "algebra/notation/readable.hpp"
+#include "base/language/say.hpp"
 #include "model/geometry.hpp"
-#include "notation/readable.hpp"
 
 namespace alembert {
 

@@ -4,8 +4,8 @@
 /// What Kane's and d'Alembert's equations share: forces on points instead of V, inertia about the mass centre, and
 /// the obstacle of scenes whose energies are given without the bodies that have them.
 
-#include "formalism/equations.hpp"
-#include "formalism/obstacle.hpp"
+#include "model/formalism/equations.hpp"
+#include "model/formalism/obstacle.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

@@ -10,8 +10,8 @@
 /// To add a formalism, write its file and its row in formalisms.cpp; help, messages, `agree` and the tests follow
 /// from the row.
 
-#include "formalism/equations.hpp"
-#include "formalism/steps.hpp"
+#include "model/formalism/equations.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

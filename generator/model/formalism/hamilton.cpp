@@ -2,15 +2,15 @@
 // q̇ = ∂H/∂p,   ṗ = −∂H/∂q + Q,   H(q,p,t) = Σ p q̇ − L  (Goldstein, Classical Mechanics (1980), chapter 8).
 // L = ½ q̇ᵀ M q̇ + bᵀ q̇ + L₀ gives  p = M q̇ + b,   H = ½ (p − b)ᵀ M⁻¹ (p − b) − L₀.
 // Elimination of p: M q̈ = −∂H/∂q |_{p = ∂L/∂q̇} + Q − (∂p/∂q) q̇ − ∂p/∂t.
-#include "formalism/hamilton.hpp"
+#include "model/formalism/hamilton.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "algebra/notation/fractions.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
-#include "notation/fractions.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

@@ -9,8 +9,8 @@
 /// `hamilton` eliminates the momenta again by p = ∂L/∂q', so that its result can be compared with the other
 /// formalisms.
 
-#include "formalism/obstacle.hpp"
-#include "formalism/steps.hpp"
+#include "model/formalism/obstacle.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "formalism/in_speeds.hpp"
+#include "model/formalism/in_speeds.hpp"
 
-#include "formalism/cancel.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/cancel.hpp"
 
 namespace alembert {
 

@@ -7,8 +7,8 @@
 ///     const InSpeeds motion(mechanism, kinematics(mechanism).value());
 ///     const std::vector<ex> a = motion.derivative(motion.short_in_speeds(velocities));    // with u' in it
 
-#include "formalism/elements.hpp"
-#include "formalism/kinematics.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/kinematics.hpp"
 
 namespace alembert {
 

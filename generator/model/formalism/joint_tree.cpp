@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "formalism/joint_tree.hpp"
+#include "model/formalism/joint_tree.hpp"
 
 #include <fmt/format.h>
 
@@ -7,13 +7,13 @@
 #include <limits>
 #include <map>
 
-#include "formalism/ball_joint.hpp"
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/ball_joint.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/links.hpp"
 #include "model/parameter_values.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

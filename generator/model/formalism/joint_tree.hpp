@@ -17,11 +17,11 @@
 
 #include <functional>
 
-#include "formalism/ball_joint.hpp"
-#include "formalism/body_tree.hpp"
-#include "formalism/link_axes.hpp"
-#include "formalism/named.hpp"
-#include "formalism/obstacle.hpp"
+#include "model/formalism/ball_joint.hpp"
+#include "model/formalism/body_tree.hpp"
+#include "model/formalism/link_axes.hpp"
+#include "model/formalism/named.hpp"
+#include "model/formalism/obstacle.hpp"
 #include "model/mechanism.hpp"
 
 namespace alembert {

@@ -4,11 +4,11 @@
 // (Zhang & Qin, §1.8; Kane & Levinson, Dynamics (1985), chapters 4 and 6). With a = Σ ∂v/∂u_s u̇_s + a₀, α
 // likewise:
 //   M_rs = Σ m ∂v/∂u_r·∂v/∂u_s + ∂ω/∂u_r·I ∂ω/∂u_s,   f_r = F_r − Σ m a₀·∂v/∂u_r + (I α₀ + ω × I ω)·∂ω/∂u_r.
-#include "formalism/kane.hpp"
+#include "model/formalism/kane.hpp"
 
-#include "formalism/in_speeds.hpp"
-#include "formalism/newton_euler.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/in_speeds.hpp"
+#include "model/formalism/newton_euler.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {

@@ -10,7 +10,7 @@
 /// that the speeds satisfy by themselves are eliminated: there are no partial velocities that violate them, and
 /// their multipliers do not appear. The others enter with their multipliers.
 
-#include "formalism/steps.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

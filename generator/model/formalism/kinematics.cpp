@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // [W; A] q̇ = (u − w, −b) (Kane & Levinson, Dynamics (1985), §2.12 and §2.13), where A are the rows of the
 // constraints that u eliminates. x_c = Σ_r (−1)^(r+c) minor_rc right_r / det (Cramer's rule).
-#include "formalism/kinematics.hpp"
+#include "model/formalism/kinematics.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@
 #include <map>
 #include <tuple>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/parameter_values.hpp"
-#include "symbolic/fourier.hpp"
 
 namespace alembert {
 

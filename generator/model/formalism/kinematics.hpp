@@ -14,8 +14,8 @@
 
 #include <vector>
 
-#include "formalism/equations.hpp"
-#include "formalism/obstacle.hpp"
+#include "model/formalism/equations.hpp"
+#include "model/formalism/obstacle.hpp"
 
 namespace alembert {
 

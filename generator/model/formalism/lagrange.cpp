@@ -2,10 +2,10 @@
 // d/dt ∂L/∂q̇ − ∂L/∂q = Q  (Zhang & Qin (1-45), (1-54)). With p = ∂L/∂q̇:
 //   M = ∂p/∂q̇,   f = Q + ∂L/∂q − (∂p/∂q) q̇ − ∂p/∂t.
 // ∂L/∂(q, q̇) comes from one reverse pass, each column of M and the bracket from one forward pass.
-#include "formalism/lagrange.hpp"
+#include "model/formalism/lagrange.hpp"
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

@@ -5,7 +5,7 @@
 ///
 ///     const Equations equations = lagrange(build(scene));
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

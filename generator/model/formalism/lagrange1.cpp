@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // m r̈ = F + Σ λ ∂f/∂r (Zhang & Qin (1-82)): M is diagonal, and only the forces depend on the rates.
-#include "formalism/lagrange1.hpp"
+#include "model/formalism/lagrange1.hpp"
 
 #include <fmt/format.h>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

@@ -8,7 +8,7 @@
 /// Newton's law for each component of each particle; neither T nor V is used. ([energy] potential, whose forces
 /// are not known, enters as −∂V/∂x.)
 
-#include "formalism/steps.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

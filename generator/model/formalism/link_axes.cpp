@@ -2,7 +2,7 @@
 // What can be read off a tree of joints without its values.
 #include <algorithm>
 
-#include "formalism/joint_tree.hpp"
+#include "model/formalism/joint_tree.hpp"
 
 namespace alembert {
 

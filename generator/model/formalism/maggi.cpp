@@ -2,11 +2,11 @@
 // Bᵀ E = Bᵀ Aᵀ λ, E = d/dt ∂L/∂q̇ − ∂L/∂q − Q, B = ∂q̇/∂u (Neimark & Fufaev, Dynamics of Nonholonomic Systems
 // (1972)). A B = 0 for the constraints that the speeds eliminate. With E = M_L q̈ − f_L and q̈ = B u̇ + c:
 //   M = Bᵀ M_L B,   f = Bᵀ (f_L − M_L c),   q̇ = h in both.
-#include "formalism/maggi.hpp"
+#include "model/formalism/maggi.hpp"
 
-#include "formalism/in_speeds.hpp"
-#include "formalism/lagrange.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/in_speeds.hpp"
+#include "model/formalism/lagrange.hpp"
 
 namespace alembert {
 

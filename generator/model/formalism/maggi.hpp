@@ -11,7 +11,7 @@
 /// the scene, or the rates that remain (kinematics.hpp); holonomic constraints that they do not eliminate enter
 /// with their multipliers.
 
-#include "formalism/steps.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

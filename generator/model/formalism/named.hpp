@@ -4,7 +4,7 @@
 /// An expression as a scalar type. Every result gets an intermediate symbol, so that no expression grows beyond a
 /// line.
 
-#include "symbolic/intermediates.hpp"
+#include "algebra/symbolic/intermediates.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // M = J̄ᵀ M̄ J̄,   f = J̄ᵀ (q̄ᵉ − k̄)  (Schiehlen, Technische Dynamik (1986), chapter 4), body by body:
 //   M_rs = Σ m J_Tr·J_Ts + J_Rr·I J_Rs,   f_r = Σ J_Tr·(m g − m ā) − J_Rr·(I ᾱ + ω × I ω) + Σ ∂x/∂q_r F.
-#include "formalism/newton_euler.hpp"
+#include "model/formalism/newton_euler.hpp"
 
-#include "formalism/elements.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {

@@ -13,7 +13,7 @@
 ///     M = J̄ᵀ M̄ J̄,   f = J̄ᵀ (q̄ᵉ − k̄)
 /// (Schiehlen, Technische Dynamik (1986), chapter 4; Multibody System Dynamics 1 (1997) 149, §2).
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // ∂L̇/∂q̇ − 2 ∂L/∂q = M q̈ − own: M is ∂/∂q̈ of the left-hand side, and own is its negative at q̈ = 0.
-#include "formalism/nielsen.hpp"
+#include "model/formalism/nielsen.hpp"
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 

@@ -10,7 +10,7 @@
 /// with their multipliers. (J. Nielsen, Vorlesungen über elementare Mechanik (1935); it follows from d/dt ∂L/∂q̇ =
 /// ∂L̇/∂q̇ − ∂L/∂q.)
 
-#include "formalism/steps.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

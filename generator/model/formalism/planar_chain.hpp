@@ -18,7 +18,7 @@
 /// (For tridiagonal matrices this is the twisted factorization: Meurant, SIAM J. Matrix Anal. Appl. 13 (1992) 707,
 /// section 2.) J and D are positive because M is definite.
 
-#include "formalism/body_tree.hpp"
+#include "model/formalism/body_tree.hpp"
 
 namespace alembert {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // With w = S q' + w₀: M = Sᵀ M_w S, f = Q − Sᵀ n, where n are the loads that the joints must apply at q'' = 0. For
 // the three rates of a ball joint, S is J of its quaternion (ball_joint.hpp).
-#include "formalism/recursive.hpp"
+#include "model/formalism/recursive.hpp"
 
-#include "formalism/elements.hpp"
-#include "formalism/joint_tree.hpp"
-#include "formalism/tree_recursions.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "model/formalism/tree_recursions.hpp"
 
 namespace alembert {
 

@@ -7,8 +7,8 @@
 /// `Equations::tree` is set, so that lowering can compute the same accelerations by articulated bodies, or along
 /// axes that do not turn. Constraints, including those of closed loops, have multipliers as in Routh's equations.
 
-#include "formalism/equations.hpp"
-#include "formalism/joint_tree.hpp"
+#include "model/formalism/equations.hpp"
+#include "model/formalism/joint_tree.hpp"
 
 namespace alembert {
 

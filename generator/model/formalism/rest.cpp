@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The condition of rest: Σ F·δr = 0 with the inertia forces of the prescribed motion (Zhang & Qin, equation (20)
 // of example 1-1), written as a product. A factor a cos x + b or a sin x + b gives its roots.
-#include "formalism/rest.hpp"
+#include "model/formalism/rest.hpp"
 
 #include <algorithm>
 #include <tuple>
 
-#include "formalism/dalembert.hpp"
-#include "language/say.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
-#include "symbolic/bounded_factor.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/bounded_factor.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/dalembert.hpp"
 
 namespace alembert {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "formalism/equations.hpp"
-#include "notation/phrase.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/notation/phrase.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

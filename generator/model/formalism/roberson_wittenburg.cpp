@@ -9,14 +9,14 @@
 //   a_o = a_P + α_o × ρ + ω_o × ρ'
 // if the arc points outwards. If it points to the ground, −σ is given along axes fixed in the outer body and is
 // added beyond the pivot.
-#include "formalism/roberson_wittenburg.hpp"
+#include "model/formalism/roberson_wittenburg.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {

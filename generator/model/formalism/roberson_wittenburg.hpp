@@ -11,8 +11,8 @@
 /// and enter by their constraints. A body that no joint places, or a particle, is connected with the ground by an
 /// arc of its own, whose motion follows from its position and frame. The speeds are the rates.
 
-#include "formalism/newton_euler.hpp"
-#include "formalism/steps.hpp"
+#include "model/formalism/newton_euler.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // d/dt ∂L/∂q̇ − ∂L/∂q = Q + Aᵀλ,   A q̇ + b = 0  (Zhang & Qin (1-76)). For a holonomic constraint f(q,t) = 0 the row
 // is ∂f/∂q and b = ∂f/∂t; differentiated once more, A q̈ = γ with γ = −Ȧ q̇ − ḃ.
-#include "formalism/routh.hpp"
+#include "model/formalism/routh.hpp"
 
-#include "formalism/elements.hpp"
-#include "formalism/lagrange.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/lagrange.hpp"
 
 namespace alembert {
 

@@ -6,7 +6,7 @@
 ///     const Equations equations = routh(build(scene));
 ///     equations.A, equations.gamma, equations.lambda
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

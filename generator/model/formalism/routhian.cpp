@@ -2,13 +2,13 @@
 // R(q_e, q̇_e, p_c, t) = L − Σ p_c q̇_c, d/dt ∂R/∂q̇_e − ∂R/∂q_e = Q_e, ṗ_c = 0 (Goldstein, Classical Mechanics
 // (1980), chapter 8). q̇_c = M_cc⁻¹ (p_c − p_c|_{q̇_c = 0}). For comparison with other formalisms the rows are
 // combined again: row e + M_ec M_cc⁻¹ row c has the matrix M of all coordinates.
-#include "formalism/routhian.hpp"
+#include "model/formalism/routhian.hpp"
 
-#include "formalism/elements.hpp"
-#include "formalism/hamilton.hpp"
-#include "language/say.hpp"
+#include "algebra/notation/fractions.hpp"
+#include "base/language/say.hpp"
 #include "model/energy.hpp"
-#include "notation/fractions.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/hamilton.hpp"
 
 namespace alembert {
 

@@ -6,8 +6,8 @@
 ///     const Reduction r = reduction(mechanism).value();   // r.cyclic = {1}: theta; r.R in the others and p_theta
 ///     const Equations equations = routhian(mechanism);
 
-#include "formalism/obstacle.hpp"
-#include "formalism/steps.hpp"
+#include "model/formalism/obstacle.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

@@ -5,10 +5,10 @@
 // ω = 0), and
 //   J_T = ∂r/∂q,   v = J_T q' + ∂r/∂t,   ā = dv/dt at q'' = 0
 // (Schiehlen, Technische Dynamik (1986), §2.3 and §4.1).
-#include "formalism/schiehlen.hpp"
+#include "model/formalism/schiehlen.hpp"
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/geometry.hpp"
 
 namespace alembert {

@@ -9,10 +9,10 @@
 /// This is an independent route: the Jacobians come from positions r(q,t) and rotation matrices S(q,t) only, J_T =
 /// ∂r/∂q and J_R from the skew matrix Sᵀ ∂S/∂q. Neither T nor the angular velocities of the kinematics are used.
 /// The speeds are the rates, whatever [speeds] the scene has. For the reactions of joints see
-/// reaction/joint_reactions.hpp.
+/// analysis/reaction/joint_reactions.hpp.
 
-#include "formalism/newton_euler.hpp"
-#include "formalism/steps.hpp"
+#include "model/formalism/newton_euler.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

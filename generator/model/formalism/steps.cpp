@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "formalism/steps.hpp"
+#include "model/formalism/steps.hpp"
 
-#include "notation/fractions.hpp"
+#include "algebra/notation/fractions.hpp"
 
 namespace alembert {
 

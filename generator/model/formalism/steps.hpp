@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "formalism/equations.hpp"
-#include "notation/readable.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

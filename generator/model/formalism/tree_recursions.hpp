@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "formalism/body_tree.hpp"
+#include "model/formalism/body_tree.hpp"
 
 namespace alembert {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "figure/parts.hpp"
+#include "present/figure/parts.hpp"
 
 namespace alembert {
 

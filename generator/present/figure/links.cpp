@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "figure/parts.hpp"
+#include "present/figure/parts.hpp"
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "figure/parts.hpp"
+#include "present/figure/parts.hpp"
 
 namespace alembert {
 

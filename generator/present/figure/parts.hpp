@@ -4,7 +4,7 @@
 /// The parts of a figure; each function adds one of them to the sketch. Only draw.cpp uses these functions, in
 /// this order, because later parts depend on the elements of earlier ones.
 
-#include "figure/sketch.hpp"
+#include "present/figure/sketch.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "figure/sketch.hpp"
+#include "present/figure/sketch.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "lower/lower.hpp"
-#include "state/assemble.hpp"
+#include "analysis/state/assemble.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

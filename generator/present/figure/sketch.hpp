@@ -10,9 +10,9 @@
 #include <functional>
 #include <optional>
 
-#include "figure/drawing.hpp"
-#include "lower/start.hpp"
 #include "model/formulas.hpp"
+#include "present/figure/drawing.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

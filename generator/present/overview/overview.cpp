@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "overview/overview.hpp"
+#include "present/overview/overview.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "run/section.hpp"
-#include "state/assemble.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
+#include "simulate/section.hpp"
 
 namespace alembert {
 

@@ -12,16 +12,16 @@
 
 #include <optional>
 
-#include "agree/agree.hpp"
-#include "audit/audit.hpp"
+#include "analysis/agree/agree.hpp"
+#include "analysis/audit/audit.hpp"
+#include "analysis/contact/impact.hpp"
+#include "analysis/derive/derive.hpp"
 #include "check/check.hpp"
-#include "contact/impact.hpp"
-#include "derive/derive.hpp"
-#include "equilibrium/equilibria.hpp"
-#include "figure/drawing.hpp"
-#include "run/bench.hpp"
-#include "run/emission.hpp"
-#include "run/simulate.hpp"
+#include "present/figure/drawing.hpp"
+#include "simulate/bench.hpp"
+#include "simulate/emission.hpp"
+#include "simulate/simulate.hpp"
+#include "stability/equilibrium/equilibria.hpp"
 #include "stability/stability.hpp"
 
 namespace alembert {
@@ -39,7 +39,7 @@ struct OverviewOptions {
     RunOptions wishes{.budget = 3'000'000};
     bool moves = true;         ///< whether the scene is simulated
     std::string section = {};  ///< of Poincaré: "a = b", expressions of the state
-    bool measures = false;     ///< whether every method is measured (run/bench.hpp)
+    bool measures = false;     ///< whether every method is measured (simulate/bench.hpp)
 };
 
 /// A motion with further values for its rows: poses of the figure, energies, residuals of the constraints.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/agree.hpp"
+#include "present/report/agree.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "agree/agree.hpp"
-#include "report/ink.hpp"
-#include "report/json.hpp"
+#include "analysis/agree/agree.hpp"
+#include "present/report/ink.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/audit.hpp"
+#include "present/report/audit.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "language/say.hpp"
-#include "notation/text.hpp"
-#include "report/page.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "audit/audit.hpp"
-#include "report/json.hpp"
+#include "analysis/audit/audit.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

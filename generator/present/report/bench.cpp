@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/bench.hpp"
+#include "present/report/bench.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <span>
 
-#include "language/say.hpp"
-#include "report/page.hpp"
-#include "report/work_precision.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
+#include "present/report/work_precision.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "report/json.hpp"
-#include "run/bench.hpp"
+#include "present/report/json.hpp"
+#include "simulate/bench.hpp"
 
 namespace alembert {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "language/say.hpp"
-#include "report/branches.hpp"
-#include "report/page.hpp"
+#include "base/language/say.hpp"
+#include "present/report/branches.hpp"
+#include "present/report/page.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {

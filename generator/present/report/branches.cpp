@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/branches.hpp"
+#include "present/report/branches.hpp"
 
-#include "language/say.hpp"
-#include "report/equilibria.hpp"
-#include "report/page.hpp"
-#include "report/shown_unit.hpp"
+#include "base/language/say.hpp"
+#include "present/report/equilibria.hpp"
+#include "present/report/page.hpp"
+#include "present/report/shown_unit.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/check.hpp"
+#include "present/report/check.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/claim_mode.hpp"
 
 namespace alembert {

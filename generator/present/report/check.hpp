@@ -3,8 +3,8 @@
 
 #include "check/check.hpp"
 #include "check/slip_words.hpp"
-#include "report/ink.hpp"
-#include "report/json.hpp"
+#include "present/report/ink.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

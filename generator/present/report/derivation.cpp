@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/derivation.hpp"
+#include "present/report/derivation.hpp"
 
 #include <fmt/ranges.h>
 
-#include "language/say.hpp"
-#include "notation/latex.hpp"
-#include "notation/text.hpp"
-#include "report/formula_page.hpp"
+#include "algebra/notation/latex.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
+#include "present/report/formula_page.hpp"
 #include "scene/concluded_dimensions.hpp"
 
 namespace alembert {

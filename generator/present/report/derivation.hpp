@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "derive/derive.hpp"
-#include "report/formula_page.hpp"
-#include "report/json.hpp"
+#include "analysis/derive/derive.hpp"
+#include "present/report/formula_page.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

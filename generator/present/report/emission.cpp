@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/emission.hpp"
+#include "present/report/emission.hpp"
 
 #include <fmt/ranges.h>
 
-#include "emit/layout.hpp"
-#include "formalism/joint_tree.hpp"
-#include "language/say.hpp"
-#include "report/page.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/layout.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

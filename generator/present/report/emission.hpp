@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "report/json.hpp"
-#include "run/emission.hpp"
+#include "present/report/json.hpp"
+#include "simulate/emission.hpp"
 
 namespace alembert {
 

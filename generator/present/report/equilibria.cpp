@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/equilibria.hpp"
+#include "present/report/equilibria.hpp"
 
-#include "language/say.hpp"
-#include "report/page.hpp"
-#include "report/shown_unit.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 

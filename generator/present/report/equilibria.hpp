@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "equilibrium/equilibria.hpp"
-#include "report/json.hpp"
+#include "present/report/json.hpp"
+#include "stability/equilibrium/equilibria.hpp"
 
 namespace alembert {
 

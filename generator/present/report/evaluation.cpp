@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/evaluation.hpp"
+#include "present/report/evaluation.hpp"
 
 #include <algorithm>
 
-#include "language/say.hpp"
-#include "report/page.hpp"
-#include "report/shown_unit.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "report/json.hpp"
-#include "run/evaluate.hpp"
+#include "present/report/json.hpp"
+#include "simulate/evaluate.hpp"
 
 namespace alembert {
 

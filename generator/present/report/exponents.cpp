@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
-#include "language/say.hpp"
-#include "report/page.hpp"
-#include "report/stability_charts.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
+#include "present/report/stability_charts.hpp"
 
 namespace alembert {
 

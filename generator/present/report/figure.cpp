@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/figure.hpp"
+#include "present/report/figure.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "report/figure_shapes.hpp"
-#include "state/assemble.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "present/report/figure_shapes.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

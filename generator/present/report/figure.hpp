@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "figure/drawing.hpp"
+#include "present/figure/drawing.hpp"
 
 namespace alembert {
 

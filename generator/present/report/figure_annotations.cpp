@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/figure_annotations.hpp"
+#include "present/report/figure_annotations.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 /// The strokes of what a figure tells of a mechanism: forces, torques, gravity, axes, angles and dimensions.
 
-#include "report/stroke_board.hpp"
+#include "present/report/stroke_board.hpp"
 
 namespace alembert {
 

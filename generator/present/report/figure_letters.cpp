@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "report/figure_screen.hpp"
+#include "present/report/figure_screen.hpp"
 
 namespace alembert {
 

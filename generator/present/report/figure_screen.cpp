@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/figure_screen.hpp"
+#include "present/report/figure_screen.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -10,7 +10,7 @@
 
 #include <utility>
 
-#include "report/figure_shapes.hpp"
+#include "present/report/figure_shapes.hpp"
 
 namespace alembert {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/figure_shapes.hpp"
+#include "present/report/figure_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "report/figure_annotations.hpp"
-#include "report/figure_screen.hpp"
-#include "report/figure_supports.hpp"
+#include "present/report/figure_annotations.hpp"
+#include "present/report/figure_screen.hpp"
+#include "present/report/figure_supports.hpp"
 
 namespace alembert {
 

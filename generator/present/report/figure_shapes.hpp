@@ -10,8 +10,8 @@
 /// its poses: in this program for a picture, and in the page's script, which does the same arithmetic, for the
 /// animation.
 
-#include "report/figure_view.hpp"
-#include "report/json.hpp"
+#include "present/report/figure_view.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/figure_supports.hpp"
+#include "present/report/figure_supports.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 /// The strokes of what stands still: supports, guides, floors and walls, with their hatching.
 
-#include "report/stroke_board.hpp"
+#include "present/report/stroke_board.hpp"
 
 namespace alembert {
 

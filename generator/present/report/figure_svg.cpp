@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "notation/lettering.hpp"
-#include "report/figure_screen.hpp"
-#include "report/letters.hpp"
-#include "report/page.hpp"
-#include "report/plot.hpp"
+#include "algebra/notation/lettering.hpp"
+#include "present/report/figure_screen.hpp"
+#include "present/report/letters.hpp"
+#include "present/report/page.hpp"
+#include "present/report/plot.hpp"
 
 namespace alembert {
 

@@ -9,7 +9,7 @@
 /// A plane mechanism is seen along the normal of its plane, with gravity downwards; a mechanism in space is seen
 /// obliquely from above.
 
-#include "figure/drawing.hpp"
+#include "present/figure/drawing.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/fmu.hpp"
+#include "present/report/fmu.hpp"
 
-#include "language/say.hpp"
-#include "report/page.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

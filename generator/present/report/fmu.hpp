@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "fmu/unit.hpp"
-#include "report/json.hpp"
+#include "present/report/json.hpp"
+#include "simulate/fmu/unit.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/formula_page.hpp"
+#include "present/report/formula_page.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 
 #include <cctype>
 
-#include "language/say.hpp"
-#include "notation/latex.hpp"
-#include "notation/mathml.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/latex.hpp"
+#include "algebra/notation/mathml.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

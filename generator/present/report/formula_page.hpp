@@ -6,7 +6,7 @@
 ///     const Notation n = notation_of("latex");
 ///     n.page({{"Kinetic energy:", {{n.left(statement), n.phrase(statement.value)}}}});
 
-#include "formalism/steps.hpp"
+#include "model/formalism/steps.hpp"
 
 namespace alembert {
 

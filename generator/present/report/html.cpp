@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/html.hpp"
+#include "present/report/html.hpp"
 
-#include "notation/lettering.hpp"
-#include "report/formula_page.hpp"
-#include "report/letters.hpp"
+#include "algebra/notation/lettering.hpp"
+#include "present/report/formula_page.hpp"
+#include "present/report/letters.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "notation/phrase.hpp"
-#include "report/json.hpp"
+#include "algebra/notation/phrase.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "report/json.hpp"
-#include "rigid/identify.hpp"
+#include "analysis/rigid/identify.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/impact.hpp"
+#include "present/report/impact.hpp"
 
-#include "language/say.hpp"
-#include "notation/latex.hpp"
-#include "notation/text.hpp"
-#include "report/page.hpp"
-#include "report/shown_unit.hpp"
+#include "algebra/notation/latex.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 

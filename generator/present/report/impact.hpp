@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/impact.hpp"
-#include "report/json.hpp"
+#include "analysis/contact/impact.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

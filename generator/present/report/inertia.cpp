@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/inertia.hpp"
+#include "present/report/inertia.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "language/say.hpp"
-#include "report/page.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "report/json.hpp"
-#include "rigid/inertia.hpp"
+#include "analysis/rigid/inertia.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/inverse.hpp"
+#include "present/report/inverse.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "language/say.hpp"
-#include "report/page.hpp"
-#include "report/shown_unit.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 

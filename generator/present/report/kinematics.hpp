@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "kinematics/kinematics.hpp"
-#include "report/json.hpp"
+#include "present/report/json.hpp"
+#include "simulate/kinematics/kinematics.hpp"
 
 namespace alembert {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "notation/text.hpp"
-#include "report/kinematics.hpp"
+#include "algebra/notation/text.hpp"
+#include "present/report/kinematics.hpp"
 
 #include <cmath>
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "language/say.hpp"
-#include "notation/text.hpp"
-#include "report/formula_page.hpp"
-#include "report/kinematics.hpp"
-#include "report/page.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
+#include "present/report/formula_page.hpp"
+#include "present/report/kinematics.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/letters.hpp"
+#include "present/report/letters.hpp"
 
 #include <cctype>
 
-#include "notation/lettering.hpp"
+#include "algebra/notation/lettering.hpp"
 
 namespace alembert {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "linear/about.hpp"
-#include "report/json.hpp"
+#include "present/report/json.hpp"
+#include "stability/linear/about.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/modes.hpp"
+#include "present/report/modes.hpp"
 
 #include <cmath>
 
-#include "language/say.hpp"
-#include "report/page.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

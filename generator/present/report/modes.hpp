@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "linear/modes.hpp"
-#include "report/json.hpp"
+#include "present/report/json.hpp"
+#include "stability/linear/modes.hpp"
 
 namespace alembert {
 

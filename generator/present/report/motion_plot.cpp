@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/motion_plot.hpp"
+#include "present/report/motion_plot.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "language/say.hpp"
-#include "report/plot_panels.hpp"
-#include "report/shown_unit.hpp"
+#include "base/language/say.hpp"
+#include "present/report/plot_panels.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "run/simulate.hpp"
+#include "simulate/simulate.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

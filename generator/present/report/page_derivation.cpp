@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The derivation, the claims, the agreement of formalisms, the constraints.
-#include "language/say.hpp"
-#include "notation/latex.hpp"
-#include "notation/text.hpp"
-#include "report/agree.hpp"
-#include "report/audit.hpp"
-#include "report/check.hpp"
-#include "report/derivation.hpp"
-#include "report/page_parts.hpp"
+#include "algebra/notation/latex.hpp"
+#include "algebra/notation/text.hpp"
+#include "base/language/say.hpp"
+#include "present/report/agree.hpp"
+#include "present/report/audit.hpp"
+#include "present/report/check.hpp"
+#include "present/report/derivation.hpp"
+#include "present/report/page_parts.hpp"
 
 namespace alembert {
 

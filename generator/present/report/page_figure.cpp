@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "language/say.hpp"
-#include "report/figure.hpp"
-#include "report/figure_shapes.hpp"
-#include "report/page_parts.hpp"
-#include "report/shown_unit.hpp"
+#include "base/language/say.hpp"
+#include "present/report/figure.hpp"
+#include "present/report/figure_shapes.hpp"
+#include "present/report/page_parts.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 
-#include "language/say.hpp"
-#include "report/page_parts.hpp"
-#include "report/page_plot.hpp"
-#include "report/run.hpp"
-#include "report/shown_unit.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page_parts.hpp"
+#include "present/report/page_plot.hpp"
+#include "present/report/run.hpp"
+#include "present/report/shown_unit.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {

@@ -3,9 +3,9 @@
 
 /// The sections of a scene's page. Each adds its markup to the page, and the data that the script needs.
 
-#include "overview/overview.hpp"
-#include "report/html.hpp"
-#include "report/page.hpp"
+#include "present/overview/overview.hpp"
+#include "present/report/html.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/page_plot.hpp"
+#include "present/report/page_plot.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "language/say.hpp"
-#include "report/figure_shapes.hpp"
-#include "report/html.hpp"
-#include "report/page.hpp"
+#include "base/language/say.hpp"
+#include "present/report/figure_shapes.hpp"
+#include "present/report/html.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

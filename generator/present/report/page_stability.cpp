@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "language/say.hpp"
-#include "report/bench.hpp"
-#include "report/page_parts.hpp"
-#include "report/page_plot.hpp"
+#include "base/language/say.hpp"
+#include "present/report/bench.hpp"
+#include "present/report/page_parts.hpp"
+#include "present/report/page_plot.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/plot.hpp"
+#include "present/report/plot.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "notation/lettering.hpp"
+#include "algebra/notation/lettering.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/plot_scale.hpp"
+#include "present/report/plot_scale.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/plot_panels.hpp"
+#include "present/report/plot_panels.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 
 namespace alembert {
 

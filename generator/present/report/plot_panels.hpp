@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "report/plot.hpp"
+#include "present/report/plot.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/plot_scale.hpp"
+#include "present/report/plot_scale.hpp"
 
 #include <fmt/format.h>
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "language/say.hpp"
-#include "report/page.hpp"
-#include "report/plot.hpp"
-#include "report/stability_charts.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page.hpp"
+#include "present/report/plot.hpp"
+#include "present/report/stability_charts.hpp"
 
 namespace alembert {
 

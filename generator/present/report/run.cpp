@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/run.hpp"
+#include "present/report/run.hpp"
 
 #include <algorithm>
 
-#include "emit/layout.hpp"
-#include "language/say.hpp"
-#include "report/page.hpp"
-#include "report/shown_unit.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/layout.hpp"
+#include "present/report/page.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "report/ink.hpp"
-#include "report/json.hpp"
-#include "run/simulate.hpp"
+#include "present/report/ink.hpp"
+#include "present/report/json.hpp"
+#include "simulate/simulate.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/scene_page.hpp"
+#include "present/report/scene_page.hpp"
 
-#include "language/say.hpp"
-#include "report/page_files.hpp"
-#include "report/page_parts.hpp"
-#include "report/sha256.hpp"
+#include "base/language/say.hpp"
+#include "present/report/page_files.hpp"
+#include "present/report/page_parts.hpp"
+#include "present/report/sha256.hpp"
 
 namespace alembert {
 

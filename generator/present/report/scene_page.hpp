@@ -8,7 +8,7 @@
 /// Nothing in the scene can become markup or script there: all its text is escaped (html.hpp), and the page's
 /// Content-Security-Policy names its own script and style by their hashes and allows nothing else.
 
-#include "overview/overview.hpp"
+#include "present/overview/overview.hpp"
 
 namespace alembert {
 

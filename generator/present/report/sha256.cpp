@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/sha256.hpp"
+#include "present/report/sha256.hpp"
 
 #include <array>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/shown_unit.hpp"
+#include "present/report/shown_unit.hpp"
 
 namespace alembert {
 

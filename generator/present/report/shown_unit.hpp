@@ -9,7 +9,7 @@
 #include <string>
 
 #include "model/mechanism.hpp"
-#include "report/json.hpp"
+#include "present/report/json.hpp"
 
 namespace alembert {
 

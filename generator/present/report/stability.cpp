@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/stability.hpp"
+#include "present/report/stability.hpp"
 
 #include <cmath>
 
-#include "language/say.hpp"
-#include "report/linearization.hpp"
-#include "report/modes.hpp"
-#include "report/page.hpp"
+#include "base/language/say.hpp"
+#include "present/report/linearization.hpp"
+#include "present/report/modes.hpp"
+#include "present/report/page.hpp"
 
 namespace alembert {
 

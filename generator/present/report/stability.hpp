@@ -3,7 +3,7 @@
 
 /// A verdict of stability as text and as JSON.
 
-#include "report/json.hpp"
+#include "present/report/json.hpp"
 #include "stability/stability.hpp"
 
 namespace alembert {

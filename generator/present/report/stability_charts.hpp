@@ -3,7 +3,7 @@
 
 /// Views of stability over parameters (stability/chart.hpp, stability/locus.hpp) and of Lyapunov exponents.
 
-#include "report/json.hpp"
+#include "present/report/json.hpp"
 #include "stability/exponents.hpp"
 #include "stability/locus.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/stroke_board.hpp"
+#include "present/report/stroke_board.hpp"
 
 #include <algorithm>
 #include <cmath>

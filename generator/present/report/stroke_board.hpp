@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/figure_shapes.hpp"
+#include "present/report/figure_shapes.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "report/json.hpp"
-#include "run/sweep.hpp"
-#include "run/sweep_reduction.hpp"
+#include "present/report/json.hpp"
+#include "simulate/sweep.hpp"
+#include "simulate/sweep_reduction.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/sweep_plot.hpp"
+#include "present/report/sweep_plot.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "report/plot_panels.hpp"
+#include "base/language/say.hpp"
+#include "present/report/plot_panels.hpp"
 #include "scene/units.hpp"
 
 namespace alembert {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "run/sweep.hpp"
+#include "simulate/sweep.hpp"
 
 namespace alembert {
 

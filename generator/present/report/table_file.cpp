@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/table_file.hpp"
+#include "present/report/table_file.hpp"
 
-#include "archive/file_form.hpp"
-#include "archive/hdf5.hpp"
-#include "report/motion_plot.hpp"
-#include "report/run.hpp"
-#include "report/sweep.hpp"
+#include "base/archive/file_form.hpp"
+#include "base/archive/hdf5.hpp"
+#include "present/report/motion_plot.hpp"
+#include "present/report/run.hpp"
+#include "present/report/sweep.hpp"
 
 namespace alembert {
 

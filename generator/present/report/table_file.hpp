@@ -9,15 +9,15 @@
 
 #include <functional>
 
-#include "archive/stored_table.hpp"
-#include "run/simulate.hpp"
-#include "run/sweep.hpp"
-#include "run/sweep_reduction.hpp"
+#include "base/archive/stored_table.hpp"
+#include "simulate/simulate.hpp"
+#include "simulate/sweep.hpp"
+#include "simulate/sweep_reduction.hpp"
 
 namespace alembert {
 
 /// Throws CompileError if the form is HDF5 and the program was built without it, ModelError if the name promises a
-/// form in which no table is written (archive/file_form.hpp).
+/// form in which no table is written (base/archive/file_form.hpp).
 void need_table_form(const std::string& path);
 
 /// Is the form CSV, which can be written row by row?

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/work_precision.hpp"
+#include "present/report/work_precision.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "language/say.hpp"
-#include "report/plot.hpp"
+#include "base/language/say.hpp"
+#include "present/report/plot.hpp"
 
 namespace alembert {
 

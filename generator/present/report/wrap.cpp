@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "report/wrap.hpp"
+#include "present/report/wrap.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <tuple>
 
-#include "report/ink.hpp"
+#include "present/report/ink.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

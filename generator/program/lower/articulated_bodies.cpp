@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/articulated_bodies.hpp"
+#include "program/lower/articulated_bodies.hpp"
 
-#include "formalism/articulated_tree.hpp"
-#include "formalism/planar_chain.hpp"
-#include "language/say.hpp"
-#include "lower/joint_change.hpp"
-#include "lower/link_frames.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/articulated_tree.hpp"
+#include "model/formalism/planar_chain.hpp"
+#include "program/lower/joint_change.hpp"
+#include "program/lower/link_frames.hpp"
 #include "program/solve.hpp"
 
 namespace alembert {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The recursions of formalism/tree_recursions.hpp, carried out with nodes of a program.
+/// The recursions of model/formalism/tree_recursions.hpp, carried out with nodes of a program.
 ///
 ///     const RecursionForm form{LinkAxes::still, RecursionForm::Solve::articulated};
 ///     const RecursionNodes nodes = recursion(program, tree, z, form, lowering);
@@ -9,8 +9,8 @@
 #include <functional>
 #include <optional>
 
-#include "formalism/joint_tree.hpp"
-#include "lower/recursion_form.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "program/lower/recursion_form.hpp"
 #include "program/program.hpp"
 
 namespace alembert {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/choose.hpp"
+#include "program/lower/choose.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
-#include "formalism/joint_tree.hpp"
-#include "language/say.hpp"
-#include "notation/readable.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/symbolic/distance.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/joint_tree.hpp"
 #include "program/constants.hpp"
 #include "program/flatten.hpp"
 #include "program/share.hpp"
-#include "symbolic/distance.hpp"
 
 namespace alembert {
 

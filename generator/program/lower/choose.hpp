@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "lower/lower.hpp"
 #include "program/cost.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

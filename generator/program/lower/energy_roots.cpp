@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/energy_roots.hpp"
+#include "program/lower/energy_roots.hpp"
 
 #include <array>
 

@@ -7,9 +7,9 @@
 /// points modulo a prime (program/modular.hpp). If E and the generalized energy then agree, they become the same
 /// root.
 
-#include "formalism/equations.hpp"
-#include "lower/lowering.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/equations.hpp"
+#include "program/lower/lowering.hpp"
 
 namespace alembert {
 

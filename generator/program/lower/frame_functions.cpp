@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/frame_functions.hpp"
+#include "program/lower/frame_functions.hpp"
 
 #include <fmt/format.h>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/scene_motion.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/scene_motion.hpp"
 
 namespace alembert {
 

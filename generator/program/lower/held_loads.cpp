@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/held_loads.hpp"
+#include "program/lower/held_loads.hpp"
 
-#include "formalism/elements.hpp"
-#include "formalism/newton_euler.hpp"
-#include "lower/lower.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/newton_euler.hpp"
 #include "model/geometry.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

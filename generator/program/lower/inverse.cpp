@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/inverse.hpp"
+#include "program/lower/inverse.hpp"
 
 #include <fmt/format.h>
 
-#include "formalism/joint_tree.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/recursive.hpp"
-#include "formalism/routh.hpp"
-#include "lower/articulated_bodies.hpp"
-#include "lower/lower.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/recursive.hpp"
+#include "model/formalism/routh.hpp"
 #include "model/friction.hpp"
+#include "program/lower/articulated_bodies.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

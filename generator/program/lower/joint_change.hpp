@@ -3,13 +3,13 @@
 
 #include <functional>
 
-#include "formalism/joint_tree.hpp"
+#include "model/formalism/joint_tree.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
 
 /// The change between the joints' rates and those of the coordinates: for absolute rates by differences, for
-/// relative rates by S, for a ball joint by its quaternion (formalism/ball_joint.hpp).
+/// relative rates by S, for a ball joint by its quaternion (model/formalism/ball_joint.hpp).
 class JointChange {
 public:
     /// `lowering` gives the node of an expression.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/link_frames.hpp"
+#include "program/lower/link_frames.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@
 /// the child that carries most links. Only rotations that are numbers are decomposed: if they contained
 /// parameters, axes might become parallel, and the sine by which is divided would be zero.
 
-#include "formalism/body_tree.hpp"
+#include "model/formalism/body_tree.hpp"
 #include "program/symbolic_scalar.hpp"
 
 namespace alembert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/lower.hpp"
+#include "program/lower/lower.hpp"
 
 #include <fmt/format.h>
 
@@ -9,14 +9,14 @@
 #include <set>
 
 #include "alembert/base/dense.hpp"
-#include "formalism/joint_tree.hpp"
-#include "formalism/kinematics.hpp"
-#include "language/say.hpp"
-#include "lower/articulated_bodies.hpp"
-#include "lower/energy_roots.hpp"
-#include "lower/lowering.hpp"
-#include "lower/normal_forces.hpp"
-#include "lower/project.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "model/formalism/kinematics.hpp"
+#include "program/lower/articulated_bodies.hpp"
+#include "program/lower/energy_roots.hpp"
+#include "program/lower/lowering.hpp"
+#include "program/lower/normal_forces.hpp"
+#include "program/lower/project.hpp"
 #include "program/solve.hpp"
 
 namespace alembert {

@@ -14,10 +14,10 @@
 
 #include <functional>
 
-#include "formalism/equations.hpp"
-#include "lower/recursion_form.hpp"
-#include "lower/start.hpp"
 #include "model/energy.hpp"
+#include "model/formalism/equations.hpp"
+#include "program/lower/recursion_form.hpp"
+#include "program/lower/start.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
@@ -28,9 +28,9 @@ struct LowerOptions {
     bool is_textbook = false;
     std::optional<RecursionForm> recursion =
         {};  ///< for equations with a tree: M, f and q'' by this recursion instead of by their expressions
-    /// Gives a state that obeys the constraints (state/assemble.hpp). It is asked for where coordinates have no
-    /// mass, so that the constraints give their pivots: none that vanishes there is taken. Without it pivots are
-    /// judged by their structure alone, and accelerations may divide by zero.
+    /// Gives a state that obeys the constraints (analysis/state/assemble.hpp). It is asked for where coordinates
+    /// have no mass, so that the constraints give their pivots: none that vanishes there is taken. Without it
+    /// pivots are judged by their structure alone, and accelerations may divide by zero.
     std::function<Start()> admissible = {};
 };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/lowering.hpp"
+#include "program/lower/lowering.hpp"
 
 #include <fmt/format.h>
 
 #include <set>
 
-#include "language/say.hpp"
+#include "algebra/symbolic/functions.hpp"
+#include "base/language/say.hpp"
 #include "program/interpret.hpp"
-#include "symbolic/functions.hpp"
 
 namespace alembert {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/normal_forces.hpp"
+#include "program/lower/normal_forces.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "program/partials.hpp"
 #include "program/solve.hpp"
 

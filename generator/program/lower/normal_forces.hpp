@@ -12,8 +12,8 @@
 /// 0 if the friction is on it alone. If a determinant of 1 − S D is not positive, the reaction has no value or
 /// more than one (Painlevé, Leçons sur le frottement, 1895; Génot & Brogliato, Eur. J. Mech. A 18 (1999) 653).
 
-#include "formalism/equations.hpp"
-#include "lower/lowering.hpp"
+#include "model/formalism/equations.hpp"
+#include "program/lower/lowering.hpp"
 
 namespace alembert {
 

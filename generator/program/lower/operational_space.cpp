@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/operational_space.hpp"
+#include "program/lower/operational_space.hpp"
 
 #include <fmt/format.h>
 
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/robot_functions.hpp"
-#include "lower/scene_motion.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/robot_functions.hpp"
+#include "program/lower/scene_motion.hpp"
 #include "program/modular.hpp"
 #include "program/reduce_rows.hpp"
 #include "program/solve.hpp"

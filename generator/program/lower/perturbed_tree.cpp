@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/perturbed_tree.hpp"
+#include "program/lower/perturbed_tree.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "formalism/articulated_tree.hpp"
-#include "formalism/recursive.hpp"
-#include "lower/joint_change.hpp"
-#include "lower/link_frames.hpp"
-#include "lower/lower.hpp"
+#include "model/formalism/articulated_tree.hpp"
+#include "model/formalism/recursive.hpp"
+#include "program/lower/joint_change.hpp"
+#include "program/lower/link_frames.hpp"
+#include "program/lower/lower.hpp"
 #include "program/symbolic_scalar.hpp"
 
 namespace alembert {

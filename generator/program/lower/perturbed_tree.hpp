@@ -21,8 +21,8 @@
 /// Everything here that is not a change is a held value. Vertices are eliminated link by link from the tips, so
 /// that a branch is known by what it exchanges with its parent.
 
-#include "formalism/equations.hpp"
-#include "formalism/link_axes.hpp"
+#include "model/formalism/equations.hpp"
+#include "model/formalism/link_axes.hpp"
 #include "program/perturbed.hpp"
 
 namespace alembert {

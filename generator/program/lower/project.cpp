@@ -2,11 +2,11 @@
 //   K (δπ, ·) = (0, f),   δq = S δπ,   K (δu, ·) = (0, A_q h + b at q − δq),   A = A_q S
 // (Hairer & Wanner, Solving ODEs II, §VII.2; there S = 1); if all constraints are eliminated, A_q Aₑᵀ ν = f, δq =
 // Aₑᵀ ν.
-#include "lower/project.hpp"
+#include "program/lower/project.hpp"
 
 #include <algorithm>
 
-#include "lower/lower.hpp"
+#include "program/lower/lower.hpp"
 #include "program/solve.hpp"
 
 namespace alembert {

@@ -17,7 +17,7 @@
 /// 0 if it is nonholonomic and eliminated, when there is nothing to move. If all constraints are of the last kind,
 /// there are no roots.
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 #include "program/program.hpp"
 #include "program/solve.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A piece is described by the cubic polynomial through its values at 0, 1/3, 2/3 and 1, which is compared with the
 // values at 1/6, 1/2 and 5/6 and with all other known values in the piece.
-#include "lower/quick_times.hpp"
+#include "program/lower/quick_times.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formalism/link_axes.hpp"
+#include "model/formalism/link_axes.hpp"
 
 namespace alembert {
 

@@ -4,14 +4,14 @@
 //     mx:  f = α × x + ω × (ω × x),      n = x × a
 //     I:   f = 0,                        n = I α + ω × I ω,
 // and along the coordinate k the load v_k·f + ω_k·n, where v_k and ω_k are the columns of the origin's Jacobian.
-#include "lower/regressor.hpp"
+#include "program/lower/regressor.hpp"
 
 #include <fmt/format.h>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "lower/scene_motion.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
+#include "program/lower/scene_motion.hpp"
 
 namespace alembert {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/robot_functions.hpp"
+#include "program/lower/robot_functions.hpp"
 
 #include <algorithm>
 
-#include "formalism/lagrange.hpp"
-#include "formalism/recursive.hpp"
-#include "formalism/routh.hpp"
-#include "language/say.hpp"
-#include "lower/articulated_bodies.hpp"
-#include "lower/choose.hpp"
-#include "lower/tree_functions.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/lagrange.hpp"
+#include "model/formalism/recursive.hpp"
+#include "model/formalism/routh.hpp"
 #include "model/friction.hpp"
+#include "program/lower/articulated_bodies.hpp"
+#include "program/lower/choose.hpp"
+#include "program/lower/tree_functions.hpp"
 #include "program/partials.hpp"
 #include "program/solve.hpp"
 

@@ -24,7 +24,7 @@
 
 #include <optional>
 
-#include "formalism/joint_tree.hpp"
+#include "model/formalism/joint_tree.hpp"
 #include "model/mechanism.hpp"
 #include "program/named_function.hpp"
 

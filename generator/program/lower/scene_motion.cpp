@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/scene_motion.hpp"
+#include "program/lower/scene_motion.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -18,7 +18,7 @@
 #include <map>
 #include <set>
 
-#include "formalism/spatial.hpp"
+#include "model/formalism/spatial.hpp"
 #include "model/formulas.hpp"
 #include "program/symbolic_scalar.hpp"
 

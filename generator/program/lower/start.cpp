@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "alembert/base/argument.hpp"
-#include "language/libraries.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/libraries.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

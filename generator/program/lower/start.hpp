@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "formalism/equations.hpp"
-#include "formalism/obstacle.hpp"
+#include "model/formalism/equations.hpp"
+#include "model/formalism/obstacle.hpp"
 #include "program/interpret.hpp"
 
 namespace alembert {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The recursive Newton-Euler algorithm (Luh, Walker & Paul, J. Dynamic Systems, Measurement and Control 102 (1980)
 // 69) and composite bodies (Walker & Orin 1982) on a tree with base parameters (Gautier & Khalil 1990).
-#include "lower/tree_functions.hpp"
+#include "program/lower/tree_functions.hpp"
 
-#include "formalism/tree_recursions.hpp"
-#include "lower/link_frames.hpp"
+#include "model/formalism/tree_recursions.hpp"
+#include "program/lower/link_frames.hpp"
 
 namespace alembert {
 

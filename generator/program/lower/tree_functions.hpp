@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Functions of a tree of joints, by the recursions of formalism/tree_recursions.hpp along the axes that take the
-/// fewest operations (link_frames.hpp).
+/// Functions of a tree of joints, by the recursions of model/formalism/tree_recursions.hpp along the axes that
+/// take the fewest operations (link_frames.hpp).
 ///
 ///     const TreeFunctions tree(program, joints, LinkAxes::still, z, lowering);
 ///     tree.loads(TreeFunctions::Terms::inverse);      // n nodes: M q'' + C q' + g
 
 #include <functional>
 
-#include "formalism/joint_tree.hpp"
-#include "lower/joint_change.hpp"
+#include "model/formalism/joint_tree.hpp"
+#include "program/lower/joint_change.hpp"
 #include "program/symbolic_scalar.hpp"
 
 namespace alembert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/elements.hpp"
+#include "scene/import/elements.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "alembert/base/inertia.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/loops.hpp"
+#include "scene/import/loops.hpp"
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/joints_file.hpp"
 #include "scene/text.hpp"

@@ -4,7 +4,7 @@
 /// Closes loops of a robot by the [[joint]]s of a file. They are written as in a scene, with links in place of
 /// bodies: the points count from the origins of the links, along their axes.
 
-#include "urdf/robot.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

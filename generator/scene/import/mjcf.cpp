@@ -7,10 +7,10 @@
 #include <cstring>
 #include <map>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/mjcf_reader.hpp"
+#include "scene/import/mjcf_rules.hpp"
 #include "scene/text.hpp"
-#include "urdf/mjcf_reader.hpp"
-#include "urdf/mjcf_rules.hpp"
 
 namespace alembert {
 

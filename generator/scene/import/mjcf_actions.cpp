@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/mjcf_reader.hpp"
 #include "scene/text.hpp"
-#include "urdf/mjcf_reader.hpp"
 
 namespace alembert {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "alembert/base/inertia.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/mjcf_values.hpp"
 #include "scene/text.hpp"
-#include "urdf/mjcf_values.hpp"
 
 namespace alembert {
 

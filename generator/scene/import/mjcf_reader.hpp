@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "urdf/mjcf_values.hpp"
-#include "urdf/robot_pose.hpp"
+#include "scene/import/mjcf_values.hpp"
+#include "scene/import/robot_pose.hpp"
 
 namespace alembert {
 

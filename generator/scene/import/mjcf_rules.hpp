@@ -10,8 +10,8 @@
 ///
 /// Only mjcf.cpp uses this.
 
-#include "urdf/other_files.hpp"
-#include "urdf/xml.hpp"
+#include "scene/import/other_files.hpp"
+#include "scene/import/xml.hpp"
 
 namespace alembert {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/mjcf_values.hpp"
+#include "scene/import/mjcf_values.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/mjcf_rules.hpp"
 #include "scene/text.hpp"
-#include "urdf/mjcf_rules.hpp"
 
 namespace alembert {
 

@@ -10,7 +10,7 @@
 
 #include <map>
 
-#include "urdf/xml.hpp"
+#include "scene/import/xml.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Replaces robot.cpp and elements.cpp if the program is built without urdfdom.
-#include "language/say.hpp"
-#include "urdf/robot.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Replaces the readers of MJCF and SDF if the program is built without TinyXML-2.
-#include "language/say.hpp"
-#include "urdf/robot.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/other_files.hpp"
+#include "scene/import/other_files.hpp"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 #include "scene/text_file.hpp"
 

@@ -15,7 +15,7 @@
 #include <functional>
 #include <string>
 
-#include "urdf/robot.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

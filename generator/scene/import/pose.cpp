@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "urdf/robot.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

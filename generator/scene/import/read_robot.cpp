@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scene/import/robot.hpp"
 #include "scene/text_file.hpp"
-#include "urdf/robot.hpp"
 
 namespace alembert {
 

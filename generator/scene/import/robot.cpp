@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/robot.hpp"
+#include "scene/import/robot.hpp"
 
 #include <console_bridge/console.h>
 #include <fmt/format.h>
@@ -12,9 +12,9 @@
 #include <set>
 #include <sstream>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/elements.hpp"
 #include "scene/text.hpp"
-#include "urdf/elements.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The mass matrix is M = Σ mᵢ Jᵢᵀ Jᵢ + Wᵢᵀ Iᵢ Wᵢ over the links, where Jᵢ and Wᵢ give the velocity of the mass
 // centre and the angular velocity (Zhang & Qin, chapter 5).
-#include "urdf/robot_pose.hpp"
+#include "scene/import/robot_pose.hpp"
 
 #include <Eigen/Cholesky>
 

@@ -13,7 +13,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "urdf/robot.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

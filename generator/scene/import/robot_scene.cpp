@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/robot_scene.hpp"
+#include "scene/import/robot_scene.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/scene_writer.hpp"
 #include "scene/text.hpp"
-#include "urdf/scene_writer.hpp"
 
 namespace alembert {
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "urdf/robot.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

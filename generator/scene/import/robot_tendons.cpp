@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/scene_writer.hpp"
 #include "scene/text.hpp"
-#include "urdf/scene_writer.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/scene_words.hpp"
+#include "scene/import/scene_words.hpp"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "urdf/robot.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "urdf/robot_scene.hpp"
-#include "urdf/scene_words.hpp"
-#include "urdf/welded.hpp"
+#include "scene/import/robot_scene.hpp"
+#include "scene/import/scene_words.hpp"
+#include "scene/import/welded.hpp"
 
 namespace alembert {
 

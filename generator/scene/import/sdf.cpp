@@ -10,11 +10,11 @@
 #include <set>
 
 #include "alembert/base/inertia.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/sdf_include.hpp"
+#include "scene/import/sdf_left_out.hpp"
+#include "scene/import/sdf_poses.hpp"
 #include "scene/text.hpp"
-#include "urdf/sdf_include.hpp"
-#include "urdf/sdf_left_out.hpp"
-#include "urdf/sdf_poses.hpp"
 
 namespace alembert {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/sdf_include.hpp"
+#include "scene/import/sdf_include.hpp"
 
 #include <cstring>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
+#include "scene/import/other_files.hpp"
 #include "scene/text.hpp"
 #include "scene/text_file.hpp"
-#include "urdf/other_files.hpp"
 
 namespace alembert {
 

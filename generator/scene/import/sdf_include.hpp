@@ -7,7 +7,7 @@
 ///     XmlFile world(text, "world.sdf");
 ///     include_models(world, "world.sdf", {.packages = {"models"}});
 
-#include "urdf/xml.hpp"
+#include "scene/import/xml.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/sdf_left_out.hpp"
+#include "scene/import/sdf_left_out.hpp"
 
 #include <set>
 

@@ -3,7 +3,7 @@
 
 /// The effect on the motion of what an SDF file has and nobody asked for. Only sdf.cpp uses this.
 
-#include "urdf/xml.hpp"
+#include "scene/import/xml.hpp"
 
 namespace alembert {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/sdf_poses.hpp"
+#include "scene/import/sdf_poses.hpp"
 
 #include <algorithm>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

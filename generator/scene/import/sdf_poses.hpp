@@ -13,7 +13,7 @@
 
 #include <map>
 
-#include "urdf/xml.hpp"
+#include "scene/import/xml.hpp"
 
 namespace alembert {
 

@@ -2,14 +2,14 @@
 // The mass m, the mass centre c and the inertia I (about the mass centre, along common axes) of bodies that are
 // fixed to each other:
 //   m = Σ m_i,   m c = Σ m_i c_i,   I = Σ I_i + m_i (d·d E − d dᵀ),   d = c_i − c.
-#include "urdf/welded.hpp"
+#include "scene/import/welded.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "alembert/base/inertia.hpp"
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "urdf/xml.hpp"
+#include "scene/import/xml.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "language/say.hpp"
+#include "base/language/say.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "urdf/robot.hpp"
+#include "scene/import/robot.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fmu/dependence.hpp"
+#include "simulate/fmu/dependence.hpp"
 
 #include <algorithm>
 

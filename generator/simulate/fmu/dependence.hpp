@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "fmu/unit_model.hpp"
+#include "simulate/fmu/unit_model.hpp"
 
 namespace alembert {
 

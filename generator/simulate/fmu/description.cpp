@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Functional Mock-up Interface for Model Exchange and Co-Simulation, version 2.0.4, §2.2; Functional Mock-up
 // Interface Specification, version 3.0, §2.4.
-#include "fmu/description.hpp"
+#include "simulate/fmu/description.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <map>
 
-#include "emit/numbers.hpp"
+#include "codegen/emit/numbers.hpp"
 #include "scene/unit_text.hpp"
 
 namespace alembert {

@@ -5,7 +5,7 @@
 ///
 ///     const std::string xml = model_description(model, variables, {.version = 2, .token = "{…}"});
 
-#include "fmu/unit_variables.hpp"
+#include "simulate/fmu/unit_variables.hpp"
 
 namespace alembert {
 

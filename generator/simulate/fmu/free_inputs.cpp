@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fmu/free_inputs.hpp"
+#include "simulate/fmu/free_inputs.hpp"
 
 #include <fmt/format.h>
 

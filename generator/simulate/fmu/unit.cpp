@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fmu/unit.hpp"
+#include "simulate/fmu/unit.hpp"
 
 #include <stdexcept>
 
 #include "alembert/native/compile.hpp"
 #include "alembert/native/fingerprint.hpp"
-#include "archive/zip.hpp"
-#include "emit/emit.hpp"
-#include "fmu/description.hpp"
-#include "fmu/unit_source.hpp"
-#include "language/say.hpp"
+#include "base/archive/zip.hpp"
+#include "base/language/say.hpp"
+#include "codegen/emit/emit.hpp"
+#include "simulate/fmu/description.hpp"
+#include "simulate/fmu/unit_source.hpp"
 
 namespace alembert {
 

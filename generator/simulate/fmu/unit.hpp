@@ -9,7 +9,7 @@
 /// The archive holds the description, the equations in C with their derivatives, the functions of FMI in C, and
 /// what the compiler makes of these for this machine. The same scene, program and compiler give the same bytes.
 
-#include "fmu/unit_variables.hpp"
+#include "simulate/fmu/unit_variables.hpp"
 
 namespace alembert {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fmu/unit_model.hpp"
+#include "simulate/fmu/unit_model.hpp"
 
 #include <algorithm>
 
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
 #include "program/differentiate.hpp"
+#include "program/lower/lower.hpp"
 #include "program/switches.hpp"
-#include "run/first_accelerations.hpp"
-#include "run/sides.hpp"
-#include "state/assemble.hpp"
+#include "simulate/first_accelerations.hpp"
+#include "simulate/sides.hpp"
 
 namespace alembert {
 

@@ -11,9 +11,9 @@
 
 #include <optional>
 
-#include "derive/derived.hpp"
-#include "fmu/free_inputs.hpp"
+#include "analysis/derive/derived.hpp"
 #include "program/interpret.hpp"
+#include "simulate/fmu/free_inputs.hpp"
 
 namespace alembert {
 
@@ -24,7 +24,8 @@ struct UnitModel : Derived {
     int signs = 0;                 ///< parameters that hold a sign, the last of the program
     bool has_derivatives = false;  ///< whether the program has the groups of program/differentiate.hpp
     State<double> start = {};      ///< q, u, t and all parameters
-    std::vector<bool> tied = {};   ///< of the first parameters, those that keep their values (state/left_out.hpp)
+    std::vector<bool> tied =
+        {};  ///< of the first parameters, those that keep their values (analysis/state/left_out.hpp)
     double duration = 0, tolerance = 0, sample = 0;
 
     std::size_t coordinates() const { return program.coordinates.size(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fmu/unit_source.hpp"
+#include "simulate/fmu/unit_source.hpp"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <kainjow/mustache.hpp>
 
 #include "alembert/base/argument.hpp"
-#include "emit/elementary.hpp"
-#include "emit/numbers.hpp"
-#include "emit/projection_text.hpp"
-#include "emit/solver_functions.hpp"
-#include "emit/templates.hpp"
-#include "emit/vocabulary.hpp"
+#include "codegen/emit/elementary.hpp"
+#include "codegen/emit/numbers.hpp"
+#include "codegen/emit/projection_text.hpp"
+#include "codegen/emit/solver_functions.hpp"
+#include "codegen/emit/templates.hpp"
+#include "codegen/emit/vocabulary.hpp"
 
 namespace alembert {
 

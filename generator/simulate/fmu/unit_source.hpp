@@ -6,8 +6,8 @@
 ///
 ///     unit_source(model, variables, 2, "{…}").name;     // "cart_pole_fmu.c"
 
-#include "emit/emit.hpp"
-#include "fmu/unit_variables.hpp"
+#include "codegen/emit/emit.hpp"
+#include "simulate/fmu/unit_variables.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "fmu/unit_variables.hpp"
+#include "simulate/fmu/unit_variables.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <map>
 #include <set>
 
-#include "emit/names.hpp"
-#include "fmu/dependence.hpp"
+#include "codegen/emit/names.hpp"
 #include "scene/dimensions.hpp"
 #include "scene/unit_text.hpp"
 #include "scene/units.hpp"
+#include "simulate/fmu/dependence.hpp"
 
 namespace alembert {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "fmu/unit_model.hpp"
 #include "scene/units.hpp"
+#include "simulate/fmu/unit_model.hpp"
 
 namespace alembert {
 

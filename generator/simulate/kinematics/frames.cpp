@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // ω along the frame is known from turn to turn (model/geometry.cpp); α is its derivative in the frame itself,
 // since (dω/dt)_N = (dω/dt)_F + ω × ω.
-#include "kinematics/frames.hpp"
+#include "simulate/kinematics/frames.hpp"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 
 /// How frames and bodies turn.
 
-#include "kinematics/vectors.hpp"
 #include "model/places.hpp"
+#include "simulate/kinematics/vectors.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "kinematics/kinematics.hpp"
+#include "simulate/kinematics/kinematics.hpp"
 
 #include <fmt/format.h>
 
@@ -11,17 +11,17 @@
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "formalism/elements.hpp"
-#include "kinematics/frames.hpp"
-#include "kinematics/points.hpp"
-#include "language/say.hpp"
-#include "lower/frame_functions.hpp"
-#include "lower/lower.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/formulas.hpp"
-#include "run/evaluate.hpp"
-#include "run/given_accelerations.hpp"
+#include "program/lower/frame_functions.hpp"
+#include "program/lower/lower.hpp"
 #include "scene/text.hpp"
-#include "state/assemble.hpp"
+#include "simulate/evaluate.hpp"
+#include "simulate/given_accelerations.hpp"
+#include "simulate/kinematics/frames.hpp"
+#include "simulate/kinematics/points.hpp"
 
 namespace alembert {
 

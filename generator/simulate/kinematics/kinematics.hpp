@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "alembert/base/rotation.hpp"
-#include "lower/start.hpp"
-#include "notation/phrase.hpp"
-#include "state/prepared.hpp"
+#include "algebra/notation/phrase.hpp"
+#include "analysis/state/prepared.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

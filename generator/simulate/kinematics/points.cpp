@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // With ρ along a frame that turns with ω:  (dρ/dt)_N = ρ' + ω × ρ, and once more
 // (d²ρ/dt²)_N = ρ'' + 2 ω × ρ' + α × ρ + ω × (ω × ρ)  (Zhang & Qin, chapter 2).
-#include "kinematics/points.hpp"
+#include "simulate/kinematics/points.hpp"
 
 #include <algorithm>
 
-#include "kinematics/frames.hpp"
+#include "simulate/kinematics/frames.hpp"
 
 namespace alembert {
 

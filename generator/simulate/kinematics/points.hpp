@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "kinematics/vectors.hpp"
 #include "model/places.hpp"
+#include "simulate/kinematics/vectors.hpp"
 
 namespace alembert {
 

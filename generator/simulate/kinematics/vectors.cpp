@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "kinematics/vectors.hpp"
+#include "simulate/kinematics/vectors.hpp"
 
 namespace alembert {
 

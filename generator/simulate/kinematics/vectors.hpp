@@ -8,10 +8,10 @@
 ///     write(omega);                    // formulas where they are short; no values yet
 ///     write(write.rate(omega));
 
-#include "derive/unit_quaternions.hpp"
-#include "formalism/steps.hpp"
-#include "kinematics/kinematics.hpp"
+#include "analysis/derive/unit_quaternions.hpp"
+#include "model/formalism/steps.hpp"
 #include "model/geometry.hpp"
+#include "simulate/kinematics/kinematics.hpp"
 
 namespace alembert {
 

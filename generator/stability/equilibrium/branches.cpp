@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equilibrium/branches.hpp"
+#include "stability/equilibrium/branches.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "equilibrium/follow.hpp"
-#include "language/say.hpp"
-#include "state/left_out.hpp"
+#include "analysis/state/left_out.hpp"
+#include "base/language/say.hpp"
+#include "stability/equilibrium/follow.hpp"
 
 namespace alembert {
 

@@ -11,8 +11,8 @@
 /// followed in both directions, and so are the branches that leave it. A closed curve between two of these values
 /// to which no branch leads is not found.
 
-#include "equilibrium/crossing.hpp"
-#include "equilibrium/equilibria.hpp"
+#include "stability/equilibrium/crossing.hpp"
+#include "stability/equilibrium/equilibria.hpp"
 
 namespace alembert {
 

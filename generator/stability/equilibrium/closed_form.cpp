@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equilibrium/closed_form.hpp"
+#include "stability/equilibrium/closed_form.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "formalism/rest.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
-#include "symbolic/exact_solve.hpp"
-#include "symbolic/fourier.hpp"
-#include "symbolic/functions.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "algebra/symbolic/exact_solve.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "algebra/symbolic/functions.hpp"
+#include "model/formalism/rest.hpp"
 
 namespace alembert {
 

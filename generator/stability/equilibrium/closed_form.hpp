@@ -16,7 +16,7 @@
 #include <functional>
 #include <optional>
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

@@ -10,7 +10,7 @@
 /// v₁ + β v₂ obey b₁₁ α² + 2 b₁₂ α β + b₂₂ β² = 0. If the parameter does not change along one of them, the point
 /// is a pitchfork. (Keller, Lectures on Numerical Methods in Bifurcation Problems (1987), §5.20.)
 
-#include "equilibrium/tracer.hpp"
+#include "stability/equilibrium/tracer.hpp"
 
 namespace alembert {
 

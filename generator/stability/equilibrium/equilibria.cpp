@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equilibrium/equilibria.hpp"
+#include "stability/equilibrium/equilibria.hpp"
 
 #include <fmt/format.h>
 
@@ -8,11 +8,11 @@
 
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
-#include "contact/contacts.hpp"
-#include "formalism/elements.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "state/assemble.hpp"
+#include "analysis/contact/contacts.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -10,10 +10,10 @@
 #include <optional>
 #include <string>
 
-#include "derive/derived.hpp"
-#include "equilibrium/closed_form.hpp"
-#include "equilibrium/judge.hpp"
-#include "equilibrium/search.hpp"
+#include "analysis/derive/derived.hpp"
+#include "stability/equilibrium/closed_form.hpp"
+#include "stability/equilibrium/judge.hpp"
+#include "stability/equilibrium/search.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equilibrium/follow.hpp"
+#include "stability/equilibrium/follow.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include <functional>
 
-#include "equilibrium/branches.hpp"
+#include "stability/equilibrium/branches.hpp"
 
 namespace alembert {
 

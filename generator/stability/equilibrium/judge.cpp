@@ -3,14 +3,14 @@
 // remains
 //   K = P_ee − D_ec M_cc⁻¹ D_ce
 // as the stiffness of the reduced system. (Pars, A Treatise on Analytical Dynamics (1965), §9.6.)
-#include "equilibrium/judge.hpp"
+#include "stability/equilibrium/judge.hpp"
 
 #include <algorithm>
 
-#include "language/say.hpp"
-#include "linear/dense_long.hpp"
-#include "linear/paths.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/symbolic/fourier.hpp"
+#include "base/language/say.hpp"
+#include "stability/linear/dense_long.hpp"
+#include "stability/linear/paths.hpp"
 
 namespace alembert {
 

@@ -13,7 +13,7 @@
 
 #include <complex>
 
-#include "linear/steady.hpp"
+#include "stability/linear/steady.hpp"
 
 namespace alembert {
 

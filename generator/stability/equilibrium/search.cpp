@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equilibrium/search.hpp"
+#include "stability/equilibrium/search.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "alembert/base/error.hpp"
-#include "linear/dense_long.hpp"
+#include "stability/linear/dense_long.hpp"
 
 namespace alembert {
 

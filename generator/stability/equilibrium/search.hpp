@@ -15,7 +15,7 @@
 
 #include <functional>
 
-#include "linear/steady.hpp"
+#include "stability/linear/steady.hpp"
 
 namespace alembert {
 

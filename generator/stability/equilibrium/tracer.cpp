@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equilibrium/tracer.hpp"
+#include "stability/equilibrium/tracer.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "linear/dense_long.hpp"
+#include "base/language/say.hpp"
+#include "stability/linear/dense_long.hpp"
 
 namespace alembert {
 

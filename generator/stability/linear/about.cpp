@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/about.hpp"
+#include "stability/linear/about.hpp"
 
 #include <fmt/format.h>
 
@@ -7,16 +7,16 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/base/tolerances.hpp"
-#include "contact/contacts.hpp"
-#include "formalism/kane.hpp"
-#include "language/say.hpp"
-#include "linear/linearize_symbolic.hpp"
-#include "lower/lower.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/contact/contacts.hpp"
+#include "analysis/state/assemble.hpp"
+#include "base/language/say.hpp"
 #include "model/constant.hpp"
+#include "model/formalism/kane.hpp"
 #include "model/friction.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
-#include "state/assemble.hpp"
+#include "program/lower/lower.hpp"
+#include "stability/linear/linearize_symbolic.hpp"
 
 namespace alembert {
 

@@ -7,9 +7,9 @@
 ///     const LinearizedScene near = linearize(read_scene("scenes/gallery/bicycle.toml"), {.at = {{"x'", 4.6}}});
 ///     near.matrices.A, near.matrices.eigenvalues;
 
-#include "derive/derived.hpp"
-#include "linear/along.hpp"
-#include "linear/linearize.hpp"
+#include "analysis/derive/derived.hpp"
+#include "stability/linear/along.hpp"
+#include "stability/linear/linearize.hpp"
 
 namespace alembert {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/along.hpp"
+#include "stability/linear/along.hpp"
 
 #include <algorithm>
 
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
 #include "alembert/ode/integrate.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 ///     const std::vector<Linearization> near = linearize_along(mechanism, equations, states);
 ///     near[3].A;       // δx' = A(t) δx + B(t) δinputs at t = start.t + 1.5
 
-#include "derive/derived.hpp"
+#include "analysis/derive/derived.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/dense_long.hpp"
+#include "stability/linear/dense_long.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/dependence.hpp"
+#include "stability/linear/dependence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <random>
 
-#include "linear/dense_long.hpp"
+#include "stability/linear/dense_long.hpp"
 
 namespace alembert {
 

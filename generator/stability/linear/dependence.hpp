@@ -9,7 +9,7 @@
 /// They are found at random states near the given one, not from the form of the equations. So a coordinate that
 /// cancels is cyclic too, also if constraints have been eliminated.
 
-#include "linear/tangent.hpp"
+#include "stability/linear/tangent.hpp"
 
 namespace alembert {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/kink_message.hpp"
+#include "stability/linear/kink_message.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "exact/expression_of.hpp"
-#include "language/say.hpp"
-#include "lower/lower.hpp"
-#include "notation/readable.hpp"
-#include "notation/text.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/notation/text.hpp"
+#include "analysis/exact/expression_of.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

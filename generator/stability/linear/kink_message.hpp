@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "linear/paths.hpp"
+#include "stability/linear/paths.hpp"
 
 namespace alembert {
 

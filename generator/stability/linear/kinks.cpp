@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/kinks.hpp"
+#include "stability/linear/kinks.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "linear/kink_message.hpp"
+#include "base/language/say.hpp"
+#include "stability/linear/kink_message.hpp"
 
 namespace alembert {
 

@@ -21,7 +21,7 @@
 /// of two directions (of up to a dozen) and random ones; a kink inside a cone that contains none of these
 /// directions is not found.
 
-#include "linear/tangent.hpp"
+#include "stability/linear/tangent.hpp"
 
 namespace alembert {
 

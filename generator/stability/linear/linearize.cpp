@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/linearize.hpp"
+#include "stability/linear/linearize.hpp"
 
 #include <fmt/format.h>
 
@@ -7,14 +7,14 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "linear/dense_long.hpp"
-#include "linear/dependence.hpp"
-#include "linear/kinks.hpp"
-#include "linear/outputs.hpp"
-#include "linear/paths.hpp"
-#include "linear/steady.hpp"
-#include "linear/tangent.hpp"
+#include "base/language/say.hpp"
+#include "stability/linear/dense_long.hpp"
+#include "stability/linear/dependence.hpp"
+#include "stability/linear/kinks.hpp"
+#include "stability/linear/outputs.hpp"
+#include "stability/linear/paths.hpp"
+#include "stability/linear/steady.hpp"
+#include "stability/linear/tangent.hpp"
 
 namespace alembert {
 

@@ -31,8 +31,8 @@
 #include <string>
 #include <vector>
 
-#include "formalism/equations.hpp"
-#include "lower/start.hpp"
+#include "model/formalism/equations.hpp"
+#include "program/lower/start.hpp"
 
 namespace alembert {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/linearize_symbolic.hpp"
+#include "stability/linear/linearize_symbolic.hpp"
 
 #include <algorithm>
 
-#include "notation/readable.hpp"
-#include "symbolic/fourier.hpp"
+#include "algebra/notation/readable.hpp"
+#include "algebra/symbolic/fourier.hpp"
 
 namespace alembert {
 

@@ -13,7 +13,7 @@
 
 #include <optional>
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 
 namespace alembert {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The vectors are the right singular vectors of A − λ that belong to its vanishing singular values.
-#include "linear/modes.hpp"
+#include "stability/linear/modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "linear/dense_long.hpp"
+#include "stability/linear/dense_long.hpp"
 
 namespace alembert {
 

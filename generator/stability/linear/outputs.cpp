@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // y = g(q, u, t, e, u', λ):   δy = g_(q,u,t,e) δ(q,u,t,e) + g_u' δu' + g_λ δλ.
-#include "linear/outputs.hpp"
+#include "stability/linear/outputs.hpp"
 
-#include "lower/lower.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 

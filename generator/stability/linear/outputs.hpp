@@ -10,7 +10,7 @@
 /// derivatives enter those of the output. If the speeds are not the rates of coordinates, outputs that contain
 /// accelerations are left out.
 
-#include "linear/tangent.hpp"
+#include "stability/linear/tangent.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "linear/paths.hpp"
+#include "stability/linear/paths.hpp"
 
 #include <cmath>
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <span>
 
-#include "linear/tangent.hpp"
 #include "program/germ.hpp"
+#include "stability/linear/tangent.hpp"
 
 namespace alembert {
 

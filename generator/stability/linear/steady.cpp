@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Newton's method for steady motions, in the local coordinates of linear/tangent.hpp. (Deuflhard, Newton Methods
-// for Nonlinear Problems (2004), §4.4: Gauss-Newton steps of a system of lower rank.)
-#include "linear/steady.hpp"
+// Newton's method for steady motions, in the local coordinates of stability/linear/tangent.hpp. (Deuflhard, Newton
+// Methods for Nonlinear Problems (2004), §4.4: Gauss-Newton steps of a system of lower rank.)
+#include "stability/linear/steady.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "linear/dense_long.hpp"
+#include "base/language/say.hpp"
+#include "stability/linear/dense_long.hpp"
 
 namespace alembert {
 

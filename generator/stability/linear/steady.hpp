@@ -6,7 +6,7 @@
 ///     const SteadyProblem problem(mechanism, equations, start);
 ///     if (const auto root = problem.solve(problem.start())) root->at.q;        // obeys the constraints
 ///
-/// In independent coordinates r and speeds w (linear/linearize.hpp), a motion is steady if
+/// In independent coordinates r and speeds w (stability/linear/linearize.hpp), a motion is steady if
 ///     Uᵀ(f − M c) = 0,     r'_e = 0,     w_c = given,
 /// where e are the essential coordinates and c the cyclic ones. The rates of the latter are given, namely those of
 /// the state from which the search starts. With `Rates::free` the last equations are left out, and these rates
@@ -19,8 +19,8 @@
 
 #include <optional>
 
-#include "linear/dependence.hpp"
-#include "lower/start.hpp"
+#include "program/lower/start.hpp"
+#include "stability/linear/dependence.hpp"
 
 namespace alembert {
 

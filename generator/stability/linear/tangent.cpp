@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Notation of linear/linearize.hpp; e stands for t and the inputs. Tangent directions of the constraints:
+// Notation of stability/linear/linearize.hpp; e stands for t and the inputs. Tangent directions of the
+// constraints:
 //   δq = Q δr + Qe δe,   Q_dep = −φ_dep⁻¹ φ_ind,   δu = S δr + U δw + Se δe,   U_dep = −ν_dep⁻¹ ν_ind.
 // U spans the null space of A. With c, the u' that A u' = γ requires if w' = 0:
 //   (UᵀMU) w' = Uᵀ(f − M c),   A_depᵀ λ = (M u' − f)_dep.
-#include "linear/tangent.hpp"
+#include "stability/linear/tangent.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "alembert/base/error.hpp"
-#include "language/say.hpp"
-#include "linear/dense_long.hpp"
-#include "linear/paths.hpp"
-#include "lower/lower.hpp"
+#include "base/language/say.hpp"
+#include "program/lower/lower.hpp"
+#include "stability/linear/dense_long.hpp"
+#include "stability/linear/paths.hpp"
 
 namespace alembert {
 

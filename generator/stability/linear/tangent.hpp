@@ -2,7 +2,7 @@
 #pragma once
 
 /// The equations of motion and their first derivatives at one state, in independent coordinates and speeds: the
-/// algebra of linear/linearize.hpp, for any state and any floating-point type.
+/// algebra of stability/linear/linearize.hpp, for any state and any floating-point type.
 ///
 ///     const Residuals residuals(mechanism, equations);           // one Program for all of them
 ///     const Split split = split_of(residuals, instant, …); // which coordinates and speeds are independent
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "formalism/equations.hpp"
+#include "model/formalism/equations.hpp"
 #include "program/interpret.hpp"
 #include "program/jet.hpp"
 

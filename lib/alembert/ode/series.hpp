@@ -2,7 +2,7 @@
 #pragma once
 
 /// The Taylor coefficients of a motion at a state, computed by a separate emitted file
-/// (generator/emit/taylor.hpp) or by machine code in memory (generator/machine/memory_series.hpp).
+/// (generator/codegen/emit/taylor.hpp) or by machine code in memory (generator/codegen/machine/memory_series.hpp).
 ///
 ///     const Series series = make_series(load_series(object));     // the scene's own parameters
 ///     std::vector<double> out((order + 1) * series.width), work(series.workspace);

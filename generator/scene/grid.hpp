@@ -7,7 +7,7 @@
 ///     grid.point(3);                                               // {1, 2}
 ///
 /// `count` evenly spaced values from `from` to `to`, both included; a single value is `from`. A grid may have a
-/// list of points in place of these, as from a file or random (run/samples.hpp).
+/// list of points in place of these, as from a file or random (simulate/samples.hpp).
 
 #include <functional>
 #include <span>
@@ -25,9 +25,9 @@ struct Axis {
 struct Grid {
     std::vector<Axis> axes;
     std::vector<double> listed = {};  ///< if not empty, the points, one value for each axis, point after point
-    /// If not empty, it sets where a point lies in the range of each axis, from 0 to 1 (run/samples.hpp); there
-    /// are as many points as the first axis counts. It is called by one thread at a time, the quickest in the
-    /// order of the points.
+    /// If not empty, it sets where a point lies in the range of each axis, from 0 to 1 (simulate/samples.hpp);
+    /// there are as many points as the first axis counts. It is called by one thread at a time, the quickest in
+    /// the order of the points.
     std::function<void(std::size_t k, std::span<double> fractions)> samples = {};
 
     std::size_t size() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "scene/greek.hpp"
+#include "base/language/greek.hpp"
 
 #include <array>
 

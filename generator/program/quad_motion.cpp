@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/quad_motion.hpp"
+#include "program/quad_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
