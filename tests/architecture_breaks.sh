@@ -5,7 +5,7 @@ set -eu
 cd "$(dirname "$0")/.."
 copy=$(mktemp -d)
 trap 'rm -rf "$copy"' EXIT
-cp -r generator lib templates generated "$copy"
+cp -r generator lib python templates generated "$copy"
 mkdir "$copy/tests"
 cp tests/architecture.sh "$copy/tests"
 "$copy/tests/architecture.sh" >/dev/null || { echo 'the copy without a breach is refused'; exit 1; }

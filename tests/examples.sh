@@ -45,7 +45,7 @@ awk -v folder="$work/cpp" '
     for source in "$work"/cpp/*.cpp; do
         name=$(basename "$source" .cpp)
         echo "add_executable($name $name.cpp)"
-        echo "target_link_libraries($name PRIVATE alembert::generator)"
+        echo "target_link_libraries($name PRIVATE alembert::alembert)"
     done
     # Every installed name of a header of the runtime, the old ones too.
     echo 'add_library(headers OBJECT headers.cc)'

@@ -29,7 +29,7 @@ texts() { # FILE...: the strings of C++ files, one a line
     xgettext --language=C++ --from-code=UTF-8 --no-wrap --output=- "$@" 2>/dev/null | sed -n 's/^\(msgid \)\?"\(.*\)"$/\2/p'
 }
 sed '/toml++, and/,$d' generator/base/language/libraries.cpp >"$work/patterns.cpp"
-texts -a lib/alembert/*.?pp >"$work/runtime"
+texts -a lib/alembert/*/*.?pp >"$work/runtime"
 texts --keyword --keyword=to_say:1 "$work/patterns.cpp" | sed 's/\\n/\n/g; s/{[^}]*}/\n/g' >"$work/parts"
 [ "$(wc -l <"$work/parts")" -ge 60 ] || fail 'the patterns of the runtime are not found'
 while IFS= read -r part; do
