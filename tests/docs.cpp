@@ -19,6 +19,7 @@
 #include "scene/placing.hpp"
 #include "scene/scene.hpp"
 #include "scene/toml.hpp"
+#include "scene/warning_kinds.hpp"
 
 namespace docs {
 
@@ -258,6 +259,11 @@ TEST_CASE("docs: the schema's methods and joints are those of the program") {
     const std::vector<std::string> words = method_words();
     CHECK(schema()["properties"]["simulation"]["properties"]["method"]["enum"].get<std::set<std::string>>() ==
           std::set<std::string>(words.begin(), words.end()));
+    CHECK(schema()["properties"]["allow"]["items"]["enum"].get<std::vector<std::string>>() ==
+          std::vector<std::string>(warning_kinds.begin(), warning_kinds.end()));
+    const std::string language = text_of("docs/scene-language.md");
+    for (const std::string_view kind : warning_kinds)
+        CHECK_MESSAGE(language.find("`" + std::string(kind) + "`") != std::string::npos, kind);
     CHECK(schema()["properties"]["joint"]["items"]["properties"]["type"]["enum"].get<std::vector<std::string>>() ==
           joint_types());
 }

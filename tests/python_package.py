@@ -187,6 +187,16 @@ class Verbs(unittest.TestCase):
             self.assertIn(f"'{one.verdict}'", fields[type(one).__name__]["verdict"])
         self.assertNotIn("Any", " ".join(fields["Checked"].values()))
 
+    def test_numbers_are_in_si_units_and_pictures_in_those_of_the_scene(self):
+        scene = alembert.Scene({
+            "coordinates": {"x": {"initial": 30, "unit": "mm"}, "phi": {"initial": 90, "unit": "deg"}, "s": 1},
+            "energy": {"kinetic": "(x'^2 + phi'^2 + s'^2)/2"}, "simulation": {"duration": 1}})
+        run = scene.simulate()
+        self.assertEqual(run.units, {"x": "m", "phi": "rad"})
+        self.assertAlmostEqual(run["x"][-1], 0.03, 15)
+        self.assertAlmostEqual(run["phi"][-1], 1.5707963267948966, 14)
+        self.assertIn("phi in deg", run.plot("phi").svg)
+
     def test_warnings_are_warnings(self):
         wrong = {**PENDULUM, "body": [{"name": "B", "mass": 1, "position": [0, 0, 0], "frame": "F",
                                        "inertia": [1, 1, 3]}],

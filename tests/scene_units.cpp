@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <random>
 
+#include "alembert/base/error.hpp"
 #include "scene/dimensions.hpp"
 #include "scene/scene.hpp"
 #include "scene/unit_text.hpp"
@@ -258,6 +259,13 @@ TEST_CASE(
                "\"sin(q)\"]\n") == "6 no_effect rod; ");
     CHECK(told("[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"sin(30)*x + cos(30 deg)*x + "
                "sin(pi/6)\"\n") == "5 suspicious_number ; ");
+    try {
+        parse_scene("allow = [\"unsed\"]\n[coordinates]\nx = 0\n", "allow.toml");
+        FAIL("a kind that is none is read");
+    } catch (const SceneError& error) {
+        CHECK(std::string(error.what()).find("unknown kind of warning 'unsed'; did you mean 'unused'?") !=
+              std::string::npos);
+    }
     int scenes = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(ALEMBERT_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".toml") continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,7 @@
 #include "scene/text_file.hpp"
 #include "scene/typed_toml.hpp"
 #include "scene/units.hpp"
+#include "scene/warning_kinds.hpp"
 
 namespace alembert {
 namespace {
@@ -190,7 +192,15 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
     scene.title = top.text("title");
     scene.source = top.text("source");
     scene.notes = top.text("notes");
-    for (const Name& kind : top.names("allow")) scene.allowed.push_back(kind.text);
+    const std::vector<std::string> kinds(warning_kinds.begin(), warning_kinds.end());
+    for (const Name& kind : top.names("allow")) {
+        scene.allowed.push_back(kind.text);
+        if (std::find(kinds.begin(), kinds.end(), kind.text) != kinds.end()) continue;
+        const std::string meant = nearest(kind.text, kinds);
+        reading.complain(kind.place, say("'allow' has the unknown kind of warning {}; {}", in_quotes(kind.text),
+                                         meant.empty() ? say("there are {}", fmt::join(kinds, ", "))
+                                                       : say("did you mean '{}'?", meant)));
+    }
     if (!scene.simulation.start) scene.simulation.start = zero({});
 }
 

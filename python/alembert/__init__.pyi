@@ -150,6 +150,8 @@ class Derivation(Result):
     def page(self, format: str = ..., steps: bool = ...) -> str: ...
 
 class Run(Result):
+    @property
+    def units(self) -> dict[str, str]: ...
     final: dict[str, Any]
     columns: list[str]
     table: NDArray[np.float64]

@@ -52,6 +52,12 @@ class Run(Result):
         """Times of the rows, in seconds."""
         return self["t"]
 
+    @property
+    def units(self):
+        """The SI units of coordinates and speeds by name, of those that have one; their rates are in these over s. All
+        numbers are in SI units, whatever the units of the scene; plots and printed text have those."""
+        return self.json.get("units", {})
+
     def __getitem__(self, column):
         try:
             return self.table[:, self.columns.index(column)]
