@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "algebra/notation/text.hpp"
 #include "analysis/agree/agree.hpp"
 #include "analysis/audit/audit.hpp"
@@ -14,6 +16,7 @@
 #include "model/formalism/formalisms.hpp"
 #include "model/formalism/kane.hpp"
 #include "model/formalism/lagrange.hpp"
+#include "model/formalism/needs.hpp"
 #include "model/formalism/routh.hpp"
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
@@ -65,6 +68,39 @@ TEST_CASE("formalisms: a derivation throws if and only if there is an obstacle")
     }
     CHECK(applied > test::at_least(200));
     CHECK(refused > test::at_least(50));
+}
+
+TEST_CASE("formalisms: the one that is taken for a need has what is needed, wherever it applies") {
+    int with_multipliers = 0, minimal = 0, trees = 0;
+    for (const std::string& file : all_scenes()) {
+        CAPTURE(file);
+        const Mechanism m = prepared(read_scene(file)).mechanism;
+        const Formalism& in_rates = formalism_in_rates(m);
+        CHECK(&in_rates == &formalism_for(m.constraints.empty() ? Need::independent : Need::multipliers));
+        if (!in_rates.obstacle(m)) {
+            const Equations e = in_rates.derive(m);
+            CHECK(e.speeds_are_rates());
+            CHECK(e.lambda.size() == m.constraints.size());
+            if (!m.constraints.empty()) ++with_multipliers;
+        }
+        const Formalism& in_speeds = formalism_for(Need::minimal_speeds);
+        const auto nonholonomic = static_cast<std::size_t>(
+            std::count_if(m.constraints.begin(), m.constraints.end(), [](const auto& c) { return !c.holonomic; }));
+        if (!in_speeds.obstacle(m)) {
+            const Equations e = in_speeds.derive(m);
+            CHECK(e.lambda.size() <= m.constraints.size() - nonholonomic);  // less that of a norm
+            CHECK(e.u.size() <= m.q.size() - nonholonomic);
+            minimal += nonholonomic > 0 ? 1 : 0;
+        }
+        const Formalism& fastest = formalism_for(Need::fastest);
+        if (!fastest.obstacle(m)) {
+            CHECK(fastest.derive(m).tree);
+            ++trees;
+        }
+    }
+    CHECK(with_multipliers > test::at_least(10));
+    CHECK(minimal > test::at_least(5));
+    CHECK(trees > test::at_least(5));
 }
 
 TEST_CASE("formalisms: a mechanism is the same after derivations, comparisons and checks") {

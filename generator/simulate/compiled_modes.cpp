@@ -6,6 +6,7 @@
 
 #include "alembert/base/process_time.hpp"
 #include "analysis/contact/contacts.hpp"
+#include "model/formalism/needs.hpp"
 #include "model/friction.hpp"
 #include "program/differentiate.hpp"
 #include "simulate/canonical.hpp"
@@ -140,7 +141,7 @@ std::unique_ptr<CompiledMode> CompiledModes::made(const std::vector<int>& closed
                : derived_again(derived_,
                                with_directions_held(
                                    with_contacts_watched(with_closed(derived_.mechanism, closed), closed), planes),
-                               closed.empty() ? derived_.by : "routh");
+                               closed.empty() ? derived_.by : formalism_for(Need::multipliers).name);
     seconds_.derive += lap();
     std::vector<int> signs;  // told already
     Program program = free_ && is_own ? *std::move(free_) : with_quotient_signs(lowered(derived).program, signs);

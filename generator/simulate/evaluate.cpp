@@ -12,6 +12,7 @@
 #include "analysis/state/assemble.hpp"
 #include "analysis/state/diagnose.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/needs.hpp"
 #include "model/friction.hpp"
 #include "program/lower/lower.hpp"
 #include "program/lower/robot_functions.hpp"
@@ -54,7 +55,8 @@ std::vector<int> close_contacts(Derived& d, const State<double>& state) {
     const ContactView view(d.mechanism);
     check_gaps(d.scene, d.mechanism, view, state, tolerance::closed_gap);
     const std::vector<int> closed = contacts_at_rest(view, state, tolerance::closed_gap).closed;
-    if (!closed.empty()) d = derived_again(d, with_closed(d.mechanism, closed), "routh");
+    if (!closed.empty())
+        d = derived_again(d, with_closed(d.mechanism, closed), formalism_for(Need::multipliers).name);
     return closed;
 }
 
@@ -99,8 +101,8 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
         for (const int k : closed) e.closed->push_back(m.unilateral[k].gap.name);
     }
     if (const std::vector<int> planes = frictions_in_planes(m, closed); !planes.empty())
-        static_cast<Derived&>(e) =
-            derived_again(e, with_directions_held(m, planes), closed.empty() ? e.by : "routh");
+        static_cast<Derived&>(e) = derived_again(e, with_directions_held(m, planes),
+                                                 closed.empty() ? e.by : formalism_for(Need::multipliers).name);
     Program program = with_signs_told(e, lowered(e).program);
     if (const auto jumps = switched(program, SecondRates::wanted)) {
         std::optional<HeldState> held =

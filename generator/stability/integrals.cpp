@@ -8,6 +8,7 @@
 #include "analysis/exact/motions.hpp"
 #include "model/energy.hpp"
 #include "model/formalism/elements.hpp"
+#include "model/formalism/needs.hpp"
 #include "program/lower/lower.hpp"
 #include "stability/signs.hpp"
 
@@ -147,7 +148,7 @@ void with_motions(const Local& local, const Ask& ask) {
     try {
         const Derived other = local.residuals.rates_are_speeds
                                   ? static_cast<const Derived&>(local.near)
-                                  : derived_again(local.near, m, m.constraints.empty() ? "lagrange" : "routh");
+                                  : derived_again(local.near, m, formalism_in_rates(m).name);
         const Motions motions(m, other.equations);
         if (motions.obstacle().empty() && motions.loose().empty()) ask(motions);
     } catch (const std::exception&) {  // of a formalism that does not apply, or of expressions beyond GiNaC

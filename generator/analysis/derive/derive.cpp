@@ -5,6 +5,7 @@
 #include "analysis/contact/contacts.hpp"
 #include "analysis/exact/expression_of.hpp"
 #include "analysis/reaction/joint_reactions.hpp"
+#include "model/formalism/needs.hpp"
 #include "scene/sticking.hpp"
 
 namespace alembert {
@@ -52,8 +53,9 @@ std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const
     Scene stuck = with_sticking(scene, {friction.name.text});
     stuck.on_warning = [](const Warning&) {};  // they were told for the scene itself
     try {
-        Derived d = derived(std::move(stuck), {.by = "routh", .on_sheets = true});
-        if (!d.mechanism.unilateral.empty()) d = derived_again(d, with_all_closed(d.mechanism), "routh");
+        const std::string& by = formalism_for(Need::multipliers).name;
+        Derived d = derived(std::move(stuck), {.by = by, .on_sheets = true});
+        if (!d.mechanism.unilateral.empty()) d = derived_again(d, with_all_closed(d.mechanism), by);
         Derivation shown = derivation_of(d.mechanism, d.equations);
         return shown.definitions.empty() ? std::move(shown.equations) : std::vector<ReadableEquation>();
     } catch (const ModelError&) {

@@ -17,8 +17,8 @@
 #include "analysis/state/touching.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
-#include "model/formalism/formalisms.hpp"
 #include "model/formalism/joint_tree.hpp"
+#include "model/formalism/needs.hpp"
 #include "model/formalism/recursive.hpp"
 #include "model/sample_functions.hpp"
 #include "program/lower/lower.hpp"
@@ -31,10 +31,11 @@ namespace {
 /// The equations by the formalism of that name; without a name, by the one that a teacher would choose.
 Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     if (!name.empty()) return formalism(name).derive(mechanism);
-    if (mechanism.q.empty()) return equations_without_terms("lagrange", with_own_intermediates(mechanism));
+    if (mechanism.q.empty())
+        return equations_without_terms(formalism_for(Need::independent).name, with_own_intermediates(mechanism));
     if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism))
-        return formalism("kane").derive(mechanism);
-    return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
+        return formalism_for(Need::minimal_speeds).derive(mechanism);
+    return formalism_in_rates(mechanism).derive(mechanism);
 }
 
 constexpr int many_pairs = 128;  // pairs of a body and one it is carried by: a chain of 16 has as many
@@ -160,8 +161,9 @@ void need_rates(const Derived& d) {
 
 Choice lowered(const Derived& d, bool fold) {
     std::vector<Equations> all{d.equations};
-    if (d.by.empty() && d.equations.speeds_are_rates() && !d.equations.tree && !obstacle_to_recursive(d.mechanism))
-        all.push_back(recursive(d.mechanism));
+    const Formalism& fastest = formalism_for(Need::fastest);
+    if (d.by.empty() && d.equations.speeds_are_rates() && !d.equations.tree && !fastest.obstacle(d.mechanism))
+        all.push_back(fastest.derive(d.mechanism));
     return choose(d.mechanism, all, {.fold = fold, .admissible = [&d] { return admissible_start(d.mechanism); }});
 }
 

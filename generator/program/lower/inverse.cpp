@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 
 #include "model/formalism/joint_tree.hpp"
-#include "model/formalism/lagrange.hpp"
+#include "model/formalism/needs.hpp"
 #include "model/formalism/recursive.hpp"
-#include "model/formalism/routh.hpp"
 #include "model/friction.hpp"
 #include "program/lower/articulated_bodies.hpp"
 #include "program/lower/lower.hpp"
@@ -26,7 +25,7 @@ std::vector<int> inverse_loads(Program& program, const Mechanism& mechanism,
         const auto lowering = lowering_into(program, m, known);
         return inverse_recursion(program, tree.value(), *m.z, m.qddot, lowering);
     }
-    const Equations e = m.constraints.empty() ? lagrange(m) : routh(m);
+    const Equations e = formalism_in_rates(m).derive(m);
     const Mechanism own = in_terms_of(e, m);
     const auto lowering = lowering_into(program, own, known);
     std::vector<int> loads;

@@ -4,9 +4,8 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
-#include "model/formalism/lagrange.hpp"
+#include "model/formalism/needs.hpp"
 #include "model/formalism/recursive.hpp"
-#include "model/formalism/routh.hpp"
 #include "model/friction.hpp"
 #include "program/lower/articulated_bodies.hpp"
 #include "program/lower/choose.hpp"
@@ -154,7 +153,7 @@ Program RobotFunctions::by_expressions(const std::vector<ex>& values) const {
 }
 
 Program RobotFunctions::from_lagrange(const std::string& name) const {
-    const Equations e = m_.constraints.empty() ? lagrange(m_) : routh(m_);
+    const Equations e = formalism_in_rates(m_).derive(m_);
     Program program = begun(m_, fold_);
     std::vector<int> mass, forcing;
     // A program for runs has an inertia along the e of each quaternion, which is not part of M.

@@ -12,6 +12,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
+#include "model/formalism/needs.hpp"
 #include "program/lower/lower.hpp"
 
 namespace alembert {
@@ -111,7 +112,7 @@ void check_balance(const Equilibria& found, const SteadyProblem& problem) {
 }
 
 /// If rates do not stay constant, Kane's speeds may, as for a sledge that runs on a circle.
-bool may_try_kane(const Derived& d) {
+bool may_try_minimal_speeds(const Derived& d) {
     const auto& all = d.mechanism.constraints;
     return d.by.empty() && d.mechanism.speeds.empty() && masses_are_known(d.mechanism) &&
            std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });
@@ -218,8 +219,8 @@ Equilibria equilibria(Scene scene, const EquilibriumOptions& options) {
     assemble(start, result.mechanism, lower_constraints(result.mechanism), options.at, false);
     check_contacts(result, start);
     search_in(result, start, options);
-    if (result.list.empty() && may_try_kane(result)) {
-        Equilibria other{derived_again(result, result.mechanism, "kane")};
+    if (result.list.empty() && may_try_minimal_speeds(result)) {
+        Equilibria other{derived_again(result, result.mechanism, formalism_for(Need::minimal_speeds).name)};
         search_in(other, start, options);
         if (!other.list.empty()) return other;
     }

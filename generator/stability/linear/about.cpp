@@ -13,7 +13,7 @@
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "model/constant.hpp"
-#include "model/formalism/kane.hpp"
+#include "model/formalism/needs.hpp"
 #include "model/friction.hpp"
 #include "program/lower/lower.hpp"
 #include "stability/linear/linearize_symbolic.hpp"
@@ -68,10 +68,11 @@ SymbolRows in_symbols(const Linearization& near, const Derived& d, const Lineari
 void choose_speeds(Derived& d, const LinearizeOptions& options, const Start& start) {
     const std::vector<Mechanism::Constraint>& all = d.mechanism.constraints;
     const bool nonholonomic = std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });
-    if (!nonholonomic || !options.by.empty() || !d.mechanism.speeds.empty() || obstacle_to_kane(d.mechanism) ||
+    const Formalism& minimal = formalism_for(Need::minimal_speeds);
+    if (!nonholonomic || !options.by.empty() || !d.mechanism.speeds.empty() || minimal.obstacle(d.mechanism) ||
         is_steady(d.mechanism, d.equations, start))
         return;
-    Derived other = derived_again(d, d.mechanism, "kane");
+    Derived other = derived_again(d, d.mechanism, minimal.name);
     if (!is_steady(other.mechanism, other.equations, start)) return;
     d.mechanism = std::move(other.mechanism);
     d.equations = std::move(other.equations);
@@ -91,7 +92,8 @@ void close_contacts(Derived& d, const Start& start) {
             "the other, so the equations of motion have no first derivative there. Give a state in "
             "which the contact presses or is open, or leave the contact out",
             fmt::join(idle, ", ")));
-    if (!lasting.closed.empty()) d = derived_again(d, with_closed(d.mechanism, lasting.closed), "routh");
+    if (!lasting.closed.empty())
+        d = derived_again(d, with_closed(d.mechanism, lasting.closed), formalism_for(Need::multipliers).name);
 }
 
 }  // namespace

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/formalism/needs.hpp"
+
+#include <stdexcept>
+
+namespace alembert {
+
+const Formalism& formalism_for(Need need) {
+    switch (need) {
+        case Need::independent:
+            return formalism("lagrange");
+        case Need::multipliers:
+            return formalism("routh");
+        case Need::minimal_speeds:
+            return formalism("kane");
+        case Need::fastest:
+            return formalism("recursive");
+    }
+    throw std::logic_error("a need that no formalism serves");
+}
+
+const Formalism& formalism_in_rates(const Mechanism& mechanism) {
+    return formalism_for(mechanism.constraints.empty() ? Need::independent : Need::multipliers);
+}
+
+}  // namespace alembert
