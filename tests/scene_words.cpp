@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "alembert/base/error.hpp"
 #include "scene/known_names.hpp"
+#include "scene/lists.hpp"
 #include "scene/scene.hpp"
 #include "scene/typed_toml.hpp"
 #include "scene/typed_words.hpp"
@@ -127,6 +129,17 @@ TEST_CASE("typed words: the signs of a file are written plainly outside of its s
     CHECK(with_plain_signs("a = \"\"\"\n＝\"＝\n\"\"\"\nb ＝ 1") == "a = \"\"\"\n＝\"＝\n\"\"\"\nb = 1");
     CHECK(with_plain_signs("a = “open\nb ＝ 1") == "a = “open\nb = 1");
     CHECK(with_plain_signs("【【x】】\u3000、−1") == "[[x]] ,-1");
+}
+
+TEST_CASE("lists: what stands between commas is taken as it is, and names must be there") {
+    using Words = std::vector<std::string>;
+    CHECK(alembert::at_commas("min, 0.5,") == Words{"min", " 0.5", ""});
+    CHECK(alembert::at_commas("") == Words{""});
+    CHECK(alembert::names_of("").empty());
+    CHECK(alembert::names_of("theta1,theta2") == Words{"theta1", "theta2"});
+    for (const char* const wrong : {",", "a,", ",a", "a,,b"})
+        CHECK_THROWS_WITH_AS(alembert::names_of(wrong),
+                             doctest::Contains("has a comma beside which there is no name"), alembert::ModelError);
 }
 
 }  // namespace scene_words

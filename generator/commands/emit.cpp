@@ -10,6 +10,7 @@
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "present/report/emission.hpp"
+#include "scene/lists.hpp"
 
 namespace alembert {
 

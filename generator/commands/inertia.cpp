@@ -4,6 +4,7 @@
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "scene/lists.hpp"
 
 namespace alembert {
 

@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "commands/values.hpp"
+#include "scene/lists.hpp"
 
 namespace alembert {
 
@@ -52,16 +51,13 @@ void add_show_option(Verb& verb, std::string& list, const std::string& picture) 
 }
 
 std::vector<std::string> shown_names(const std::string& list) {
-    std::vector<std::string> names;
-    for (std::size_t begin = 0; !list.empty() && begin <= list.size();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        std::string name = list.substr(begin, end - begin);
+    if (list.empty()) return {};
+    std::vector<std::string> names = at_commas(list);
+    for (std::string& name : names) {
         name.erase(0, name.find_first_not_of(' '));
         name.erase(name.find_last_not_of(' ') + 1);
         if (name.empty())
             throw ModelError(say("--show {}: expected names with commas between, as in --show x,y", list));
-        names.push_back(name);
-        begin = end + 1;
     }
     return names;
 }

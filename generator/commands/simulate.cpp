@@ -12,6 +12,7 @@
 #include "present/report/motion_plot.hpp"
 #include "present/report/run.hpp"
 #include "present/report/table_file.hpp"
+#include "scene/lists.hpp"
 #include "simulate/section.hpp"
 
 namespace alembert {

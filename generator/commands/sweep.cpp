@@ -19,6 +19,7 @@
 #include "present/report/sweep.hpp"
 #include "present/report/sweep_plot.hpp"
 #include "present/report/table_file.hpp"
+#include "scene/lists.hpp"
 #include "simulate/samples.hpp"
 #include "simulate/shared_sweep.hpp"
 #include "simulate/swept_store.hpp"

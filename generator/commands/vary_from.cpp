@@ -13,6 +13,7 @@
 #include "base/language/say.hpp"
 #include "commands/vary.hpp"
 #include "commands/verb.hpp"
+#include "scene/lists.hpp"
 #include "scene/text.hpp"
 #include "scene/units.hpp"
 
@@ -22,14 +23,10 @@ namespace {
 
 /// The fields of a line without blanks around them and without quotes.
 std::vector<std::string> fields_of(const std::string& line) {
-    std::vector<std::string> fields;
-    for (std::size_t begin = 0; begin <= line.size();) {
-        const std::size_t end = std::min(line.find(',', begin), line.size());
-        std::string field = line.substr(begin, end - begin);
+    std::vector<std::string> fields = at_commas(line);
+    for (std::string& field : fields) {
         field.erase(0, std::min(field.find_first_not_of(" \t\""), field.size()));
         field.erase(field.find_last_not_of(" \t\r\"") + 1);
-        fields.push_back(std::move(field));
-        begin = end + 1;
     }
     return fields;
 }

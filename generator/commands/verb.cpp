@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
@@ -164,20 +163,6 @@ void add_verbs(CLI::App& app, Chosen& chosen) {
 
 std::string in_words_of(const Scene& scene, const std::string& text) {
     return text.empty() ? text : written_name(text, KnownNames(scene));
-}
-
-std::vector<std::string> names_of(const std::string& list) {
-    std::vector<std::string> result;
-    if (list.empty()) return result;
-    std::istringstream names(list + ',');
-    for (std::string name; std::getline(names, name, ',');) {
-        if (name.empty())
-            throw ModelError(
-                say("'{}' has a comma beside which there is no name; expected names with one comma between two",
-                    list));
-        result.push_back(name);
-    }
-    return result;
 }
 
 ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scene& scene) {

@@ -79,9 +79,6 @@ ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scen
 /// Names, or an expression, in the words of the scene: "theta1'" for "θ1dot" (scene/typed_words.hpp).
 std::string in_words_of(const Scene& scene, const std::string& text);
 
-/// B1,B2 …: names between commas.
-std::vector<std::string> names_of(const std::string& list);
-
 /// A number as typed, or an expression of numbers and pi (model/constant.hpp). Throws ModelError for anything
 /// else.
 double number_of(const std::string& text);

@@ -10,6 +10,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "scene/lists.hpp"
 #include "simulate/byte_text.hpp"
 
 namespace alembert {
@@ -66,14 +67,12 @@ void take_sketch(ByteReader& in, QuantileSketch& sketch) {
 
 std::vector<Statistic> statistics_of(const std::string& list) {
     std::vector<Statistic> result;
-    for (std::size_t begin = 0; begin <= list.size();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        const Statistic one = statistic_of(list.substr(begin, end - begin), list);
+    for (const std::string& word : at_commas(list)) {
+        const Statistic one = statistic_of(word, list);
         for (const Statistic& other : result)
             if (other.name == one.name)
                 throw ModelError(say("--reduce {}: '{}' stands there twice", list, one.name));
         result.push_back(one);
-        begin = end + 1;
     }
     return result;
 }
