@@ -8,6 +8,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "scene/text.hpp"
 
 namespace alembert {
 
@@ -165,6 +166,13 @@ Fractions uniform(std::uint64_t seed) {
 }
 
 }  // namespace
+
+Sampling sampling_of(const std::string& word) {
+    if (word == "uniform") return Sampling::uniform;
+    if (word == "latin") return Sampling::latin;
+    if (word == "sobol") return Sampling::sobol;
+    throw ModelError(say("{} is no way to sample; expected sobol, latin or uniform", in_quotes(word)));
+}
 
 Grid sampled(std::vector<Axis> axes, std::size_t count, Sampling sampling, std::uint64_t seed) {
     Grid grid{.axes = std::move(axes)};

@@ -22,12 +22,16 @@
 /// no part (Black & Rogaway, CT-RSA 2002, LNCS 2271, 114, "cycle-walking").
 
 #include <cstdint>
+#include <string>
 
 #include "scene/grid.hpp"
 
 namespace alembert {
 
 enum class Sampling { uniform, latin, sobol };
+
+/// Throws ModelError for a word that is none of these.
+Sampling sampling_of(const std::string& word);
 
 /// The counts of the axes are not used. Throws ModelError for a sobol sequence over more than 21 ranges
 /// or of more than 2³² points.

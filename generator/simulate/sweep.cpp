@@ -4,46 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
-#include "alembert/base/argument.hpp"
-#include "base/language/say.hpp"
-#include "simulate/sweeper.hpp"
+#include "simulate/sweep_job.hpp"
 
 namespace alembert {
 
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads) {
-    argument::need_whole_nonnegative("threads", threads);
-    Sweeper sweeper(std::move(scene), grid, wishes);
-    sweeper.check();
-    sweeper.compile();
-    constexpr std::size_t longest_part = 4096;
-    std::vector<SweptMotion> all(grid.size());
-    std::size_t given = 0;
-    std::atomic<std::size_t> done = 0;
-    sweeper.run({.next = [&]() -> std::optional<SweepPart> {
-                     const SweepPart part{given, std::min(longest_part, grid.size() - given)};
-                     given += part.count;
-                     return part.count > 0 ? std::optional(part) : std::nullopt;
-                 },
-                 .done =
-                     [&](SweepPart part, std::vector<SweptMotion> motions) {
-                         std::move(motions.begin(), motions.end(),
-                                   all.begin() + static_cast<std::ptrdiff_t>(part.first));
-                         done += part.count;
-                     },
-                 .breathe =
-                     [&] {
-                         if (wishes.progress)
-                             wishes.progress(say("sweeping"),
-                                             static_cast<double>(done) / static_cast<double>(grid.size()));
-                     },
-                 .most = grid.size()},
-                threads);
-    Sweep s = std::move(sweeper.sweep());
-    s.members = std::move(all);
-    return s;
+    SweepJob job({.scene = std::move(scene), .grid = grid, .wishes = wishes, .threads = threads});
+    job.prepare();
+    job.run();
+    return std::move(job.collected());
 }
 
 std::vector<std::string> end_columns(const Sweep& s) {

@@ -137,4 +137,22 @@ std::string quantile_error_as_text(const SweepReduction& reduction) {
                       : say("the relative error of quantiles is at most {:.1e}\n", worst);
 }
 
+Json as_json(const SweepJob& job, const Json& points, const std::string& file) {
+    Json result = as_json(job.sweep(), job.totals());
+    if (job.is_shared()) result["ranks"] = job.processes();
+    if (job.resumes()) result["resumed"] = job.resumed();
+    result.update(points);
+    if (job.is_reduced()) result["reduced"] = as_json(job.reduction());
+    if (!file.empty()) result["file"] = file;
+    return result;
+}
+
+std::string as_text(const SweepJob& job, const std::string& file) {
+    std::string text = as_text(job.sweep(), job.totals());
+    if (job.is_shared()) text += say("shared by {} processes\n", job.processes());
+    if (job.resumed() > 0) text += say("{} motions were there from before\n", job.resumed());
+    if (job.is_reduced()) text += quantile_error_as_text(job.reduction());
+    return file.empty() ? text : text + say("wrote {}\n", file);
+}
+
 }  // namespace alembert

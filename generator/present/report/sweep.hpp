@@ -2,8 +2,7 @@
 #pragma once
 
 #include "present/report/json.hpp"
-#include "simulate/sweep.hpp"
-#include "simulate/sweep_reduction.hpp"
+#include "simulate/sweep_job.hpp"
 
 namespace alembert {
 
@@ -21,5 +20,10 @@ Json as_json(const SweepReduction& reduction);
 std::string as_csv(const SweepReduction& reduction);
 /// The error of quantiles, in a line; empty if there are none.
 std::string quantile_error_as_text(const SweepReduction& reduction);
+
+/// What a job did, without its rows, which are in `file` (empty for none). `points` says how they were chosen.
+Json as_json(const SweepJob& job, const Json& points, const std::string& file);
+/// The same in a few lines.
+std::string as_text(const SweepJob& job, const std::string& file);
 
 }  // namespace alembert

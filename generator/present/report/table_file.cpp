@@ -85,10 +85,6 @@ StoredTable stored(const Sweep& s, const MotionsOf& rows) {
     return table;
 }
 
-bool is_csv(const std::string& path) {
-    return form_of(path) == Form::csv;
-}
-
 void need_table_form(const std::string& path) {
     need_form(path, FileForm::table);
     if (form_of(path) == Form::hdf5) need_hdf5();
@@ -118,6 +114,16 @@ std::string table_file(const Sweep& sweep, const SweepReduction& reduction, cons
             std::get<std::vector<double>>(table.columns[k + 2].values).push_back(quantity.values[k]);
     }
     return in_form(form, table);
+}
+
+void put_table(SweepJob& job, const std::string& path, const std::function<void(std::string_view)>& put) {
+    const Sweep& s = job.sweep();
+    if (job.is_reduced()) return put(table_file(s, job.reduction(), path));
+    if (form_of(path) != Form::csv)
+        return put(table_file(
+            s, [&job](const SweptStore::Rows& take) { job.each(take); }, path));
+    put(csv_header(s));
+    job.each([&](const std::vector<SweptMotion>& motions) { put(csv_rows(motions)); });
 }
 
 }  // namespace alembert

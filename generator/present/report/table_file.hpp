@@ -8,11 +8,11 @@
 ///     write_file("run.npz", table_file(run, "run.npz"), {});
 
 #include <functional>
+#include <string_view>
 
 #include "base/archive/stored_table.hpp"
 #include "simulate/simulate.hpp"
-#include "simulate/sweep.hpp"
-#include "simulate/sweep_reduction.hpp"
+#include "simulate/sweep_job.hpp"
 
 namespace alembert {
 
@@ -20,14 +20,14 @@ namespace alembert {
 /// form in which no table is written (base/archive/file_form.hpp).
 void need_table_form(const std::string& path);
 
-/// Is the form CSV, which can be written row by row?
-bool is_csv(const std::string& path);
-
 std::string table_file(const Run& run, const std::string& path);
 /// `rows` gives the motions, some at a time, to its argument. Not for CSV.
 using MotionsOf = std::function<void(const std::function<void(const std::vector<SweptMotion>&)>&)>;
 std::string table_file(const Sweep& sweep, const MotionsOf& rows, const std::string& path);
 std::string table_file(const Sweep& sweep, const SweepReduction& reduction, const std::string& path);
+
+/// The table of a job that is done, statistics if it was reduced, piece by piece: a CSV need not fit into memory.
+void put_table(SweepJob& job, const std::string& path, const std::function<void(std::string_view)>& put);
 
 /// The columns of the CSV with their units, the scene's text (`scene`) and the version of the program (`version`).
 StoredTable stored(const Run& run);
