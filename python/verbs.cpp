@@ -10,6 +10,7 @@
 
 #include "alembert/base/argument.hpp"
 #include "commands/import.hpp"
+#include "commands/sweep_table.hpp"
 #include "commands/verb.hpp"
 #include "present/report/agree.hpp"
 #include "present/report/audit.hpp"
@@ -33,6 +34,7 @@
 #include "present/report/sweep.hpp"
 #include "scene/claims_file.hpp"
 #include "scene/units.hpp"
+#include "simulate/samples.hpp"
 #include "stability/linear/about.hpp"
 
 namespace alembert {
@@ -103,6 +105,7 @@ public:
                 .step = real("step"),
                 .max_step = real("max_step"),
                 .budget = static_cast<long>(number("budget", 10'000'000)),
+                .fast_math = flag("fast_math"),
                 .progress = progress};
     }
 
@@ -282,23 +285,65 @@ Answer do_emit(Scene scene, const Asked& asked) {
     return answer;
 }
 
-Answer do_sweep(Scene scene, const Asked& asked) {
+/// Points that are listed one after the other.
+Grid listed_points(const Asked& asked) {
     Grid grid;
     for (const std::string& name : asked.texts("names")) grid.axes.push_back({.name = name});
     for (const Json& value : asked.options().at("points")) grid.listed.push_back(Asked::real_of(value));
     for (Axis& axis : grid.axes) axis.count = grid.listed.size() / grid.axes.size();
-    const Sweep swept = sweep(std::move(scene), grid, asked.run_options(), asked.whole("threads", 0));
-    const SweepTotals totals = totals_of(swept);
-    Answer answer{.json = as_json(swept, totals), .text = as_text(swept, totals), .warnings = swept.warnings};
-    answer.table.columns = grid.names();
-    for (const std::string& name : end_columns(swept)) answer.table.columns.push_back(name);
-    Json& status = answer.json["status"] = Json::array();
-    for (const SweptMotion& member : swept.members) {
-        const std::vector<double> end = end_values(member);
-        answer.table.values.insert(answer.table.values.end(), member.varied.begin(), member.varied.end());
-        answer.table.values.insert(answer.table.values.end(), end.begin(), end.end());
-        status.push_back(member.status);
+    return grid;
+}
+
+Grid samples_asked(const Asked& asked, int samples) {
+    const int seed = asked.whole("seed", 0);
+    argument::need_whole_nonnegative("seed", seed);
+    return sampled(asked.axes("over", 1), static_cast<std::size_t>(samples), sampling_of(asked.text("sampling")),
+                   static_cast<std::uint64_t>(seed));
+}
+
+void add_rows(const std::vector<SweptMotion>& motions, MotionTable& table, Json& status) {
+    for (const SweptMotion& motion : motions) {
+        for (const std::vector<double>& part : {motion.varied, end_values(motion), motion.along})
+            table.values.insert(table.values.end(), part.begin(), part.end());
+        status.push_back(motion.status);
     }
+}
+
+Answer do_sweep(Scene scene, const Asked& asked) {
+    const std::string path = asked.text("path");
+    const std::vector<std::string> inputs{scene.file};
+    const bool resume = asked.flag("resume");
+    check_sweep_table(path, resume, inputs);
+    const int samples = asked.whole("samples", 0);
+    if (asked.has("samples")) argument::need_whole_positive("samples", samples);
+    Json points = Json::object();
+    if (samples > 0)
+        points = {{"samples", samples}, {"sampling", asked.text("sampling")}, {"seed", asked.whole("seed", 0)}};
+    SweepJob job({.scene = std::move(scene),
+                  .grid = samples > 0 ? samples_asked(asked, samples) : listed_points(asked),
+                  .wishes = asked.run_options(),
+                  .along = asked.text("along"),
+                  .reduce = asked.text("reduce"),
+                  .journal = journal_beside(path),
+                  .resume = resume,
+                  .threads = asked.whole("threads", 0)});
+    job.prepare();
+    job.run();
+    MotionTable table;
+    Json status = Json::array();
+    if (!path.empty())
+        write_sweep_table(job, path, inputs);
+    else if (!job.is_reduced())
+        job.each([&](const std::vector<SweptMotion>& motions) { add_rows(motions, table, status); });
+    job.drop_journal();
+    const Sweep& swept = job.sweep();
+    Answer answer{.json = as_json(job, points, path), .text = as_text(job, path), .warnings = swept.warnings};
+    if (!path.empty() || job.is_reduced()) return answer;
+    table.columns = swept.grid.names();
+    for (const auto& names : {end_columns(swept), along_columns(swept)})
+        table.columns.insert(table.columns.end(), names.begin(), names.end());
+    answer.table = std::move(table);
+    answer.json["status"] = std::move(status);
     return answer;
 }
 

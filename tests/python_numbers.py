@@ -22,6 +22,11 @@ from python_shared import NO_SKIP, PENDULUM, TESTS, program, scene_file
 __all__ = ["CasadiFunctions", "Copies", "Motions", "Robots", "Systems", "Threads"]
 
 
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
 def copied(value):
     return pickle.loads(pickle.dumps(value))
 
@@ -246,6 +251,89 @@ class Motions(unittest.TestCase):
         for wrong in ({}, {"l": []}):
             with self.assertRaises(ValueError):
                 scene.sweep(wrong)
+
+    def test_a_sweep_is_that_of_the_program(self):
+        scene = alembert.Scene(PENDULUM)
+        values = {"l": [1.0, 1.5, 2.0], "theta": [0.25, 0.5]}
+        with tempfile.TemporaryDirectory() as folder:
+            file, told, table = (os.path.join(folder, name) for name in ("scene.toml", "told.csv", "table.csv"))
+            with open(file, "w", encoding="utf-8") as out:
+                out.write(scene.text)
+            vary = ("--vary", "l=1:2:3", "--vary", "theta=0.25:0.5:2", "--duration", "1")
+            program("sweep", file, *vary, "--along", "min,max", "-o", told)
+            swept = scene.sweep(values, duration=1, along=["min", "max"], path=table)
+            self.assertEqual(read(table), read(told))
+            self.assertEqual((swept.members, swept.failed, swept.file), (6, 0, table))
+            self.assertRaisesRegex(KeyError, "table.csv", lambda: swept["theta"])
+            self.assertEqual(sorted(os.listdir(folder)), ["scene.toml", "table.csv", "told.csv"])
+            rows = scene.sweep(values, duration=1, along="min,max")
+            with open(told, encoding="utf-8") as stored:
+                lines = [line.split(",") for line in stored.read().splitlines()]
+            for name in ("min_theta", "max_theta'"):
+                np.testing.assert_array_equal(rows[name].ravel(), [float(line[lines[0].index(name)]) for line in lines[1:]])
+
+            told = program("sweep", file, *vary, "--reduce", "min,mean,median,0.9")["reduced"]
+            reduced = scene.sweep(values, duration=1, reduce=["min", "mean", "median", 0.9])
+            self.assertEqual(reduced.reduced, told)
+            self.assertEqual(reduced.statistics["final_theta"]["q0.9"], told[1]["q0.9"])
+            rows = scene.sweep(values, duration=1)  # with extremes along motions it is another method
+            self.assertEqual(rows["final_theta"].min(), reduced.statistics["final_theta"]["min"])
+            self.assertRaises(AttributeError, lambda: rows.statistics)
+            self.assertRaises(KeyError, lambda: reduced["theta"])
+
+            samples = ("--samples", "20", "--sampling", "latin", "--seed", "5")
+            told = program("sweep", file, "--vary", "l=1:2", "--vary", "theta=0.25:0.5", "--duration", "1", *samples)
+            swept = scene.sweep({"l": (1, 2), "theta": (0.25, 0.5)}, duration=1, samples=20, sampling="latin", seed=5)
+            np.testing.assert_array_equal(swept["final_theta"], [row["final"]["coordinates"]["theta"] for row in told["rows"]])
+            self.assertEqual((swept.samples, swept.sampling, swept.seed), (20, "latin", 5))
+
+        for wrong, kind, words in (({"resume": True}, ValueError, "needs path"),
+                                   ({"reduce": "most"}, alembert.ModelError, "'most' is no statistic"),
+                                   ({"along": ["last"]}, alembert.ModelError, "expected min, max or mean"),
+                                   ({"path": "x.png"}, alembert.ModelError, "x.png"),
+                                   ({"samples": 4}, ValueError, "without a count|expected .name, from, to")):
+            with self.assertRaisesRegex(kind, words):
+                scene.sweep({"l": [1.0, 1.5, 2.0, 2.5]}, duration=1, **wrong)
+        for wrong, kind, words in (({"samples": 0}, ValueError, "samples=0"), ({"seed": -1}, ValueError, "seed=-1"),
+                                   ({"sampling": "dice"}, alembert.ModelError, "'dice' is no way to sample")):
+            with self.assertRaisesRegex(kind, words):
+                scene.sweep({"l": (1, 2)}, duration=1, **{"samples": 4, **wrong})
+
+    def test_a_sweep_goes_on_after_an_interruption(self):
+        class Stopped(Exception):
+            pass
+
+        def stop(_number, _frame):
+            raise Stopped
+
+        def stop_when_something_is_done():
+            while not os.path.exists(kept) or os.path.getsize(kept) < 100:
+                time.sleep(0.002)
+            os.kill(os.getpid(), signal.SIGUSR1)
+
+        scene = alembert.Scene(PENDULUM)
+        with tempfile.TemporaryDirectory() as folder:
+            quiet, table = os.path.join(folder, "quiet.csv"), os.path.join(folder, "table.csv")
+            kept = table + ".unfinished"
+            wishes = {"values": {"theta": np.linspace(0.1, 2, 800)}, "duration": 1500, "tolerance": 1e-12}
+            scene.sweep(**wishes, path=quiet)
+            former = signal.signal(signal.SIGUSR1, stop)
+            stopping = threading.Thread(target=stop_when_something_is_done)
+            try:
+                stopping.start()
+                with self.assertWarnsRegex(alembert.SceneWarning, "resume=True"), self.assertRaises(Stopped):
+                    scene.sweep(**wishes, path=table)
+                stopping.join()
+            finally:
+                signal.signal(signal.SIGUSR1, former)
+            self.assertTrue(os.path.exists(kept))
+            self.assertFalse(os.path.exists(table))
+            with self.assertRaisesRegex(alembert.ModelError, "belongs to another sweep"):
+                scene.sweep({"theta": [0.1]}, path=table, resume=True)
+            swept = scene.sweep(**wishes, path=table, resume=True)
+            self.assertGreater(swept.resumed, 0)
+            self.assertEqual(read(table), read(quiet))
+            self.assertFalse(os.path.exists(kept))
 
     def test_rows_outlive_their_run(self):
         column = alembert.Scene(PENDULUM).simulate(duration=1)["theta"]

@@ -166,6 +166,8 @@ class Run(Result):
 class Swept(Result):
     columns: list[str]
     table: NDArray[np.float64]
+    @property
+    def statistics(self) -> dict[str, dict[str, float | None]]: ...
     def __getitem__(self, column: str) -> NDArray[np.float64]: ...
 
 class System:
@@ -258,7 +260,9 @@ class Scene:
     def sweep(
         self, values: Mapping[str, ArrayLike], duration: float | None = ..., tolerance: float | None = ..., *,
         grid: bool = ..., method: str = ..., step: float | None = ..., max_step: float | None = ...,
-        budget: int = ..., by: str = ..., threads: int = ..., code: str = ...
+        budget: int = ..., by: str = ..., threads: int = ..., code: str = ..., fast_math: bool = ...,
+        along: str | Sequence[str] = ..., reduce: str | Sequence[str | float] = ..., samples: int | None = ...,
+        sampling: str = ..., seed: int = ..., path: _Path | None = ..., resume: bool = ...
     ) -> Swept: ...
     def bench(
         self, duration: float | None = ..., *, method: str = ..., budget: int = ..., peers: bool = ..., by: str = ...

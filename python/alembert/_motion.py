@@ -87,8 +87,9 @@ class Run(Result):
 
 class Swept(Result):
     """Many motions: `swept["theta1"]` is an array of the ends, in the shape of the grid; so are the varied quantities,
-    "t" and "energy_drift" (or "work_balance"). `status` is "done", "stopped" or why a motion failed, one after the
-    other."""
+    "t" and "energy_drift" (or "work_balance"), and what was asked for along motions ("min_theta1"). Where "theta1" is
+    varied, its end is "final_theta1". `status` is "done", "stopped" or why a motion failed, one after the other. A sweep
+    that was reduced has `statistics` instead, and one that was written has its table in `file`."""
 
     def __init__(self, json, text, columns, table, shape):
         super().__init__(json, text)
@@ -96,8 +97,20 @@ class Swept(Result):
         self.table = table
         self._shape = shape
 
+    @property
+    def statistics(self):
+        """By quantity and statistic: `swept.statistics["final_theta1"]["max"]`, with the number of `motions`."""
+        if "reduced" not in self.json:
+            raise AttributeError("there are no statistics without reduce=…")
+        return {row["name"]: {key: value for key, value in row.items() if key != "name"}
+                for row in self.json["reduced"]}  # yapf: disable
+
     def __getitem__(self, column):
-        try:
-            return self.table[:, self.columns.index(column)].reshape(self._shape)
-        except ValueError:
-            raise KeyError(f"no column '{column}'; there are {', '.join(self.columns)}") from None
+        if "reduced" in self.json or "file" in self.json:
+            raise KeyError(f"no column '{column}': the rows are " +
+                           ("reduced to `statistics`" if "reduced" in self.json else f"in {self.json['file']}"))
+        ends = {f"final_{name}": k for k, name in enumerate(self.columns)}  # the last of a name, which may vary too
+        if column not in (*self.columns, *ends):
+            raise KeyError(f"no column '{column}'; there are {', '.join(self.columns)}")
+        place = self.columns.index(column) if column in self.columns else ends[column]
+        return self.table[:, place].reshape(self._shape)

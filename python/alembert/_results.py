@@ -2,6 +2,7 @@
 """What verbs give: JSON objects with attributes, claims with verdicts, derivations, pictures."""
 
 import html as _html
+import itertools as _itertools
 import json as _json
 import math as _math
 import os as _os
@@ -46,6 +47,36 @@ def axis(over):
 def numbers(**given):
     """Options as numbers, which the program checks; what is None is the scene's."""
     return {name: None if value is None else float(value) for name, value in given.items()}
+
+
+def listed(words):
+    """["min", 0.95], or "min,0.95", as the command line takes it."""
+    return words if isinstance(words, str) else ",".join(map(str, words))
+
+
+def points_of(values, grid):
+    """The points of a sweep one after the other, as the program takes them, and their shape."""
+    import numpy
+
+    lists = [numpy.asarray(one, dtype=float).ravel().tolist() for one in values.values()]
+    shape = tuple(map(len, lists)) if grid else (len(lists[0]) if lists else 0,)
+    empty = [name for name, one in zip(values, lists) if not one]
+    if empty:  # of which the program tells
+        values, lists, shape = {empty[0]: ()}, [[]], (0,)
+    if not grid and any(len(one) != len(lists[0]) for one in lists):
+        raise ValueError("with grid=False every quantity needs as many values as the others")
+    points = [x for point in (_itertools.product(*lists) if grid else zip(*lists)) for x in point]
+    return {"names": list(values), "points": points}, shape
+
+
+def samples_of(ranges, samples, sampling, seed):
+    """The same for points that lie in ranges."""
+    if not ranges:
+        raise ValueError("with samples=… the values are ranges: {name: (from, to)}")
+    over = [axis((name, *ends)) for name, ends in ranges.items()]
+    if any(len(one) != 3 for one in over):
+        raise ValueError("with samples=… every range is (from, to), without a count")
+    return {"over": over, "samples": samples, "sampling": sampling, "seed": seed}, (samples,)
 
 
 def _as_json(value):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A scene and its verbs."""
 
-import itertools as _itertools
 import json as _json
 import os as _os
 from collections.abc import Mapping as _Mapping
@@ -9,8 +8,8 @@ from collections.abc import Mapping as _Mapping
 from . import _alembert
 from ._motion import Run, Swept
 from ._results import (
-    Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Result, Sources, Stability, ask, axis, numbers,
-    options_text, values_at, warn, write)  # yapf: disable
+    Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Result, Sources, Stability, ask, axis, listed,
+    numbers, options_text, points_of, samples_of, values_at, warn, write)  # yapf: disable
 from ._system import Robot, System
 from ._toml import to_toml
 
@@ -168,22 +167,29 @@ class Scene:
                     poincare, code, list(sensitivity), list(sensitivity_of), regularize))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
-              budget=10_000_000, by="", threads=0, code=""):
+              budget=10_000_000, by="", threads=0, code="", fast_math=False, along=(), reduce=(), samples=None,
+              sampling="sobol", seed=0, path=None, resume=False):
         """The ends of many motions: `values={"l1": numpy.linspace(1, 2, 100), "theta1": [0.1, 0.2]}` gives a Swept of
-        shape (100, 2); with grid=False the lists have one length and are taken side by side."""
-        import numpy
-
-        lists = [numpy.asarray(one, dtype=float).ravel().tolist() for one in values.values()]
-        shape = tuple(map(len, lists)) if grid else (len(lists[0]) if lists else 0,)
-        empty = [name for name, one in zip(values, lists) if not one]
-        if empty:  # of which the program tells
-            values, lists, shape = {empty[0]: ()}, [[]], (0,)
-        if not grid and any(len(one) != len(lists[0]) for one in lists):
-            raise ValueError("with grid=False every quantity needs as many values as the others")
-        points = [x for point in (_itertools.product(*lists) if grid else zip(*lists)) for x in point]
-        given = {"names": list(values), "points": points, "method": method, "by": by, "threads": threads, "code": code,
-                 "budget": int(budget), **numbers(duration=duration, tolerance=tolerance, step=step, max_step=max_step)}
-        json, text, said, _, columns, table = _alembert.ask("sweep", self.text, self.name, options_text(given))
+        shape (100, 2); with grid=False the lists have one length and are taken side by side. With `samples=1000` the
+        values are ranges, {"l1": (1, 2)}, in which as many points lie; `sampling` and `seed` are the command's.
+        `along=["min", "max"]` adds columns of whole motions. With `reduce=["min", "mean", 0.95]` only `statistics` are
+        kept. With `path` the table is written to this file (CSV, NAME.npz, NAME.h5) and not kept in memory; what is
+        done is in PATH.unfinished meanwhile, and with resume=True the same call goes on after an interruption."""
+        place = None if path is None else _os.fspath(path)
+        if resume and place is None:
+            raise ValueError("resume=True needs path=…: what is done is kept beside this file")
+        given, shape = points_of(values, grid) if samples is None else samples_of(values, samples, sampling, seed)
+        given.update(method=method, by=by, threads=threads, code=code, budget=int(budget), fast_math=fast_math,
+                     along=listed(along), reduce=listed(reduce), path=place, resume=resume,
+                     **numbers(duration=duration, tolerance=tolerance, step=step, max_step=max_step))
+        try:
+            json, text, said, _, columns, table = _alembert.ask("sweep", self.text, self.name, options_text(given))
+        except (_alembert.ModelError, _alembert.SceneError, ValueError):
+            raise
+        except BaseException:
+            if place is not None and _os.path.exists(place + ".unfinished"):
+                warn([f"{place}.unfinished has the motions that are done; the same call with resume=True goes on"])
+            raise
         warn(said)
         return Swept(_json.loads(json), text, columns, table, shape)
 
