@@ -123,8 +123,8 @@ TEST_CASE("contact: the contacts that stay closed are those that enumeration of 
         if (!expected) continue;
         // Condition numbers stay below 10⁵.
         CHECK((found.acceleration - *expected).norm() < 1e-9 * (1 + expected->norm()));
-        const ImpactResult pressed = press(s.M, s.f, s.bilateral.rows, -s.bilateral.acceleration, s.contacts.rows,
-                                           -s.contacts.acceleration);
+        const ImpactResult pressed = press(s.M, s.f, {s.bilateral.rows, -s.bilateral.acceleration},
+                                           {s.contacts.rows, -s.contacts.acceleration});
         const VectorXd rest = s.M * pressed.after - s.f - s.bilateral.rows.transpose() * pressed.bilateral -
                               s.contacts.rows.transpose() * pressed.contact;
         CHECK(rest.norm() < 1e-9 * (1 + s.f.norm() + pressed.contact.norm()));

@@ -70,7 +70,7 @@ public:
             for (Eigen::Index j = 0; j < n; ++j) G(i, j) = wanted(at + 3 + j);
         }
         const Eigen::VectorXd before = Eigen::Map<const Eigen::VectorXd>(result.start.qdot.data(), n);
-        result.numbers = strike(M, before, impulse, A, b, G, c, e);
+        result.numbers = strike(M, before, impulse, {A, b}, {G, c}, e);
         if (!result.numbers)
             throw IntegrationError(say("there are no rates after the impact: {}", result.numbers.failure),
                                    result.start.t, result.start.q);

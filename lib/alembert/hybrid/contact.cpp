@@ -202,8 +202,8 @@ std::string refusal_of(const Lasting& lasting, double t, const std::vector<int>&
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates) {
     if (Lasting found = lasting_with_friction(here, candidates); !found.closed.empty() || !found) return found;
     const Situation::Rows contacts = selected(here.contacts, candidates);
-    const ImpactResult result = press(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration,
-                                      contacts.rows, -contacts.acceleration);
+    const ImpactResult result = press(here.M, here.f, {here.bilateral.rows, -here.bilateral.acceleration},
+                                      {contacts.rows, -contacts.acceleration});
     Lasting lasting{.failure = result.failure, .acceleration = result.after, .closed = {}, .resting = {}};
     if (!result) return lasting;
     std::vector<double> load;

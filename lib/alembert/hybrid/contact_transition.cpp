@@ -105,8 +105,8 @@ private:
         VectorXd restitution(rows.drift.size());
         for (std::size_t i = 0; i < near_.size(); ++i)
             restitution[static_cast<Index>(i)] = contacts_.restitution[near_[i]];
-        const ImpactResult hit = strike(here_.M, u(), kick, here_.bilateral.rows, here_.bilateral.drift, rows.rows,
-                                        rows.drift, restitution);
+        const ImpactResult hit = strike(here_.M, u(), kick, {here_.bilateral.rows, here_.bilateral.drift},
+                                        {rows.rows, rows.drift}, restitution);
         if (!hit) return is_kicked ? fail_kick(hit.failure) : fail(near_, hit.failure);
         result_.struck = hit.after;
         const VectorXd before = rows.rows * u() + rows.drift, after = rows.rows * hit.after + rows.drift;
@@ -163,8 +163,8 @@ private:
             if (!(fall > 0)) continue;
             const double flight = 2 * speed / fall, all = e < 1 ? flight / (1 - e) : HUGE_VAL;
             const Situation::Rows rows = stacked(here_.bilateral, selected(here_.contacts, joined(resting, k)));
-            const ImpactResult still = strike(here_.M, u(), VectorXd::Zero(n_), rows.rows, rows.drift,
-                                              MatrixXd(0, n_), VectorXd(), VectorXd());
+            const ImpactResult still = strike(here_.M, u(), VectorXd::Zero(n_), {rows.rows, rows.drift},
+                                              {MatrixXd(0, n_), VectorXd()}, VectorXd());
             if (!still) continue;
             const VectorXd displaced = (u() - still.after) * all;
             const bool is_low =

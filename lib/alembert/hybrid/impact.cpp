@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "alembert/base/dense.hpp"
 
@@ -174,152 +175,191 @@ struct Setting {
     }
 };
 
-}  // namespace
+ImpactResult failed(const char* why) {
+    return {.failure = why, .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}};
+}
 
-ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd& impulse,
-                    const MatrixXd& bilateral_rows, const VectorXd& bilateral_drift, const MatrixXd& contact_rows,
-                    const VectorXd& contact_drift, const VectorXd& restitution) {
-    const Index n = before.size(), m = bilateral_drift.size(), k = contact_drift.size();
-    assert(mass.rows() == n && mass.cols() == n && impulse.size() == n && restitution.size() == k);
-    assert(bilateral_rows.rows() == m && contact_rows.rows() == k);
-    const auto failed = [](const char* why) {
-        return ImpactResult{.failure = why, .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}};
-    };
-    if (!mass.allFinite() || !before.allFinite() || !impulse.allFinite() || !bilateral_rows.allFinite() ||
-        !bilateral_drift.allFinite() || !contact_rows.allFinite() || !contact_drift.allFinite() ||
-        !restitution.allFinite())
-        return failed("a value is not finite");
-    const MatrixXd rows = m > 0 ? bilateral_rows : MatrixXd(0, n),
-                   contacts = k > 0 ? contact_rows : MatrixXd(0, n);
+bool is_finite(const RateRows& rows) {
+    return rows.rows.allFinite() && rows.drift.allFinite();
+}
 
-    const auto [M, stiffening] = stiffened(mass, rows);
-    if (!is_definite(M)) return failed("the mass matrix is singular");
-    const Setting s(M, rows, contacts);
-    const auto back = [&](const VectorXd& x) -> VectorXd { return s.mass.solve_upper(x); };
+/// The rows with n columns, also where there are none.
+RateRows of_width(const RateRows& rows, Index n) {
+    return rows.drift.size() > 0 ? rows : RateRows{MatrixXd(0, n), rows.drift};
+}
 
-    ImpactResult result{.failure = {},
-                        .after = {},
-                        .bilateral = VectorXd::Zero(m),
-                        .contact = VectorXd::Zero(k),
-                        .stays_closed = std::vector<bool>(static_cast<std::size_t>(k))};
-    const VectorXd x_before = s.mass.upper(before), push = s.mass.solve_lower(impulse);
-    VectorXd x = x_before;
-    if (m > 0) {
-        const VectorXd misfit = s.unit_misfit(-bilateral_drift - s.A * x), step = s.bilateral.solve(misfit);
-        if ((s.A_unit * step - misfit).norm() > rest * (misfit.norm() + x.norm()))
-            return failed("the constraints contradict each other");
-        x += step;
-        const VectorXd lost = s.mass.solve_upper(step);
-        result.loss = lost.dot(mass * lost) / 2;
+/// One impact in the metric of M, in the order of the header: constraints, impulses, collisions.
+class Blow {
+public:
+    Blow(const MatrixXd& mass, const Stiffened& stiff, RateRows bilateral, RateRows contacts,
+         const VectorXd& restitution)
+        : mass_(mass),
+          stiffening_(stiff.stiffening),
+          bilateral_(std::move(bilateral)),
+          contacts_(std::move(contacts)),
+          restitution_(restitution),
+          s_(stiff.M, bilateral_.rows, contacts_.rows),
+          result_{.failure = {},
+                  .after = {},
+                  .bilateral = VectorXd::Zero(m()),
+                  .contact = VectorXd::Zero(k()),
+                  .stays_closed = std::vector<bool>(static_cast<std::size_t>(k()))} {}
+
+    ImpactResult run(const VectorXd& before, const VectorXd& impulse) {
+        const VectorXd x_before = s_.mass.upper(before), push = s_.mass.solve_lower(impulse);
+        VectorXd x = x_before;
+        if (!impose(x)) return failed("the constraints contradict each other");
+        const VectorXd x_imposed = x;
+        VectorXd next = x + push - s_.bilateral_part(push);
+        find_grain(std::max(x.norm(), next.norm()));
+        for (bool again = true; again;) {
+            if (const char* const why = collide(x, next)) return failed(why);
+            x = next;
+            if (result_.collisions == 0)
+                result_.work = impulse.dot(s_.mass.solve_upper(VectorXd(x_imposed + x))) / 2;
+            again = false;
+            for (Index i = 0; i < k(); ++i)
+                again = again || (s_.length[i] > 0 && speed(i, x) < -4 * grain_ * s_.length[i]);
+            result_.collisions += k() > 0;
+            if (again && result_.collisions == most_collisions)
+                return failed("the collisions at one instant do not come to an end");
+        }
+        result_.after = s_.mass.solve_upper(x);
+        if (m() > 0) {  // Λ of least norm from the change of momentum that is still unexplained
+            const VectorXd lacking = x - x_before - push - s_.G.transpose() * result_.contact;
+            result_.bilateral = s_.unit_misfit(decomposed(s_.A_unit.transpose()).solve(lacking)) -
+                                stiffening_ * (bilateral_.rows * (result_.after - before));
+        }
+        for (Index i = 0; i < k(); ++i)
+            result_.stays_closed[static_cast<std::size_t>(i)] = std::abs(speed(i, x)) <= rest * size(i);
+        return std::move(result_);
     }
 
-    // The bilateral part of G x is the same for all x from here on; where b = 0 it is zero without rounding.
-    VectorXd drift = contact_drift;
-    if (m > 0) drift += s.G * s.bilateral.solve(s.unit_misfit(-bilateral_drift));
-    const auto speed = [&](Index i, const VectorXd& at) {
-        return s.length[i] * s.G_free.row(i).dot(at) + drift[i];
-    };
-    const VectorXd x_imposed = x;
-    VectorXd next = x + push - s.bilateral_part(push);
-    const double largest = std::max(x.norm(), next.norm());
-    const auto size = [&](Index i) { return s.G.row(i).norm() * largest + std::abs(contact_drift[i]); };
-    double grain = 0;  // how large rounding may be, in the unit of |x|
-    for (Index i = 0; i < k; ++i)
-        if (s.length[i] > 0) grain = std::max(grain, grain_of_sum * size(i) / s.length[i]);
-    for (bool again = true; again;) {
+private:
+    Index m() const { return bilateral_.drift.size(); }
+    Index k() const { return contacts_.drift.size(); }
+    double speed(Index i, const VectorXd& at) const { return s_.length[i] * s_.G_free.row(i).dot(at) + drift_[i]; }
+    /// Of the terms of a contact's speed.
+    double size(Index i) const { return s_.G.row(i).norm() * largest_ + std::abs(contacts_.drift[i]); }
+
+    /// Moves x to the nearest rates that obey the constraints; false if there are none.
+    bool impose(VectorXd& x) {
+        drift_ = contacts_.drift;
+        if (m() == 0) return true;
+        const VectorXd misfit = s_.unit_misfit(-bilateral_.drift - s_.A * x), step = s_.bilateral.solve(misfit);
+        if ((s_.A_unit * step - misfit).norm() > rest * (misfit.norm() + x.norm())) return false;
+        x += step;
+        const VectorXd lost = s_.mass.solve_upper(step);
+        result_.loss = lost.dot(mass_ * lost) / 2;
+        drift_ += s_.G * s_.bilateral.solve(s_.unit_misfit(-bilateral_.drift));
+        return true;
+    }
+
+    void find_grain(double largest) {
+        largest_ = largest;
+        for (Index i = 0; i < k(); ++i)
+            if (s_.length[i] > 0) grain_ = std::max(grain_, grain_of_sum * size(i) / s_.length[i]);
+    }
+
+    /// One collision of the contacts that rest or approach at x: `next`, the rates without it, becomes those after
+    /// it. Gives the reason if there are none.
+    const char* collide(const VectorXd& x, VectorXd& next) {
         std::vector<Index> meeting;
-        VectorXd h(k), approach(k), e(k);
-        for (Index i = 0; i < k; ++i) {
+        VectorXd h(k()), approach(k()), e(k());
+        for (Index i = 0; i < k(); ++i) {
+            const bool rebounds = result_.collisions < most_elastic;
             approach[i] = speed(i, x);
-            e[i] =
-                result.collisions < most_elastic && approach[i] < -slow * grain * s.length[i] ? restitution[i] : 0;
-            if (approach[i] > grain * s.length[i]) continue;
+            e[i] = rebounds && approach[i] < -slow * grain_ * s_.length[i] ? restitution_[i] : 0;
+            if (approach[i] > grain_ * s_.length[i]) continue;
             h[i] = -speed(i, next) - e[i] * approach[i];
-            if (s.length[i] > 0) {
-                h[i] /= s.length[i];
+            if (s_.length[i] > 0) {
+                h[i] /= s_.length[i];
                 meeting.push_back(i);
             } else if (h[i] > rest * size(i)) {
-                return failed("a contact closes at a speed that the constraints prescribe");
+                return "a contact closes at a speed that the constraints prescribe";
             }
         }
-        const MatrixXd met = columns(s.G_free.transpose(), meeting).transpose();
+        const MatrixXd met = columns(s_.G_free.transpose(), meeting).transpose();
         Push given = least_push(met, h(meeting));
         if (!given.exists) {  // between two walls at rest rounding decides whether a solution exists, so bounds
                               // are relaxed
-            for (const Index i : meeting) h[i] -= 2 * grain;
+            for (const Index i : meeting) h[i] -= 2 * grain_;
             given = least_push(met, h(meeting));
         }
-        if (!given.exists) return failed("no rates keep all contacts apart");
+        if (!given.exists) return "no rates keep all contacts apart";
         for (std::size_t j = 0; j < meeting.size(); ++j) {
             const Index i = meeting[j];
-            const double pi = given.u[static_cast<Index>(j)] / s.length[i];
-            result.contact[i] += pi;
-            result.loss -= pi * (1 - e[i]) * std::min(0.0, approach[i]) / 2;
-            next += s.G_free.row(i).transpose() * (pi * s.length[i]);
+            const double pi = given.u[static_cast<Index>(j)] / s_.length[i];
+            result_.contact[i] += pi;
+            result_.loss -= pi * (1 - e[i]) * std::min(0.0, approach[i]) / 2;
+            next += s_.G_free.row(i).transpose() * (pi * s_.length[i]);
         }
-        x = next;
-        if (result.collisions == 0) result.work = impulse.dot(back(x_imposed + x)) / 2;
-        again = false;
-        for (Index i = 0; i < k; ++i) again = again || (s.length[i] > 0 && speed(i, x) < -4 * grain * s.length[i]);
-        result.collisions += k > 0;
-        if (again && result.collisions == most_collisions)
-            return failed("the collisions at one instant do not come to an end");
+        return nullptr;
     }
-    result.after = back(x);
 
-    // Λ of least norm from the change of momentum that is still unexplained.
-    if (m > 0) {
-        const VectorXd lacking = x - x_before - push - s.G.transpose() * result.contact;
-        result.bilateral = s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) -
-                           stiffening * (rows * (result.after - before));
-    }
-    for (Index i = 0; i < k; ++i)
-        result.stays_closed[static_cast<std::size_t>(i)] = std::abs(speed(i, x)) <= rest * size(i);
-    return result;
+    const MatrixXd& mass_;
+    const double stiffening_;
+    const RateRows bilateral_, contacts_;
+    const VectorXd& restitution_;
+    const Setting s_;
+    /// The bilateral part of G x is the same for all x once the constraints are imposed; where b = 0 it is zero
+    /// without rounding. With it c gives the speeds from G_free.
+    VectorXd drift_;
+    double largest_ = 0;  ///< |x|
+    double grain_ = 0;    ///< how large rounding may be, in the unit of |x|
+    ImpactResult result_;
+};
+
+}  // namespace
+
+ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd& impulse,
+                    const RateRows& bilateral, const RateRows& contacts, const VectorXd& restitution) {
+    const Index n = before.size();
+    assert(mass.rows() == n && mass.cols() == n && impulse.size() == n);
+    assert(bilateral.rows.rows() == bilateral.drift.size() && contacts.rows.rows() == contacts.drift.size());
+    assert(restitution.size() == contacts.drift.size());
+    if (!mass.allFinite() || !before.allFinite() || !impulse.allFinite() || !is_finite(bilateral) ||
+        !is_finite(contacts) || !restitution.allFinite())
+        return failed("a value is not finite");
+    const RateRows rows = of_width(bilateral, n);
+    const Stiffened stiff = stiffened(mass, rows.rows);
+    if (!is_definite(stiff.M)) return failed("the mass matrix is singular");
+    return Blow(mass, stiff, rows, of_width(contacts, n), restitution).run(before, impulse);
 }
 
-ImpactResult press(const MatrixXd& mass, const VectorXd& force, const MatrixXd& bilateral_rows,
-                   const VectorXd& bilateral_drift, const MatrixXd& contact_rows, const VectorXd& contact_drift) {
-    const Index k = contact_drift.size();
+ImpactResult press(const MatrixXd& mass, const VectorXd& force, const RateRows& bilateral,
+                   const RateRows& contacts) {
+    const Index k = contacts.drift.size();
     const VectorXd none = VectorXd::Zero(force.size());
-    ImpactResult result = strike(mass, none, force, bilateral_rows, bilateral_drift, MatrixXd(0, force.size()),
-                                 VectorXd(0), VectorXd(0));
+    ImpactResult result =
+        strike(mass, none, force, bilateral, {MatrixXd(0, force.size()), VectorXd(0)}, VectorXd(0));
     if (!result || k == 0) return result;
-    const auto [M, stiffening] = stiffened(mass, bilateral_rows);
-    const Setting s(M, bilateral_rows, contact_rows);
+    const auto [M, stiffening] = stiffened(mass, bilateral.rows);
+    const Setting s(M, bilateral.rows, contacts.rows);
     const VectorXd x = s.mass.upper(result.after), pushed = s.mass.solve_lower(force);
-    const VectorXd size = s.G.rowwise().norm() * std::max(x.norm(), pushed.norm()) + contact_drift.cwiseAbs();
-    VectorXd h = -(contact_rows * result.after + contact_drift);
+    const VectorXd size = s.G.rowwise().norm() * std::max(x.norm(), pushed.norm()) + contacts.drift.cwiseAbs();
+    VectorXd h = -(contacts.rows * result.after + contacts.drift);
     for (Index i = 0; i < k; ++i) {
         if (s.length[i] > 0)
             h[i] /= s.length[i];
         else if (h[i] > rest * size[i])
-            return {.failure = "the constraints prescribe that a contact closes",
-                    .after = {},
-                    .bilateral = {},
-                    .contact = {},
-                    .stays_closed = {}};
+            return failed("the constraints prescribe that a contact closes");
         else
             h[i] = 0;
     }
     Push given = least_push(s.G_free, h);
     if (!given.exists)
         given = least_push(s.G_free, h - grain_of_sum * size.cwiseQuotient(s.length.cwiseMax(dependent)));
-    if (!given.exists)
-        return {.failure = "no accelerations keep all contacts apart",
-                .after = {},
-                .bilateral = {},
-                .contact = {},
-                .stays_closed = {}};
+    if (!given.exists) return failed("no accelerations keep all contacts apart");
     result.contact = given.u.cwiseQuotient(s.length.cwiseMax(dependent));
     const VectorXd y = s.G_free.transpose() * given.u, lacking = y - s.G.transpose() * result.contact;
     const VectorXd gained = s.mass.solve_upper(y);
     result.after += gained;
-    if (bilateral_drift.size() > 0)
+    if (bilateral.drift.size() > 0)
         result.bilateral += s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) -
-                            stiffening * (bilateral_rows * gained);
+                            stiffening * (bilateral.rows * gained);
     result.stays_closed.resize(static_cast<std::size_t>(k));
-    const VectorXd left = contact_rows * result.after + contact_drift;
+    const VectorXd left = contacts.rows * result.after + contacts.drift;
     for (Index i = 0; i < k; ++i)
         result.stays_closed[static_cast<std::size_t>(i)] = std::abs(left[i]) <= rest * size[i];
     return result;

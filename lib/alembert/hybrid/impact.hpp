@@ -5,7 +5,7 @@
 /// contacts that bounce.
 ///
 ///     // a ball of mass 2 falls on the floor at 3 m/s; gap' = v, e = 1/2
-///     ImpactResult hit = strike({{2.0}}, before, impulse, no_rows, no_drift, {{1.0}}, drift, restitution);
+///     ImpactResult hit = strike({{2.0}}, before, impulse, {no_rows, no_drift}, {{{1.0}}, drift}, restitution);
 ///     hit.after[0];       // 1.5
 ///     hit.contact[0];     // 9 = 2·(1.5 + 3)
 ///
@@ -35,6 +35,12 @@
 
 namespace alembert {
 
+/// Some of the rows A q' + b, or G q' + c.
+struct RateRows {
+    Eigen::MatrixXd rows;
+    Eigen::VectorXd drift;
+};
+
 struct ImpactResult {
     std::string failure;  ///< if not empty, the reason why there are no rates after the impact; the other members
                           ///< are then empty
@@ -52,14 +58,11 @@ struct ImpactResult {
 /// and k × n, `restitution` 0 to 1. Pass only closed contacts (gap = 0). Contradictory conditions, a singular mass
 /// matrix and values that are not finite come back as `failure`; the caller must see to it that the sizes fit.
 ImpactResult strike(const Eigen::MatrixXd& mass, const Eigen::VectorXd& before, const Eigen::VectorXd& impulse,
-                    const Eigen::MatrixXd& bilateral_rows, const Eigen::VectorXd& bilateral_drift,
-                    const Eigen::MatrixXd& contact_rows, const Eigen::VectorXd& contact_drift,
-                    const Eigen::VectorXd& restitution);
+                    const RateRows& bilateral, const RateRows& contacts, const Eigen::VectorXd& restitution);
 
 /// The same law for accelerations, which have no values before: M a = F + AᵀΛ + GᵀΠ, A a + b = 0, Π ≥ 0 ⊥ G a + c
 /// ≥ 0; `after` is a. All contacts take part, whatever the sign of c.
-ImpactResult press(const Eigen::MatrixXd& mass, const Eigen::VectorXd& force,
-                   const Eigen::MatrixXd& bilateral_rows, const Eigen::VectorXd& bilateral_drift,
-                   const Eigen::MatrixXd& contact_rows, const Eigen::VectorXd& contact_drift);
+ImpactResult press(const Eigen::MatrixXd& mass, const Eigen::VectorXd& force, const RateRows& bilateral,
+                   const RateRows& contacts);
 
 }  // namespace alembert
