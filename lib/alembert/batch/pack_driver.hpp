@@ -338,7 +338,7 @@ private:
         } else {
             lane.h = options_.step;
             if (lane.h == 0) {
-                lane.h = starting_step(rhs, member.start, state.data(), rate_.data(), options_.tolerance,
+                lane.h = starting_step(rhs, {member.start, state.data(), rate_.data()}, options_.tolerance,
                                        Step::estimate_order, longest(member));
                 ++lane.outcome.evaluations;
             }

@@ -173,7 +173,7 @@ private:
         if constexpr (requires { step_.first_length(); }) {
             h = step_.first_length();
         } else if (h == 0) {
-            h = options_.first_share * starting_step(step_.rhs(), step_.time(), step_.state(), step_.rate(),
+            h = options_.first_share * starting_step(step_.rhs(), {step_.time(), step_.state(), step_.rate()},
                                                      tolerance_, AnyStep::estimate_order, longest);
             ++further_evaluations_;
         }

@@ -49,7 +49,7 @@ void EventWatch::look_at_piece(const StepView& step, const Piece& piece, int ind
         const int now = side_of(g_[i]);
         if (last_sign != 0 && now == 0) record(step, index, theta_[i], -last_sign, found);
         if (last_sign * now < 0)
-            record(step, index, locate(step, index, theta_[left], g_[left], theta_[i], g_[i]), now, found);
+            record(step, index, locate(step, index, {theta_[left], g_[left], theta_[i], g_[i]}), now, found);
         last_sign = now;
         left = i;
     }
@@ -97,8 +97,8 @@ double EventWatch::turns_between(const StepView& step, int index, std::size_t le
         (b - a + fall * width) / ((fall + rise) * width);  // of the width, where the tangents meet
     const double meet = a - fall * std::clamp(share, 0.0, 1.0) * width;
     if (!(meet <= 0)) return no_place;
-    return lowest(step, index, theta_[left], g_[left], theta_[left] + std::clamp(share, 0.1, 0.9) * width,
-                  theta_[left + 1], g_[left + 1]);
+    return lowest(step, index, {theta_[left], g_[left], theta_[left + 1], g_[left + 1]},
+                  theta_[left] + std::clamp(share, 0.1, 0.9) * width);
 }
 
 /// Between the two points of a gap, `from` being an end of the piece: does g approach zero from there steeply
@@ -109,8 +109,8 @@ double EventWatch::at_the_end(const StepView& step, int index, std::size_t from,
     if (side == 0 || side_of(g_[to]) != side || side * g_[from] + bend * side * slope * (b - a) >= 0 ||
         side * g_[to] < side * g_[from])
         return no_place;
-    return from < to ? lowest(step, index, a, g_[from], (a + b) / 2, b, g_[to])
-                     : lowest(step, index, b, g_[to], (a + b) / 2, a, g_[from]);
+    return lowest(step, index, from < to ? Bracket{a, g_[from], b, g_[to]} : Bracket{b, g_[to], a, g_[from]},
+                  (a + b) / 2);
 }
 
 /// For three neighbouring points of the same sign: a place between them where g has the other sign. It is searched
@@ -130,13 +130,13 @@ double EventWatch::between(const StepView& step, int index, const double* theta,
     const bool turns_back =
         side * g[1] < side * g[0] && side * g[1] < side * g[2] && side * g[1] < bend * (farthest - side * g[1]);
     if (parabola > nearest / 2 && !turns_back) return no_place;
-    return lowest(step, index, theta[0], g[0], vertex, theta[2], g[2]);
+    return lowest(step, index, {theta[0], g[0], theta[2], g[2]}, vertex);
 }
 /// Golden-section search for the place where g is nearest to zero, until g has the other sign there. The result is
 /// not a number if no such place is found, or as soon as the values show that no function convex towards zero can
 /// have one.
-double EventWatch::lowest(const StepView& step, int index, double left, double g_left, double middle, double right,
-                          double g_right) {
+double EventWatch::lowest(const StepView& step, int index, Bracket of, double middle) {
+    auto& [left, g_left, right, g_right] = of;
     constexpr double golden = 0.6180339887498949;
     constexpr int enough = 4, most = 40;
     const int side = side_of(g_right);
@@ -157,8 +157,8 @@ double EventWatch::lowest(const StepView& step, int index, double left, double g
 }
 
 /// The zero between two points of different signs, as θ; not a number if it is a pole.
-double EventWatch::locate(const StepView& step, int index, double left, double g_left, double right,
-                          double g_right) {
+double EventWatch::locate(const StepView& step, int index, const Bracket& of) {
+    const auto& [left, g_left, right, g_right] = of;
     double b = left, g_b = g_left;    // the newest point
     double a = right, g_a = g_right;  // the other side of the zero
     const double least = 4 * tolerance::epsilon * std::max(1.0, std::abs(step.end) / (step.end - step.start));

@@ -94,9 +94,12 @@ private:
     double at_the_end(const StepView& step, int index, std::size_t from, std::size_t to);
     double turns_between(const StepView& step, int index, std::size_t left);
     double between(const StepView& step, int index, const double* theta, const double* g);
-    double lowest(const StepView& step, int index, double left, double g_left, double middle, double right,
-                  double g_right);
-    double locate(const StepView& step, int index, double left, double g_left, double right, double g_right);
+    /// Two places in a step and the values of an event there.
+    struct Bracket {
+        double left, g_left, right, g_right;
+    };
+    double lowest(const StepView& step, int index, Bracket of, double middle);
+    double locate(const StepView& step, int index, const Bracket& of);
 
     const Events& events_;
     const Rhs& rhs_;

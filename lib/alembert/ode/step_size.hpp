@@ -59,6 +59,12 @@ private:
     bool rejected_ = false;
 };
 
+/// Where a first step begins.
+struct StepStart {
+    double t;
+    const double *state, *rate;
+};
+
 /// A first step so short that the rate changes little over an Euler step of that length: the algorithm of Hairer,
 /// Nørsett, Wanner I, §II.4, "Starting step size", with the maximum norm of explicit_rk.hpp. It takes one
 /// evaluation. `order` is as above. They try 1e-6 s where the state or the rate is zero, take 100 times that at
@@ -66,8 +72,8 @@ private:
 /// run, tries a part of it that is no period of a load, and takes a tenth of it if the rate there would not move
 /// it beyond the tolerance in the whole run; and a state of zeros may move as long as its rate takes to change by
 /// itself.
-inline double starting_step(const Rhs& rhs, double t, const double* state, const double* rate, double tolerance,
-                            int order, double longest) {
+inline double starting_step(const Rhs& rhs, const StepStart& at, double tolerance, int order, double longest) {
+    const double t = at.t, *const state = at.state, *const rate = at.rate;
     const int controlled = rhs.dimension - rhs.extra;
     const auto norm = [&](auto&& component) {
         double largest = 0;
