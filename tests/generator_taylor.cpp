@@ -75,7 +75,7 @@ std::vector<double> series_of(const SeriesPacks& packs, const std::vector<double
         for (std::size_t i = 0; i < y.size(); ++i) y[i][other] = state[i] * (1 + 0.01 * (other - lane));
         for (std::size_t i = 0; i < par.size(); ++i) par[i][other] = own[i];
     }
-    expand(packs, times, y.data(), par.data(), order, out.data(), work.data());
+    packs.expand(times, y.data(), par.data(), order, out.data(), work.data());
     std::vector<double> result;
     for (const Lanes& pack : out) result.push_back(pack[lane]);
     return result;

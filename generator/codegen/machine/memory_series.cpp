@@ -56,7 +56,7 @@ struct Running {
 void expand(double t, const double* state, const double* par, int order, double* out, double* work,
             Running* self) {
     if (!self->replacement)
-        expand_for_code(t, state, par, order, out, work, &self->code);
+        self->code.expand(t, state, par, order, out, work);
     else
         (*self->replacement)(t, state, par, order, out);
 }

@@ -4,7 +4,7 @@
 /// The Taylor coefficients of eight motions side by side by machine code in memory.
 ///
 ///     if (const std::shared_ptr<const SeriesPacks> packs = memory_series_packs(program))
-///         expand(*packs, t, state, par, order, out, work);
+///         packs->expand(t, state, par, order, out, work);
 ///
 /// Null where memory_solver.hpp returns nothing, and on processors without AVX-512.
 

@@ -119,15 +119,15 @@ std::size_t SeriesPacks::workspace() const {
     return count(fixed) + 2 * count(places.size()) + count(place_of_factor(factors));
 }
 
-void expand(const SeriesPacks& packs, const Lanes& t, const Lanes* state, const Lanes* par, int order, Lanes* out,
-            Lanes* work) {
-    const GivenPlaces& at = packs.places;
-    Lanes *const even = work + packs.fixed, *const odd = even + at.size(), *const rows = odd + at.size();
-    packs.first(reals(&t), reals(state), reals(par), reals(work), reals(odd));
-    packs.fix(reals(work));
+void SeriesPacks::expand(const Lanes& t, const Lanes* state, const Lanes* par, int order, Lanes* out,
+                         Lanes* work) const {
+    const GivenPlaces& at = places;
+    Lanes *const even = work + fixed, *const odd = even + at.size(), *const rows = odd + at.size();
+    first(reals(&t), reals(state), reals(par), reals(work), reals(odd));
+    fix(reals(work));
     std::copy_n(state, at.width, out);
     if (order == 0) return;
-    run({.packs = packs, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
+    run({.packs = *this, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
 }
 
 }  // namespace alembert

@@ -4,7 +4,7 @@
 /// Power series of eight systems side by side, each at its own state and time and with its own parameters.
 ///
 ///     std::vector<Lanes> out((order + 1) * packs.places.width), work(packs.workspace());
-///     expand(packs, t, state, par, order, out.data(), work.data());
+///     packs.expand(t, state, par, order, out.data(), work.data());
 ///     out[k * packs.places.width + i][lane];      // of (time − t)^k in component i
 ///
 /// The code is that of a series alone (series_code.hpp) with a pack in place of each number, but for two things:
@@ -36,12 +36,10 @@ struct SeriesPacks {
     double order_cost = 0, product_cost = 0;  ///< of one of the eight systems, as in alembert_series_table
     std::shared_ptr<const void> code = {};    ///< keeps the functions in memory
 
+    void expand(const Lanes& t, const Lanes* state, const Lanes* par, int order, Lanes* out, Lanes* work) const;
     std::size_t workspace() const;  ///< of packs
     /// The place of the coefficient of order 0 of a factor in the rows; that of order k stands k places behind.
     static int place_of_factor(int factor) { return factor * (most_order + 1); }
 };
-
-void expand(const SeriesPacks& packs, const Lanes& t, const Lanes* state, const Lanes* par, int order, Lanes* out,
-            Lanes* work);
 
 }  // namespace alembert

@@ -176,7 +176,7 @@ ALEMBERT_WIDEST void PackTaylor::attempt() {
 }
 
 ALEMBERT_WIDEST void PackTaylor::finish() {
-    expand(series_, end, next_.data(), series_par_.data(), order_, next_coefficients_.data(), work_.data());
+    series_.expand(end, next_.data(), series_par_.data(), order_, next_coefficients_.data(), work_.data());
     Work::look(*this);
 }
 

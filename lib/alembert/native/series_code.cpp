@@ -85,7 +85,7 @@ ALEMBERT_WIDE void expand_wide(const Expansion& one) {
 ALEMBERT_WIDEST void expand_widest(const Expansion& one) {
     one.all();
 }
-void expand(const Expansion& one) {
+void run_orders(const Expansion& one) {
     static const bool has_widest = registers() == Registers::widest;
     (has_widest ? expand_widest : expand_wide)(one);
 }
@@ -96,17 +96,17 @@ int workspace_of(const SeriesCode& code) {
     return rounded_up(code.fixed) + 2 * rounded_up(code.places.size()) + (most_order + 1) * 2 * code.places.lanes;
 }
 
-void expand_for_code(double t, const double* state, const double* par, int order, double* out, double* work,
-                     const SeriesCode* code) {
-    const GivenPlaces& at = code->places;
-    double *const even = work + rounded_up(code->fixed), *const odd = even + rounded_up(at.size()),
+void SeriesCode::expand(double t, const double* state, const double* par, int order, double* out,
+                        double* work) const {
+    const GivenPlaces& at = places;
+    double *const even = work + rounded_up(fixed), *const odd = even + rounded_up(at.size()),
                   *const rows = odd + rounded_up(at.size());
     for (double* const given : {even, odd}) std::fill(given + at.before(), given + at.size(), 0);
-    code->first(t, state, par, work, odd);
-    code->fix(work);
+    first(t, state, par, work, odd);
+    fix(work);
     std::copy_n(state, at.width, out);
     if (order == 0) return;
-    expand({.code = *code, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
+    run_orders({.code = *this, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
 }
 
 }  // namespace alembert

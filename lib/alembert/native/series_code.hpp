@@ -5,7 +5,7 @@
 /// the other and the sums of products over lower orders.
 ///
 ///     SeriesCode code{.first = …, .fix = …, .next = …, .places = …, .fixed = 3};
-///     expand_for_code(t, state, par, order, out, work, &code);      // work: workspace_of(code) numbers
+///     code.expand(t, state, par, order, out, work);      // work: workspace_of(code) numbers
 ///
 /// `first` computes what stays fixed for all orders, `fix` adds what follows from that, and `next` computes the
 /// coefficients of order k from what it is given: sums of products, and numbers that it wrote at the order before.
@@ -37,11 +37,11 @@ struct SeriesCode {
                  double* out) = nullptr;
     GivenPlaces places;
     int fixed = 0;  ///< numbers that stay fixed
+
+    /// As alembert_series_table::series; `work` begins at a multiple of 64 bytes.
+    void expand(double t, const double* state, const double* par, int order, double* out, double* work) const;
 };
 
-/// As alembert_series_table::series; `work` begins at a multiple of 64 bytes.
-void expand_for_code(double t, const double* state, const double* par, int order, double* out, double* work,
-                     const SeriesCode* code);
 int workspace_of(const SeriesCode& code);
 
 }  // namespace alembert
