@@ -217,11 +217,11 @@ py::array_t<double> robot_function(const CompiledSystem& s, int which, const py:
     for (const std::optional<Numbers>* other : {&v, &a})
         if (*other && (**other).size() != q.size())
             throw std::invalid_argument("coordinates, rates and accelerations must have the same shape");
-    return mapped(t, q, s.coordinate_count(), {f.rows, f.columns},
-                  [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
-                      s.function_of_many(f, times, in, v ? v->data() : nullptr, a ? a->data() : nullptr, count,
-                                         out);
-                  });
+    return mapped(
+        t, q, s.coordinate_count(), {f.rows, f.columns},
+        [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
+            s.function_of_many(f, times, {in, v ? v->data() : nullptr, a ? a->data() : nullptr}, count, out);
+        });
 }
 
 py::array_t<double> states_at(Motion& motion, const Numbers& t) {

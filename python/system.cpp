@@ -126,8 +126,9 @@ void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double
 }
 
 void CompiledSystem::function_of_range(const alembert_named_function& f, const std::vector<double>& times,
-                                       const double* q, const double* v, const double* a, std::size_t from,
-                                       std::size_t to, double* values) const {
+                                       const StateRows& states, std::size_t from, std::size_t to,
+                                       double* values) const {
+    const double *const q = states.q, *const v = states.v, *const a = states.a;
     const auto n = static_cast<std::size_t>(n_), size = static_cast<std::size_t>(f.rows * f.columns);
     std::size_t k = from;
     if (f.pack != nullptr && module_.pack() != nullptr) {
@@ -162,10 +163,9 @@ std::vector<std::string> CompiledSystem::function_names() const {
 }
 
 void CompiledSystem::function_of_many(const alembert_named_function& f, const std::vector<double>& times,
-                                      const double* q, const double* v, const double* a, std::size_t count,
-                                      double* values) const {
-    on_all_cores(
-        count, [&](std::size_t from, std::size_t to) { function_of_range(f, times, q, v, a, from, to, values); });
+                                      const StateRows& states, std::size_t count, double* values) const {
+    on_all_cores(count,
+                 [&](std::size_t from, std::size_t to) { function_of_range(f, times, states, from, to, values); });
 }
 
 void CompiledSystem::rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,

@@ -51,17 +51,20 @@ public:
     /// program/lower/frame_functions.hpp).
     std::vector<std::string> function_names() const;
     const alembert_named_function& function(int which) const { return module_.functions()->list[which]; }
-    /// q, v, a: count × coordinates; rates and accelerations that are null are zero. values: count × the matrix.
-    void function_of_many(const alembert_named_function& f, const std::vector<double>& times, const double* q,
-                          const double* v, const double* a, std::size_t count, double* values) const;
+    /// q, v, a: count × coordinates; rates and accelerations that are null are zero.
+    struct StateRows {
+        const double *q, *v, *a;
+    };
+    /// values: count × the matrix.
+    void function_of_many(const alembert_named_function& f, const std::vector<double>& times,
+                          const StateRows& states, std::size_t count, double* values) const;
 
 private:
     void rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from, std::size_t to,
                       double* rates) const;
 
-    void function_of_range(const alembert_named_function& f, const std::vector<double>& times, const double* q,
-                           const double* v, const double* a, std::size_t from, std::size_t to,
-                           double* values) const;
+    void function_of_range(const alembert_named_function& f, const std::vector<double>& times,
+                           const StateRows& states, std::size_t from, std::size_t to, double* values) const;
 
     Module module_;
     std::string source_;
