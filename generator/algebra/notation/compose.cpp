@@ -14,29 +14,28 @@ namespace alembert {
 
 using namespace phrases;
 
-namespace {
-
-using Kind = AtomNode::Kind;
-using Symbol = SymbolInfo::Kind;
-
-enum class Standing { number, pi, sum, parameter, constant, state_sum, state, function, circular };
-
-/// One factor and where it stands in a product.
-struct Piece {
+struct FactorPiece {
+    enum class Standing { number, pi, sum, parameter, constant, state_sum, state, function, circular };
     Standing place;
     std::array<int, 3> order{};
     Polynomial tie;  ///< decides between pieces of the same place and order
     Phrase base;
     Rational exponent = 1;
     int last = 0;  ///< decides after `tie`: sin θ before cos θ
+
+    friend bool operator<(const FactorPiece& a, const FactorPiece& b) {
+        const auto key = [](const FactorPiece& piece) { return std::pair(piece.place, piece.order); };
+        if (key(a) != key(b)) return key(a) < key(b);
+        const int order = compare(a.tie, b.tie);
+        return order != 0 ? order < 0 : a.last < b.last;
+    }
 };
 
-bool operator<(const Piece& a, const Piece& b) {
-    const auto key = [](const Piece& piece) { return std::pair(piece.place, piece.order); };
-    if (key(a) != key(b)) return key(a) < key(b);
-    const int order = compare(a.tie, b.tie);
-    return order != 0 ? order < 0 : a.last < b.last;
-}
+namespace {
+
+using Kind = AtomNode::Kind;
+using Standing = FactorPiece::Standing;
+using Symbol = SymbolInfo::Kind;
 
 /// Whether the name looks like a mass or a moment of inertia: m, m1, mc, M_cart, J, I2, Ix …
 bool is_inertia(const std::string& name) {
@@ -45,12 +44,12 @@ bool is_inertia(const std::string& name) {
     return rest.size() <= 1 || rest[0] == '_' || rest.find_first_not_of("0123456789") == std::string::npos;
 }
 
-Piece symbol_piece(const Factor& factor) {
+FactorPiece symbol_piece(const Factor& factor) {
     const SymbolInfo& info = factor.atom->info;
-    Piece piece{.place = Standing::parameter,
-                .tie = {},
-                .base = symbol(factor.atom->symbol, info),
-                .exponent = factor.exponent};
+    FactorPiece piece{.place = Standing::parameter,
+                      .tie = {},
+                      .base = symbol(factor.atom->symbol, info),
+                      .exponent = factor.exponent};
     if (factor.atom->steady) {
         piece.order = {is_inertia(info.name) ? 0 : info.name == "g" ? 1 : 2, info.rank, 0};
         return piece;
@@ -171,70 +170,84 @@ Phrase Composer::compose(const Polynomial& polynomial) {
     if (is_lone_sum && is_integer(factors.unit)) return compose_sum(polynomial);
 
     Rational unit = factors.unit;
-    std::vector<Piece> pieces;
+    std::vector<FactorPiece> pieces = pieces_of(factors.monomial, unit);
+    for (const auto& [sum, exponent] : factors.sums) pieces.push_back(sum_piece(sum, exponent, unit));
+    return fraction(std::move(pieces), unit);
+}
+
+std::vector<FactorPiece> Composer::pieces_of(const Monomial& monomial, Rational& unit) {
+    std::vector<FactorPiece> pieces;
     Polynomial exponential;
-    for (const Factor& factor : factors.monomial) {
-        const AtomNode& atom = *factor.atom;
-        const Polynomial tie(factor.atom);
-        if (atom.kind == Kind::symbol) {
-            pieces.push_back(symbol_piece(factor));
-        } else if (atom.kind == Kind::pi) {
-            pieces.push_back({.place = Standing::pi, .tie = {}, .base = pi(), .exponent = factor.exponent});
-        } else if (atom.is_circular()) {
-            std::vector<Phrase> terms;
-            for (const Term& term : atom.args[0].terms()) terms.push_back((*this)(Polynomial::collect({term})));
-            const bool is_sine = atom.kind == Kind::sine;
-            pieces.push_back({.place = Standing::circular,
-                              .tie = atom.args[0],
-                              .base = call(is_sine ? "sin" : "cos", {sum(std::move(terms))}),
-                              .exponent = factor.exponent,
-                              .last = is_sine ? 0 : 1});
-            // cos(Ω·t)·cos θ
-            pieces.back().order = {has_coordinate(atom.args[0]) ? 1 : 0, 0, 0};
-        } else if (atom.kind == Kind::base) {
-            const Polynomial& inside = unfolded(atom.args[0]);
-            const Rational scale =
-                is_integer(factor.exponent) && !stays_apart(inside) ? content(inside) : Rational(1);
-            if (scale != 1) unit = unit * cln::expt(scale, cln::numerator(factor.exponent));
-            pieces.push_back({.place = atom.steady ? Standing::sum : Standing::function,
-                              .tie = tie,
-                              .base = (*this)((1 / scale) * inside),
-                              .exponent = factor.exponent});
-        } else if (atom.name == "exp") {
-            exponential = exponential + factor.exponent * atom.args[0];
-        } else if (atom.name == "pow") {
-            const Rational size = cln::abs(factor.exponent);
-            pieces.push_back({.place = atom.steady ? Standing::constant : Standing::function,
-                              .tie = tie,
-                              .base = power(formula(atom.args[0]), formula(size * atom.args[1])),
-                              .exponent = factor.exponent / size});
-        } else {
-            std::vector<Phrase> args;
-            for (const Polynomial& arg : atom.args) args.push_back(formula(arg));
-            pieces.push_back({.place = atom.steady ? Standing::constant : Standing::function,
-                              .tie = tie,
-                              .base = call(atom.name, std::move(args)),
-                              .exponent = factor.exponent});
-        }
+    for (const Factor& factor : monomial) {
+        if (factor.atom->kind == Kind::function && factor.atom->name == "exp")
+            exponential = exponential + factor.exponent * factor.atom->args[0];
+        else
+            pieces.push_back(piece_of(factor, unit));
     }
     if (!exponential.is_zero())
         pieces.push_back(
             {.place = Standing::function, .tie = exponential, .base = call("exp", {formula(exponential)})});
-    for (auto& [sum, exponent] : factors.sums) {
-        // (C−A)·x, not −(A−C)·x
-        if (unit < 0 && exponent % 2 == 1 && may_turn(sum)) {
-            sum = -sum;
-            unit = -unit;
-        }
-        const bool steady = std::none_of(sum.terms().begin(), sum.terms().end(),
-                                         [](const Term& term) { return has_state(term.monomial); });
-        pieces.push_back({.place = steady ? Standing::sum : Standing::state_sum,
-                          .tie = sum,
-                          .base = compose_sum(sum),
-                          .exponent = Rational(exponent)});
-    }
-    std::stable_sort(pieces.begin(), pieces.end());
+    return pieces;
+}
 
+FactorPiece Composer::piece_of(const Factor& factor, Rational& unit) {
+    const AtomNode& atom = *factor.atom;
+    if (atom.kind == Kind::symbol) return symbol_piece(factor);
+    if (atom.kind == Kind::pi)
+        return {.place = Standing::pi, .tie = {}, .base = pi(), .exponent = factor.exponent};
+    if (atom.is_circular()) {
+        std::vector<Phrase> terms;
+        for (const Term& term : atom.args[0].terms()) terms.push_back((*this)(Polynomial::collect({term})));
+        const bool is_sine = atom.kind == Kind::sine;
+        // cos(Ω·t)·cos θ
+        return {.place = Standing::circular,
+                .order = {has_coordinate(atom.args[0]) ? 1 : 0, 0, 0},
+                .tie = atom.args[0],
+                .base = call(is_sine ? "sin" : "cos", {sum(std::move(terms))}),
+                .exponent = factor.exponent,
+                .last = is_sine ? 0 : 1};
+    }
+    if (atom.kind == Kind::base) {
+        const Polynomial& inside = unfolded(atom.args[0]);
+        const Rational scale = is_integer(factor.exponent) && !stays_apart(inside) ? content(inside) : Rational(1);
+        if (scale != 1) unit = unit * cln::expt(scale, cln::numerator(factor.exponent));
+        return {.place = atom.steady ? Standing::sum : Standing::function,
+                .tie = Polynomial(factor.atom),
+                .base = (*this)((1 / scale) * inside),
+                .exponent = factor.exponent};
+    }
+    FactorPiece piece{.place = atom.steady ? Standing::constant : Standing::function,
+                      .tie = Polynomial(factor.atom),
+                      .base = {},
+                      .exponent = factor.exponent};
+    if (atom.name == "pow") {
+        const Rational size = cln::abs(factor.exponent);
+        piece.base = power(formula(atom.args[0]), formula(size * atom.args[1]));
+        piece.exponent = factor.exponent / size;
+    } else {
+        std::vector<Phrase> args;
+        for (const Polynomial& arg : atom.args) args.push_back(formula(arg));
+        piece.base = call(atom.name, std::move(args));
+    }
+    return piece;
+}
+
+FactorPiece Composer::sum_piece(Polynomial sum, int exponent, Rational& unit) {
+    // (C−A)·x, not −(A−C)·x
+    if (unit < 0 && exponent % 2 == 1 && may_turn(sum)) {
+        sum = -sum;
+        unit = -unit;
+    }
+    const bool steady = std::none_of(sum.terms().begin(), sum.terms().end(),
+                                     [](const Term& term) { return has_state(term.monomial); });
+    return {.place = steady ? Standing::sum : Standing::state_sum,
+            .tie = sum,
+            .base = compose_sum(sum),
+            .exponent = Rational(exponent)};
+}
+
+Phrase Composer::fraction(std::vector<FactorPiece> pieces, const Rational& unit) const {
+    std::stable_sort(pieces.begin(), pieces.end());
     std::vector<Phrase> above, below;
     const Rational size = cln::abs(unit);
     const bool decimal = decimals_ && reads_as_decimal(size);
@@ -243,7 +256,7 @@ Phrase Composer::compose(const Polynomial& polynomial) {
     else if (cln::numerator(size) != 1)
         above.push_back(number(Rational(cln::numerator(size))));
     if (!decimal && cln::denominator(size) != 1) below.push_back(number(Rational(cln::denominator(size))));
-    for (Piece& piece : pieces) {
+    for (FactorPiece& piece : pieces) {
         const bool is_above = piece.exponent > 0;
         (is_above ? above : below).push_back(power(std::move(piece.base), cln::abs(piece.exponent)));
     }

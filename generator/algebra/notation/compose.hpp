@@ -15,6 +15,8 @@
 
 namespace alembert {
 
+struct FactorPiece;  // one factor and where it stands in a product
+
 class Composer {
 public:
     /// With `decimals`, all fractions that are finite decimals are written as decimals: 0.4·x + 9.81, not 2/5·x +
@@ -44,6 +46,12 @@ private:
     /// The best form of a normal form; multiple angles are written as products where that is shorter.
     const Polynomial& unfolded(const Polynomial& normal_form);
     Phrase compose(const Polynomial& polynomial);
+    /// The pieces of a monomial and of a sum to a power. What is no part of them goes into `unit`.
+    std::vector<FactorPiece> pieces_of(const Monomial& monomial, Rational& unit);
+    FactorPiece piece_of(const Factor& factor, Rational& unit);
+    FactorPiece sum_piece(Polynomial sum, int exponent, Rational& unit);
+    /// The product of pieces and unit as a quotient.
+    Phrase fraction(std::vector<FactorPiece> pieces, const Rational& unit) const;
     Phrase compose_sum(const Polynomial& polynomial);
     Phrase flat(const std::vector<Polynomial>& parts);
 
