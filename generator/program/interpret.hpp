@@ -19,7 +19,7 @@
 #include <numeric>
 #include <utility>
 
-#include "program/order.hpp"
+#include "program/function_value.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
@@ -64,17 +64,12 @@ void add_multiple(Real& sum, const Rational& factor, const Real& x) {
 /// trap.
 template <typename Real, typename Ids>
 void interpret_into(std::vector<Real>& value, const Program& program, const State<Real>& state, const Ids& ids) {
-    using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log, std::pow,
-        std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
     for (const int id : ids) {
         const Node& node = program[id];
         const auto arg = [&](std::size_t k) -> const Real& { return value[node.args[k]]; };
         switch (node.op) {
             case Op::number:
                 value[id] = real_of<Real>(node.number);
-                break;
-            case Op::pi:
-                value[id] = acos(Real(-1));
                 break;
             case Op::variable: {
                 const auto i = static_cast<std::size_t>(node.variable.index);
@@ -124,62 +119,10 @@ void interpret_into(std::vector<Real>& value, const Program& program, const Stat
                 value[id] = has_divisor ? numerator / denominator : std::move(numerator);
                 break;
             }
-            case Op::sin:
-                value[id] = sin(arg(0));
-                break;
-            case Op::cos:
-                value[id] = cos(arg(0));
-                break;
-            case Op::tan:
-                value[id] = tan(arg(0));
-                break;
-            case Op::asin:
-                value[id] = asin(arg(0));
-                break;
-            case Op::acos:
-                value[id] = acos(arg(0));
-                break;
-            case Op::atan:
-                value[id] = atan(arg(0));
-                break;
-            case Op::sinh:
-                value[id] = sinh(arg(0));
-                break;
-            case Op::cosh:
-                value[id] = cosh(arg(0));
-                break;
-            case Op::tanh:
-                value[id] = tanh(arg(0));
-                break;
-            case Op::exp:
-                value[id] = exp(arg(0));
-                break;
-            case Op::log:
-                value[id] = log(arg(0));
-                break;
-            case Op::sqrt:
-                value[id] = sqrt(arg(0));
-                break;
-            case Op::abs:
-                value[id] = abs(arg(0));
-                break;
-            case Op::sign:
-                value[id] = sign_of(arg(0));
-                break;
-            case Op::pow:
-                value[id] = pow(arg(0), arg(1));
-                break;
-            case Op::atan2:
-                value[id] = atan2(arg(0), arg(1));
-                break;
-            case Op::min:
-                value[id] = lesser(arg(0), arg(1));
-                break;
-            case Op::max:
-                value[id] = greater(arg(0), arg(1));
-                break;
             case Op::unspecified:
                 program.refuse_unspecified(node);
+            default:
+                value[id] = function_value<Real>(node.op, arg);
         }
     }
 }

@@ -56,27 +56,12 @@ private:
                 return point_.variable(node.variable);
             case Op::sum:
                 return sum(node, degree);
-            case Op::product: {
-                degree = 0;
-                Prime product = 1;
-                for (std::size_t k = 0; k < node.args.size(); ++k) {
-                    const int e = node.exponents[k];
-                    if (e < 0 && arg(k).is_zero()) return std::nullopt;
-                    product *= (e < 0 ? arg(k).inverse() : arg(k)).power(static_cast<std::uint64_t>(std::abs(e)));
-                    degree += std::abs(e) * result_.degree[node.args[k]];
-                }
-                return product;
-            }
+            case Op::product:
+                return product(node, degree);
             case Op::sin:
             case Op::cos:
-            case Op::tan: {
-                const std::optional<PrimeTurn> turn = turned(node.args[0], degree);
-                if (!turn) return std::nullopt;
-                if (node.op == Op::sin) return turn->sin;
-                if (node.op == Op::cos) return turn->cos;
-                if (turn->cos.is_zero()) return std::nullopt;
-                return turn->sin * turn->cos.inverse();
-            }
+            case Op::tan:
+                return circular(node, degree);
             case Op::sqrt:
                 return square_root(node.args[0]);
             case Op::abs:
@@ -89,30 +74,17 @@ private:
                 return exponential(node.args[0], degree);
             case Op::sinh:
             case Op::cosh:
-            case Op::tanh: {
-                const std::optional<Prime> up = exponential(node.args[0], degree);
-                if (!up) return std::nullopt;
-                degree *= 2;
-                const Prime down = up->inverse(), half = Prime(2).inverse();
-                if (node.op == Op::sinh) return (*up - down) * half;
-                if (node.op == Op::cosh) return (*up + down) * half;
-                if ((*up + down).is_zero()) return std::nullopt;
-                return (*up - down) * (*up + down).inverse();
-            }
+            case Op::tanh:
+                return hyperbolic(node, degree);
             case Op::min:
             case Op::max: {
                 const Prime low = std::min(arg(0), arg(1)), high = std::max(arg(0), arg(1));
                 const bool first = (point_.random(400, low.bits(), high.bits()).bits() & 1U) != 0;
                 return first == (node.op == Op::min) ? low : high;
             }
-            case Op::unspecified: {  // no identity relates its values at different arguments and its derivatives
-                std::uint64_t key = 0;
-                for (const int a : node.args)
-                    for (const Prime part : {value(a), value(a) * Prime::i()})
-                        key = point_.random(500, part.bits(), key).bits();
+            case Op::unspecified:
                 degree += 1;
-                return point_.random(501, key);
-            }
+                return unspecified(node);
             case Op::log:
                 if (const Node& inner = program_[node.args[0]]; inner.op == Op::exp) return value(inner.args[0]);
                 break;
@@ -139,6 +111,48 @@ private:
         }
         degree = degree_of_sum(node);
         return total;
+    }
+
+    std::optional<Prime> product(const Node& node, double& degree) {
+        degree = 0;
+        Prime product = 1;
+        for (std::size_t k = 0; k < node.args.size(); ++k) {
+            const int e = node.exponents[k];
+            const Prime factor = value(node.args[k]);
+            if (e < 0 && factor.is_zero()) return std::nullopt;
+            product *= (e < 0 ? factor.inverse() : factor).power(static_cast<std::uint64_t>(std::abs(e)));
+            degree += std::abs(e) * result_.degree[node.args[k]];
+        }
+        return product;
+    }
+
+    std::optional<Prime> circular(const Node& node, double& degree) {
+        const std::optional<PrimeTurn> turn = turned(node.args[0], degree);
+        if (!turn) return std::nullopt;
+        if (node.op == Op::sin) return turn->sin;
+        if (node.op == Op::cos) return turn->cos;
+        if (turn->cos.is_zero()) return std::nullopt;
+        return turn->sin * turn->cos.inverse();
+    }
+
+    std::optional<Prime> hyperbolic(const Node& node, double& degree) {
+        const std::optional<Prime> up = exponential(node.args[0], degree);
+        if (!up) return std::nullopt;
+        degree *= 2;
+        const Prime down = up->inverse(), half = Prime(2).inverse();
+        if (node.op == Op::sinh) return (*up - down) * half;
+        if (node.op == Op::cosh) return (*up + down) * half;
+        if ((*up + down).is_zero()) return std::nullopt;
+        return (*up - down) * (*up + down).inverse();
+    }
+
+    /// No identity relates its values at different arguments and its derivatives.
+    Prime unspecified(const Node& node) const {
+        std::uint64_t key = 0;
+        for (const int a : node.args)
+            for (const Prime part : {value(a), value(a) * Prime::i()})
+                key = point_.random(500, part.bits(), key).bits();
+        return point_.random(501, key);
     }
 
     /// Without denominators the degree of a sum is the largest one of its terms, with denominators the sum of all.

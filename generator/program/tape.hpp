@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "program/interpret.hpp"
-#include "program/order.hpp"
 #include "program/quad.hpp"
 
 namespace alembert {
@@ -86,20 +85,12 @@ private:
     Real& at(int id) { return value_[static_cast<std::size_t>(id)]; }
 
     void carry_out(const Instruction& step, Real t, const Real* q, const Real* u) {
-        using alembert::abs, alembert::acos, alembert::asin, alembert::atan, alembert::atan2, alembert::cos,
-            alembert::cosh, alembert::exp, alembert::log, alembert::pow, alembert::sin, alembert::sinh,
-            alembert::sqrt, alembert::tan, alembert::tanh;
-        using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log,
-            std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
         const Term* const term = terms_.data() + step.first;
         Real& to = at(step.to);
         const auto arg = [&](int k) -> const Real& { return at(term[k].arg); };
         switch (step.op) {
             case Op::number:
                 to = step.number;
-                break;
-            case Op::pi:
-                to = acos(Real(-1));
                 break;
             case Op::variable:
                 to = step.kind == Variable::Kind::time                               ? t
@@ -129,62 +120,10 @@ private:
                 to = divides ? Real(above / below) : above;
                 break;
             }
-            case Op::sin:
-                to = sin(arg(0));
-                break;
-            case Op::cos:
-                to = cos(arg(0));
-                break;
-            case Op::tan:
-                to = tan(arg(0));
-                break;
-            case Op::asin:
-                to = asin(arg(0));
-                break;
-            case Op::acos:
-                to = acos(arg(0));
-                break;
-            case Op::atan:
-                to = atan(arg(0));
-                break;
-            case Op::sinh:
-                to = sinh(arg(0));
-                break;
-            case Op::cosh:
-                to = cosh(arg(0));
-                break;
-            case Op::tanh:
-                to = tanh(arg(0));
-                break;
-            case Op::exp:
-                to = exp(arg(0));
-                break;
-            case Op::log:
-                to = log(arg(0));
-                break;
-            case Op::sqrt:
-                to = sqrt(arg(0));
-                break;
-            case Op::abs:
-                to = abs(arg(0));
-                break;
-            case Op::sign:
-                to = sign_of(arg(0));
-                break;
-            case Op::pow:
-                to = pow(arg(0), arg(1));
-                break;
-            case Op::atan2:
-                to = atan2(arg(0), arg(1));
-                break;
-            case Op::min:
-                to = lesser(arg(0), arg(1));
-                break;
-            case Op::max:
-                to = greater(arg(0), arg(1));
-                break;
             case Op::unspecified:  // refused when the tape is made
                 break;
+            default:
+                to = function_value<Real>(step.op, arg);
         }
     }
 
