@@ -226,91 +226,132 @@ State<Expansion> Local::state_at(const CertainPoint& at, const Monomials* monomi
     return state;
 }
 
-CertainTangent Local::tangent_at(const CertainPoint& at) const {
-    const Residuals& r = residuals;
-    const int n = r.n, s = r.s, nr = static_cast<int>(split.q.size()), p = static_cast<int>(split.u.size());
-    const Monomials linear(n + s, 1);
-    const std::vector<Expansion> value = interpret(r.program, state_at(at, &linear, up_to(n + s)));
-    const auto values = [&](const std::vector<int>& nodes) {
+namespace {
+
+/// The algebra of stability/linear/tangent.cpp in numbers with bounds.
+class CertainAlgebra {
+public:
+    CertainAlgebra(const Residuals& r, const Split& split, std::vector<Expansion> value)
+        : r_(r),
+          split_(split),
+          value_(std::move(value)),
+          n_(r.n),
+          s_(r.s),
+          nr_(static_cast<int>(split.q.size())),
+          p_(static_cast<int>(split.u.size())) {}
+
+    CertainTangent run() {
+        result_.position = values(r_.position);
+        result_.velocity = values(r_.velocity);
+        add_directions();
+        add_motion();
+        add_derivatives();
+        result_.coordinate_rates = values(r_.rate);
+        result_.rates = (jacobian(r_.rate) * result_.along).part(split_.q, up_to(nr_ + p_));
+        return std::move(result_);
+    }
+
+private:
+    CertainVector values(const std::vector<int>& nodes) const {
         CertainVector result;
-        for (const int node : nodes) result.push_back(value[node].value());
+        for (const int node : nodes) result.push_back(value_[node].value());
         return result;
-    };
-    const auto jacobian = [&](const std::vector<int>& nodes) {
-        return filled(static_cast<int>(nodes.size()), n + s,
-                      [&](int i, int k) { return value[nodes[i]].coefficient(k + 1); });
-    };
-    CertainTangent result;
-    result.position = values(r.position);
-    result.velocity = values(r.velocity);
-    CertainMatrix along = filled(n + s, nr + p, [&](int i, int j) {
-        return Certain(j < nr ? i == split.q[j] : i == n + split.u[j - nr] ? 1 : 0);
-    });
-    const CertainMatrix phi = jacobian(r.position), nu = jacobian(r.velocity);
-    const std::vector<int> of_phi = up_to(r.holonomic), of_nu = up_to(r.kept);
-    const CertainMatrix phi_dependent = phi.part(of_phi, split.q_dependent);
-    const CertainMatrix follow = solved(phi_dependent, Certain(-1) * (phi * along), say("the constraints"));
-    for (std::size_t k = 0; k < split.q_dependent.size(); ++k)
-        for (int j = 0; j < nr + p; ++j) along(split.q_dependent[k], j) += follow(static_cast<int>(k), j);
-    std::vector<int> speeds_dependent;
-    for (const int k : split.u_dependent) speeds_dependent.push_back(n + k);
-    const CertainMatrix nu_dependent = nu.part(of_nu, speeds_dependent);
-    const auto particular = [&](const CertainMatrix& right) {
-        CertainMatrix spread(s, right.columns);
-        const CertainMatrix x = solved(nu_dependent, right, say("the velocity constraints"));
-        for (std::size_t k = 0; k < split.u_dependent.size(); ++k)
-            for (int j = 0; j < right.columns; ++j) spread(split.u_dependent[k], j) = x(static_cast<int>(k), j);
+    }
+    CertainMatrix jacobian(const std::vector<int>& nodes) const {
+        return filled(static_cast<int>(nodes.size()), n_ + s_,
+                      [&](int i, int k) { return value_[nodes[i]].coefficient(k + 1); });
+    }
+    /// A x = right, with independent ones 0.
+    CertainMatrix particular(const CertainMatrix& right) const {
+        CertainMatrix spread(s_, right.columns);
+        const CertainMatrix x = solved(nu_dependent_, right, say("the velocity constraints"));
+        for (std::size_t k = 0; k < split_.u_dependent.size(); ++k)
+            for (int j = 0; j < right.columns; ++j) spread(split_.u_dependent[k], j) = x(static_cast<int>(k), j);
         return spread;
-    };
-    const CertainMatrix more = particular(Certain(-1) * (nu * along));
-    for (int i = 0; i < s; ++i)
-        for (int j = 0; j < nr + p; ++j) along(n + i, j) += more(i, j);
-    result.to_position =
-        solved(phi_dependent, Certain(-1) * column(result.position), say("the constraints")).entries;
-    result.to_velocity =
-        solved(nu_dependent, Certain(-1) * column(result.velocity), say("the constraints")).entries;
+    }
 
-    std::vector<int> speed_rows;
-    for (int i = 0; i < s; ++i) speed_rows.push_back(n + i);
-    const CertainMatrix U = along.part(speed_rows, up_to(nr + p, nr)), Ut = transposed(U);
-    CertainMatrix M(s, s);
-    for (int i = 0, next = 0; i < s; ++i)
-        for (int j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[r.mass[next++]].value();
-    const CertainMatrix f = column(values(r.forcing));
-    CertainMatrix udot = particular(column(values(r.gamma)));
-    result.mass = Ut * M * U;
-    const CertainMatrix wdot = solved(result.mass, Ut * (f + Certain(-1) * (M * udot)), say("the mass matrix"));
-    udot = udot + U * wdot;
-    result.speed_rates = wdot.entries;
-    CertainMatrix reaction = M * udot + Certain(-1) * f, on_dependent(r.kept, 1);
-    for (int k = 0; k < r.kept; ++k) on_dependent(k, 0) = reaction(split.u_dependent[k], 0);
-    const CertainMatrix lambda = solved(transposed(nu_dependent), on_dependent, say("the velocity constraints"));
+    /// The columns r, w of `along`, U, and Newton's steps.
+    void add_directions() {
+        CertainMatrix& along = result_.along;
+        along = filled(n_ + s_, nr_ + p_, [&](int i, int j) {
+            return Certain(j < nr_ ? i == split_.q[j] : i == n_ + split_.u[j - nr_] ? 1 : 0);
+        });
+        const CertainMatrix phi = jacobian(r_.position), nu = jacobian(r_.velocity);
+        const CertainMatrix phi_dependent = phi.part(up_to(r_.holonomic), split_.q_dependent);
+        const CertainMatrix follow = solved(phi_dependent, Certain(-1) * (phi * along), say("the constraints"));
+        for (std::size_t k = 0; k < split_.q_dependent.size(); ++k)
+            for (int j = 0; j < nr_ + p_; ++j) along(split_.q_dependent[k], j) += follow(static_cast<int>(k), j);
+        std::vector<int> speeds_dependent;
+        for (const int k : split_.u_dependent) speeds_dependent.push_back(n_ + k);
+        nu_dependent_ = nu.part(up_to(r_.kept), speeds_dependent);
+        const CertainMatrix more = particular(Certain(-1) * (nu * along));
+        for (int i = 0; i < s_; ++i)
+            for (int j = 0; j < nr_ + p_; ++j) along(n_ + i, j) += more(i, j);
+        result_.to_position =
+            solved(phi_dependent, Certain(-1) * column(result_.position), say("the constraints")).entries;
+        result_.to_velocity =
+            solved(nu_dependent_, Certain(-1) * column(result_.velocity), say("the constraints")).entries;
+        U_ = along.part(up_to(n_ + s_, n_), up_to(nr_ + p_, nr_));
+        Ut_ = transposed(U_);
+    }
 
-    CertainMatrix R = Certain(-1) * jacobian(r.forcing), Gamma = Certain(-1) * jacobian(r.gamma);
-    for (int i = 0, next = 0; i < s; ++i)
-        for (int j = 0; j <= i; ++j, ++next)
-            for (int k = 0; k < n + s; ++k) {
-                const Certain d = value[r.mass[next]].coefficient(k + 1);
-                if (d.is_zero()) continue;
-                R(i, k) += d * udot(j, 0);
-                if (i != j) R(j, k) += d * udot(i, 0);
-            }
-    for (int k = 0; k < r.kept; ++k)
-        for (int i = 0; i < s; ++i)
-            for (int c = 0; c < n + s; ++c) {
-                const Certain d = value[r.row[k * s + i]].coefficient(c + 1);
-                if (d.is_zero()) continue;
-                R(i, c) -= d * lambda(k, 0);
-                Gamma(k, c) += d * udot(i, 0);
-            }
-    const CertainMatrix forced = particular(Certain(-1) * (Gamma * along));
-    const CertainMatrix force = Ut * (R * along + M * forced);
-    result.stiffness = force.part(up_to(p), up_to(nr));
-    result.damping = force.part(up_to(p), up_to(nr + p, nr));
-    result.coordinate_rates = values(r.rate);
-    result.rates = (jacobian(r.rate) * along).part(split.q, up_to(nr + p));
-    result.along = along;
-    return result;
+    /// u' and λ of the undisturbed motion.
+    void add_motion() {
+        M_ = CertainMatrix(s_, s_);
+        for (int i = 0, next = 0; i < s_; ++i)
+            for (int j = 0; j <= i; ++j) M_(i, j) = M_(j, i) = value_[r_.mass[next++]].value();
+        const CertainMatrix f = column(values(r_.forcing));
+        udot_ = particular(column(values(r_.gamma)));
+        result_.mass = Ut_ * M_ * U_;
+        const CertainMatrix wdot =
+            solved(result_.mass, Ut_ * (f + Certain(-1) * (M_ * udot_)), say("the mass matrix"));
+        udot_ = udot_ + U_ * wdot;
+        result_.speed_rates = wdot.entries;
+        CertainMatrix reaction = M_ * udot_ + Certain(-1) * f, on_dependent(r_.kept, 1);
+        for (int k = 0; k < r_.kept; ++k) on_dependent(k, 0) = reaction(split_.u_dependent[k], 0);
+        lambda_ = solved(transposed(nu_dependent_), on_dependent, say("the velocity constraints"));
+    }
+
+    /// From the derivatives of the residuals with constant u' and λ.
+    void add_derivatives() {
+        CertainMatrix R = Certain(-1) * jacobian(r_.forcing), Gamma = Certain(-1) * jacobian(r_.gamma);
+        for (int i = 0, next = 0; i < s_; ++i)
+            for (int j = 0; j <= i; ++j, ++next)
+                for (int k = 0; k < n_ + s_; ++k) {
+                    const Certain d = value_[r_.mass[next]].coefficient(k + 1);
+                    if (d.is_zero()) continue;
+                    R(i, k) += d * udot_(j, 0);
+                    if (i != j) R(j, k) += d * udot_(i, 0);
+                }
+        for (int k = 0; k < r_.kept; ++k)
+            for (int i = 0; i < s_; ++i)
+                for (int c = 0; c < n_ + s_; ++c) {
+                    const Certain d = value_[r_.row[k * s_ + i]].coefficient(c + 1);
+                    if (d.is_zero()) continue;
+                    R(i, c) -= d * lambda_(k, 0);
+                    Gamma(k, c) += d * udot_(i, 0);
+                }
+        const CertainMatrix forced = particular(Certain(-1) * (Gamma * result_.along));
+        const CertainMatrix force = Ut_ * (R * result_.along + M_ * forced);
+        result_.stiffness = force.part(up_to(p_), up_to(nr_));
+        result_.damping = force.part(up_to(p_), up_to(nr_ + p_, nr_));
+    }
+
+    const Residuals& r_;
+    const Split& split_;
+    const std::vector<Expansion> value_;
+    const int n_, s_, nr_, p_;
+    CertainMatrix nu_dependent_, U_, Ut_, M_, udot_, lambda_;
+    CertainTangent result_;
+};
+
+}  // namespace
+
+CertainTangent Local::tangent_at(const CertainPoint& at) const {
+    const int variables = residuals.n + residuals.s;
+    const Monomials linear(variables, 1);
+    return CertainAlgebra(residuals, split, interpret(residuals.program, state_at(at, &linear, up_to(variables))))
+        .run();
 }
 
 /// Newton's method for the constraints and for w' = 0, for values that are not exact.

@@ -9,118 +9,16 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
-#include "program/lower/lower.hpp"
 #include "stability/linear/dense_long.hpp"
 #include "stability/linear/paths.hpp"
 
 namespace alembert {
 
-using GiNaC::ex;
 using Index = Eigen::Index;
-
-Residuals::Residuals(const Mechanism& m, const Equations& e, const std::vector<bool>& at_rest)
-    : n(m.size()),
-      s(e.size()),
-      holonomic(0),
-      kept(static_cast<int>(e.A.size())),
-      rates_are_speeds(e.speeds_are_rates()) {
-    Program all;
-    all.source_labels = m.z->source_labels();
-    std::vector<std::pair<GiNaC::symbol, int>> given;
-    for (std::size_t i = 0; i < m.inputs.size(); ++i)
-        for (int order = 0; order < 3; ++order)
-            given.emplace_back(m.inputs[i].derivative[order],
-                               all.variable({Variable::Kind::unknown, 3 * static_cast<int>(i) + order}));
-    std::vector<std::pair<Group, ex>> inertia, forces, motion;
-    for (int i = 0; i < s; ++i) {
-        for (int j = 0; j <= i; ++j) inertia.emplace_back(Group::mass, e.M(i, j));
-        forces.emplace_back(Group::forcing, e.forcing(i));
-    }
-    for (int k = 0; k < kept; ++k) {
-        for (const ex& entry : e.A[k]) forces.emplace_back(Group::row, entry);
-        forces.emplace_back(Group::gamma, e.gamma[k]);
-    }
-    const auto rate_of = [&](int i) { return e.h[i]; };
-    for (int i = 0; i < n; ++i) motion.emplace_back(Group::rate, rate_of(i));
-    for (const Mechanism::Constraint& c : m.constraints)
-        if (c.position) {
-            motion.emplace_back(Group::position, *c.position);
-            ++holonomic;
-        }
-    for (const int k : e.kept(m)) {
-        const Mechanism::Constraint& c = m.constraints[k];
-        GiNaC::exvector terms{c.drift};
-        for (int i = 0; i < n; ++i) terms.push_back(c.row[i] * rate_of(i));
-        motion.emplace_back(Group::velocity, m.z->name(GiNaC::add(std::move(terms))));
-    }
-    const auto add = [&](const std::vector<std::pair<Group, ex>>& roots, const std::vector<bool>& is_zero) {
-        std::vector<std::pair<GiNaC::symbol, int>> known = given;
-        for (int i = 0; i < s; ++i)
-            known.emplace_back(e.u[i], !is_zero.empty() && is_zero[static_cast<std::size_t>(i)]
-                                           ? all.number(0)
-                                           : all.variable({Variable::Kind::rate, i}));
-        std::vector<ex> values;
-        for (const auto& [group, value] : roots) values.push_back(value);
-        const std::vector<int> nodes = lower_expressions(all, m, values, known);
-        for (std::size_t i = 0; i < nodes.size(); ++i) all.roots.push_back({roots[i].first, "", nodes[i]});
-    };
-    add(forces, at_rest);
-    add(motion, {});
-    steady_needs_mass = std::any_of(all.roots.begin(), all.roots.end(), [&](const Root& root) {
-        return root.group == Group::gamma && !(all[root.node].is_number() && cln::zerop(all[root.node].number));
-    });
-    if (at_rest.empty() || steady_needs_mass) add(inertia, at_rest);
-    std::vector<ex> input_symbols;
-    for (const Mechanism::Input& input : m.inputs)
-        input_symbols.insert(input_symbols.end(), input.derivative.begin(), input.derivative.end());
-    for (const int id : lower_expressions(all, m, input_symbols)) all.roots.push_back({Group::input, "", id});
-    program = all.canonical();
-    for (int id = 0; id < program.size(); ++id)
-        if (program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::unknown)
-            inputs.push_back(program[id].variable.index);
-    std::sort(inputs.begin(), inputs.end());
-    for (const auto& [group, list] : {std::pair{Group::mass, &mass},
-                                      {Group::forcing, &forcing},
-                                      {Group::row, &row},
-                                      {Group::gamma, &gamma},
-                                      {Group::rate, &rate},
-                                      {Group::position, &position},
-                                      {Group::velocity, &velocity},
-                                      {Group::input, &input_values}})
-        *list = program.nodes_of(group);
-    geometry = position;
-    geometry.insert(geometry.end(), velocity.begin(), velocity.end());
-    geometry = program.needed(geometry);
-    steady = position;
-    for (const std::vector<int>* list : {&velocity, &forcing, &row, &gamma, &rate})
-        steady.insert(steady.end(), list->begin(), list->end());
-    if (steady_needs_mass) steady.insert(steady.end(), mass.begin(), mass.end());
-    steady = program.needed(steady);
-}
-
-template <typename Real>
-Varied<Real>::Varied(const Residuals& r, const Instant<Real>& at, std::size_t unknowns) {
-    for (const Real x : at.parameters) state.parameters.push_back(Jet<Real>(x));
-    for (const Real x : at.q) state.q.push_back(next(x));
-    for (const Real x : at.u) state.qdot.push_back(next(x));
-    state.t = next(at.t);
-    state.unknown.resize(unknowns);
-    for (std::size_t k = 0; k < r.inputs.size(); ++k)
-        state.unknown[static_cast<std::size_t>(r.inputs[k])] = next(at.inputs[k]);
-}
-
-template <typename Real>
-Jet<Real> Varied<Real>::next(Real value) {
-    std::vector<Real> d(++next_, Real(0));  // derivatives by later variables are zero
-    d.back() = Real(1);
-    return Jet<Real>(value, std::move(d));
-}
-
-template struct Varied<double>;
-template struct Varied<long double>;
 
 namespace {
 
@@ -296,106 +194,152 @@ Split split_of(const Residuals& r, const Instant<long double>& at, const std::ve
     return split;
 }
 
+namespace {
+
+/// The algebra of `tangent` at one instant, in the order of the equations at the top of this file.
+template <typename Real>
+class TangentAlgebra {
+    using Matrix = MatrixOf<Real>;
+    using Vector = VectorOf<Real>;
+
+public:
+    TangentAlgebra(const Residuals& r, const Split& split, const Instant<Real>& at, bool at_kink, bool is_forced)
+        : r_(r),
+          split_(split),
+          is_forced_(is_forced),
+          has_mass_(is_forced || r.steady_needs_mass),
+          value_(is_forced || at_kink ? Values<Real>(r, at, at_kink) : Values<Real>(r, at, r.steady)),
+          n_(r.n),
+          s_(r.s),
+          nr_(static_cast<Index>(split.q.size())),
+          p_(static_cast<Index>(split.u.size())) {}
+
+    Tangent<Real> run() {
+        add_directions();
+        add_motion();
+        add_derivatives();
+        add_rates();
+        return std::move(result_);
+    }
+
+private:
+    /// A x = right, with independent ones 0.
+    Matrix particular(const Matrix& right) const {
+        if (r_.kept == 0) return Matrix::Zero(s_, right.cols());
+        return spread<Real>(solution<Real>(dependent_, right), split_.u_dependent, s_);
+    }
+
+    /// The columns r, w, e of `along`, and U.
+    void add_directions() {
+        const Index extra = value_.columns - n_ - s_;
+        const Matrix phi = value_.jacobian(r_.position), nu = value_.jacobian(r_.velocity);
+        Matrix& along = result_.along;
+        along = Matrix::Zero(n_ + s_ + extra, nr_ + p_ + extra);
+        for (Index j = 0; j < nr_; ++j) along(split_.q[j], j) = 1;
+        for (Index j = 0; j < p_; ++j) along(n_ + split_.u[j], nr_ + j) = 1;
+        along.bottomRightCorner(extra, extra).setIdentity();
+        if (r_.holonomic > 0) {
+            const Matrix dependent = columns_of<Real>(phi.leftCols(n_), split_.q_dependent);
+            along.topRows(n_) +=
+                spread<Real>(solution<Real>(dependent, -product<Real>(phi, along)), split_.q_dependent, n_);
+        }
+        dependent_ = columns_of<Real>(nu.middleCols(n_, s_), split_.u_dependent);
+        along.middleRows(n_, s_) += particular(-product<Real>(nu, along));
+        U_ = along.block(n_, nr_, s_, p_);
+        onto_ = U_.transpose();
+    }
+
+    /// u' and λ of the undisturbed motion.
+    void add_motion() {
+        M_ = Matrix::Zero(s_, s_);
+        for (Index i = 0, next = 0; has_mass_ && i < s_; ++i)
+            for (Index j = 0; j <= i; ++j) M_(i, j) = M_(j, i) = value_[r_.mass[next++]].value;
+        const Vector f = value_.vector(r_.forcing), gamma = value_.vector(r_.gamma);
+        result_.udot = particular(gamma).col(0);
+        result_.mass = product<Real>(product<Real>(onto_, M_), U_);
+        const Vector unbalanced = f - M_ * result_.udot;
+        result_.balance = onto_ * unbalanced;
+        if (is_forced_) {
+            result_.speed_rates = p_ > 0 ? Vector(solution<Real>(result_.mass, result_.balance)) : Vector(0);
+            result_.udot += U_ * result_.speed_rates;
+        }
+        result_.lambda.resize(r_.kept);
+        if (r_.kept == 0) return;
+        const Vector reaction = M_ * result_.udot - f;
+        Vector on_dependent(r_.kept);
+        for (Index k = 0; k < r_.kept; ++k) on_dependent[k] = reaction[split_.u_dependent[k]];
+        result_.lambda = solution<Real>(dependent_.transpose(), on_dependent);
+    }
+
+    /// The derivatives of M u' − f − Aᵀλ and of A u' − γ with constant u' and λ.
+    std::pair<Matrix, Matrix> residuals_by() const {
+        const Vector &udot = result_.udot, &lambda = result_.lambda;
+        Matrix R = -value_.jacobian(r_.forcing), Gamma = -value_.jacobian(r_.gamma);
+        for (Index i = 0, next = 0; has_mass_ && i < s_; ++i)
+            for (Index j = 0; j <= i; ++j) {
+                const Jet<Real>& entry = value_[r_.mass[next++]];
+                for (Index k = 0; k < value_.columns; ++k) {
+                    const Real d = entry.derivative(static_cast<std::size_t>(k));
+                    R(i, k) += d * udot[j];
+                    if (i != j) R(j, k) += d * udot[i];
+                }
+            }
+        for (Index k = 0; k < r_.kept; ++k)
+            for (Index i = 0; i < s_; ++i) {
+                const Jet<Real>& entry = value_[r_.row[k * s_ + i]];
+                for (Index c = 0; c < value_.columns; ++c) {
+                    const Real d = entry.derivative(static_cast<std::size_t>(c));
+                    R(i, c) -= d * lambda[k];
+                    Gamma(k, c) += d * udot[i];
+                }
+            }
+        return {std::move(R), std::move(Gamma)};
+    }
+
+    void add_derivatives() {
+        const Matrix& along = result_.along;
+        const auto [R, Gamma] = residuals_by();
+        const Matrix forced = particular(-product<Real>(Gamma, along));
+        result_.force = product<Real>(onto_, product<Real>(R, along) + product<Real>(M_, forced));
+        if (!is_forced_) return;
+        result_.speed_rates_by =
+            p_ > 0 ? Matrix(-solution<Real>(result_.mass, result_.force)) : Matrix(0, along.cols());
+        result_.udot_by = forced + product<Real>(U_, result_.speed_rates_by);
+        const Matrix excess = product<Real>(R, along) + product<Real>(M_, result_.udot_by);  // = Aᵀ δλ
+        Matrix on_dependent(r_.kept, along.cols());
+        for (Index k = 0; k < r_.kept; ++k) on_dependent.row(k) = excess.row(split_.u_dependent[k]);
+        result_.lambda_by = r_.kept > 0 ? solution<Real>(dependent_.transpose(), on_dependent) : on_dependent;
+    }
+
+    /// r' and δr'.
+    void add_rates() {
+        const Vector rates = value_.vector(r_.rate);
+        const Matrix rates_by = product<Real>(value_.jacobian(r_.rate), result_.along);
+        result_.rates.resize(nr_);
+        result_.rates_by.resize(nr_, result_.along.cols());
+        for (Index j = 0; j < nr_; ++j) {
+            result_.rates[j] = rates[split_.q[j]];
+            result_.rates_by.row(j) = rates_by.row(split_.q[j]);
+        }
+    }
+
+    const Residuals& r_;
+    const Split& split_;
+    const bool is_forced_, has_mass_;
+    const Values<Real> value_;
+    const Index n_, s_, nr_, p_;
+    Matrix dependent_;  ///< A_dep
+    Matrix U_, onto_;   ///< U, Uᵀ
+    Matrix M_;
+    Tangent<Real> result_;
+};
+
+}  // namespace
+
 template <typename Real>
 Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real>& at, bool at_kink,
                       Undisturbed motion) {
-    using Matrix = MatrixOf<Real>;
-    using Vector = VectorOf<Real>;
-    const bool is_forced = motion == Undisturbed::as_forced;
-    const Values<Real> value = is_forced || at_kink ? Values<Real>(r, at, at_kink) : Values<Real>(r, at, r.steady);
-    const Index n = r.n, s = r.s, extra = value.columns - n - s, nr = static_cast<Index>(split.q.size()),
-                p = static_cast<Index>(split.u.size());
-    Tangent<Real> result;
-
-    // Directions: columns r, w, e.
-    const Matrix phi = value.jacobian(r.position), nu = value.jacobian(r.velocity);
-    Matrix along = Matrix::Zero(n + s + extra, nr + p + extra);
-    for (Index j = 0; j < nr; ++j) along(split.q[j], j) = 1;
-    for (Index j = 0; j < p; ++j) along(n + split.u[j], nr + j) = 1;
-    along.bottomRightCorner(extra, extra).setIdentity();
-    if (r.holonomic > 0) {
-        const Matrix dependent = columns_of<Real>(phi.leftCols(n), split.q_dependent);
-        along.topRows(n) +=
-            spread<Real>(solution<Real>(dependent, -product<Real>(phi, along)), split.q_dependent, n);
-    }
-    const Matrix A = nu.middleCols(n, s);
-    const Matrix dependent = columns_of<Real>(A, split.u_dependent);
-    const auto particular = [&](const Matrix& right) -> Matrix {  // A x = right, independent ones 0
-        if (r.kept == 0) return Matrix::Zero(s, right.cols());
-        return spread<Real>(solution<Real>(dependent, right), split.u_dependent, s);
-    };
-    along.middleRows(n, s) += particular(-product<Real>(nu, along));
-    const Matrix U = along.block(n, nr, s, p), onto = U.transpose();
-
-    // u' and λ of the undisturbed motion.
-    Matrix M = Matrix::Zero(s, s);
-    const bool has_mass = is_forced || r.steady_needs_mass;
-    for (Index i = 0, next = 0; has_mass && i < s; ++i)
-        for (Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[r.mass[next++]].value;
-    const Vector f = value.vector(r.forcing), gamma = value.vector(r.gamma);
-    Vector udot = particular(gamma).col(0);
-    result.mass = product<Real>(product<Real>(onto, M), U);
-    const Vector unbalanced = f - M * udot;
-    result.balance = onto * unbalanced;
-    if (is_forced) {
-        result.speed_rates = p > 0 ? Vector(solution<Real>(result.mass, result.balance)) : Vector(0);
-        udot += U * result.speed_rates;
-    }
-    Vector lambda(r.kept);
-    if (r.kept > 0) {
-        const Vector reaction = M * udot - f;
-        Vector on_dependent(r.kept);
-        for (Index k = 0; k < r.kept; ++k) on_dependent[k] = reaction[split.u_dependent[k]];
-        lambda = solution<Real>(dependent.transpose(), on_dependent);
-    }
-
-    // The derivatives of the residuals with constant u' and λ.
-    const Matrix df = value.jacobian(r.forcing), dgamma = value.jacobian(r.gamma);
-    Matrix R = -df, Gamma = -dgamma;
-    for (Index i = 0, next = 0; has_mass && i < s; ++i)
-        for (Index j = 0; j <= i; ++j) {
-            const Jet<Real>& entry = value[r.mass[next++]];
-            for (Index k = 0; k < value.columns; ++k) {
-                const Real d = entry.derivative(static_cast<std::size_t>(k));
-                R(i, k) += d * udot[j];
-                if (i != j) R(j, k) += d * udot[i];
-            }
-        }
-    for (Index k = 0; k < r.kept; ++k)
-        for (Index i = 0; i < s; ++i) {
-            const Jet<Real>& entry = value[r.row[k * s + i]];
-            for (Index c = 0; c < value.columns; ++c) {
-                const Real d = entry.derivative(static_cast<std::size_t>(c));
-                R(i, c) -= d * lambda[k];
-                Gamma(k, c) += d * udot[i];
-            }
-        }
-    const Matrix forced = particular(-product<Real>(Gamma, along));
-    result.force = product<Real>(onto, product<Real>(R, along) + product<Real>(M, forced));
-    if (is_forced)
-        result.speed_rates_by =
-            p > 0 ? Matrix(-solution<Real>(result.mass, result.force)) : Matrix(0, along.cols());
-
-    if (is_forced) {
-        result.udot_by = forced + product<Real>(U, result.speed_rates_by);
-        const Matrix excess = product<Real>(R, along) + product<Real>(M, result.udot_by);  // = Aᵀ δλ
-        Matrix on_dependent(r.kept, along.cols());
-        for (Index k = 0; k < r.kept; ++k) on_dependent.row(k) = excess.row(split.u_dependent[k]);
-        result.lambda_by = r.kept > 0 ? solution<Real>(dependent.transpose(), on_dependent) : on_dependent;
-    }
-
-    result.along = along;
-    result.udot = udot;
-    result.lambda = lambda;
-    const Vector rates = value.vector(r.rate);
-    const Matrix rates_by = product<Real>(value.jacobian(r.rate), along);
-    result.rates.resize(nr);
-    result.rates_by.resize(nr, along.cols());
-    for (Index j = 0; j < nr; ++j) {
-        result.rates[j] = rates[split.q[j]];
-        result.rates_by.row(j) = rates_by.row(split.q[j]);
-    }
-    return result;
+    return TangentAlgebra<Real>(r, split, at, at_kink, motion == Undisturbed::as_forced).run();
 }
 
 template <typename Real>
