@@ -4,7 +4,7 @@
 /// Equations that every motion obeys that the constraints allow: q'' = w + Aᵀλ, A q'' = γ with any w. What follows
 /// from them alone is kinematics.
 ///
-///     ExactStates states(mechanism, any_motion(equations, mechanism), Motions::At::motion, 0, 0);
+///     ExactStates states(mechanism, any_motion(equations, mechanism), {});
 
 #include "model/formalism/equations.hpp"
 

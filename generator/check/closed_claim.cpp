@@ -39,8 +39,10 @@ bool holds_with_signs_turned(Comparison& now, std::size_t k, const ExactStates& 
                              int root) {
     const unsigned choices = 1U << states.motions.rubbed().size();
     for (unsigned turned = 1; turned < choices; ++turned) {
-        ExactStates others(now.m, now.law, states.motions.where(), states.motions.halves(), halvings_in(now, {k}),
-                           Motions::Positions::solved, turned);
+        ExactStates others(
+            now.m, now.law,
+            {.at = states.motions.where(), .halves = states.motions.halves(), .halvings = halvings_in(now, {k})},
+            turned);
         if (vanishes_at(others, p, root, now.verdicts[k].failure) == std::optional(true) &&
             hold_in_numbers(told(now), states.motions, p, {root})[0])
             return true;

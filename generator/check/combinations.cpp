@@ -39,7 +39,11 @@ std::vector<std::size_t> without_combinations(Comparison& now, const std::vector
         if (!now.forms[k].open.empty()) continue;
         const int root = now.claims.lower(p, {now.forms[k].residual})[0];
         if (p.is_zero(root)) continue;
-        if (!states) states.emplace(now.m, now.law, at, 0, halvings_in(now, claims), Motions::Positions::free);
+        if (!states)
+            states.emplace(
+                now.m, now.law,
+                Motions::Sampling{
+                    .at = at, .halvings = halvings_in(now, claims), .positions = Motions::Positions::free});
         double failure = 0;
         if (vanishes_at(*states, p, root, failure) != std::optional(true)) continue;
         found.emplace_back(k, failure);

@@ -29,7 +29,7 @@ Completeness completeness(const Claims& claims, const std::vector<const ClaimFor
     Program p;
     const std::vector<int> nodes = claims.lower(p, list);
     for (const int halves : {0, 1, 2}) {
-        ExactStates states(m, e, Motions::At::motion, halves, halvings(p, nodes));
+        ExactStates states(m, e, {.halves = halves, .halvings = halvings(p, nodes)});
         for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
             const auto at = evaluate_mod(p, states.get(s)->point, nodes);
             if (!at) continue;

@@ -39,7 +39,7 @@ void tell_kinematics(Comparison& now) {
     if (here.empty() || is_bound_by_forces) return;
     const Equations any = any_motion(now.e, now.m);
     for (const int halves : {0, 1, 2}) {
-        ExactStates states(now.m, any, Motions::At::motion, halves, halvings_in(now, here));
+        ExactStates states(now.m, any, {.halves = halves, .halvings = halvings_in(now, here)});
         if (states.get(0) == nullptr) continue;
         for (const std::size_t k : here) tell_kinematic(now, k, states);
         return;

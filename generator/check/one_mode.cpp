@@ -186,7 +186,8 @@ private:
         const int halvings = halvings_in(now_, here);
         const auto make = [&](std::optional<ExactStates>& made, bool stays) {
             for (const int halves : {0, 1, 2}) {
-                made.emplace(mechanism, now_.law, at, halves, halvings, Motions::Positions::solved, 0, own);
+                made.emplace(mechanism, now_.law,
+                             Motions::Sampling{.at = at, .halves = halves, .halvings = halvings, .own = own});
                 if (stays) made->stay_on_own_branch();
                 if (!now_.assumed.empty()) keep_assumed(*made);
                 const bool helps_no_more = stays && halves >= std::max(halvings, states->motions.halves());

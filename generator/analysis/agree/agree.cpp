@@ -148,89 +148,135 @@ Derivations derive_all(const Mechanism& mechanism) {
     return result;
 }
 
-Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, double work) {
-    constexpr int most_unusable = 2000;
-    Agreement result;
-    if (equations.size() < 2) {
-        result.reason = say("fewer than two formalisms apply");
-        return result;
-    }
-    std::vector<int> eliminated;
+namespace {
+
+/// The reason why equations in speeds cannot be compared, if there is one.
+std::string obstacle_in_speeds(const std::vector<Equations>& equations) {
     const Equations* in_speeds = nullptr;
     for (const Equations& e : equations) {
-        for (const Equations::Eliminated& constraint : e.eliminated) eliminated.push_back(constraint.constraint);
         if (e.speeds_are_rates()) continue;
         if (in_speeds == nullptr) in_speeds = &e;
-        if (e.u != in_speeds->u) {
-            result.reason = say("{} and {} are in different speeds", in_speeds->formalism, e.formalism);
-            return result;
-        }
+        if (e.u != in_speeds->u)
+            return say("{} and {} are in different speeds", in_speeds->formalism, e.formalism);
     }
+    return {};
+}
+
+std::vector<System> systems_of(const std::vector<Equations>& equations, const Mechanism& m) {
+    std::vector<int> eliminated;
+    for (const Equations& e : equations)
+        for (const Equations::Eliminated& constraint : e.eliminated) eliminated.push_back(constraint.constraint);
     std::vector<System> systems;
-    const System* speeds = nullptr;
-    systems.reserve(equations.size());
-    for (const Equations& e : equations) {
-        systems.push_back(system_of(e, m, eliminated));
-        if (!systems.back().is_plain()) speeds = &systems.back();
+    for (const Equations& e : equations) systems.push_back(system_of(e, m, eliminated));
+    return systems;
+}
+
+/// The same equations modulo a prime, at points where all of them have values.
+class SampledSystems {
+public:
+    explicit SampledSystems(const std::vector<System>& systems)
+        : systems_(systems), usable_(parts_of(systems), {}) {
+        for (const SquarePoints::Part& part : parts_of(systems))
+            finer_ = std::max(finer_, halvings(*part.program, part.roots) - ModularPoint{}.halves);
+        for (const System& s : systems)
+            if (!s.is_plain()) speeds_ = &s;
     }
 
-    std::vector<SquarePoints::Part> parts;
-    int finer = 0;
-    for (const System& s : systems) {
-        parts.push_back({&s.program, s.wanted});
-        parts.back().roots.insert(parts.back().roots.end(), s.rates.begin(), s.rates.end());
-        finer = std::max(finer, halvings(s.program, parts.back().roots) - ModularPoint{}.halves);
-    }
-    const SquarePoints usable(parts, {});
-    int unusable = 0;
-    for (std::uint64_t seed = 1; result.failure > -60; ++seed) {
-        const auto point = usable.at({.seed = seed, .given = {}, .given_angles = {}, .finer = finer});
-        const auto rates = !point              ? std::nullopt
-                           : speeds != nullptr ? rates_at(*speeds, *point)
-                                               : std::optional(ModularRates{});
+    /// The reduced rows of each system at one point; fewer than systems if one has no value there.
+    std::vector<Echelon> at(std::uint64_t seed) const {
+        const auto point = usable_.at({.seed = seed, .given = {}, .given_angles = {}, .finer = finer_});
+        const auto rates = !point               ? std::nullopt
+                           : speeds_ != nullptr ? rates_at(*speeds_, *point)
+                                                : std::optional(ModularRates{});
         std::vector<Echelon> forms;
-        for (const System& s : systems) {
+        for (const System& s : systems_) {
             auto form = rates ? echelon(s, *point, *rates) : std::nullopt;
             if (!form) break;
             forms.push_back(std::move(*form));
         }
+        return forms;
+    }
+
+private:
+    static std::vector<SquarePoints::Part> parts_of(const std::vector<System>& systems) {
+        std::vector<SquarePoints::Part> parts;
+        for (const System& s : systems) {
+            parts.push_back({&s.program, s.wanted});
+            parts.back().roots.insert(parts.back().roots.end(), s.rates.begin(), s.rates.end());
+        }
+        return parts;
+    }
+
+    const std::vector<System>& systems_;
+    SquarePoints usable_;
+    int finer_ = 0;
+    const System* speeds_ = nullptr;  ///< one in speeds, which determines the rates
+};
+
+/// log₂ of the probability that equal rows at one random point are an accident.
+double chance_of(const std::vector<Echelon>& forms) {
+    double degree = 0, conditions = 0;
+    for (const Echelon& form : forms) {
+        degree += form.degree + forms[0].degree;
+        conditions = std::max(conditions, form.conditions);
+    }
+    return std::log2(degree) + conditions - 61;
+}
+
+/// What follows where two systems differ in exact arithmetic: refuted if they differ as numbers too.
+void tell_difference(Agreement& result, const System& first, const System& other, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    int tried = 0;
+    for (int attempt = 0; attempt < 32; ++attempt)
+        if (const auto r = residual(first, other, random); r && ++tried && *r > 1e-9L) {
+            result.verdict = Agreement::Verdict::refuted;
+            result.reason =
+                say("{} and {} differ: at a random state an equation of the second is off by {:.2g} "
+                    "of its largest term with the accelerations of the first",
+                    first.formalism, other.formalism, static_cast<double>(*r));
+            return;
+        }
+    result.reason =
+        say("{} and {} differ in exact arithmetic that does not know all identities, and agree at "
+            "{} random states",
+            first.formalism, other.formalism, tried);
+}
+
+/// Compares at random points until the probability of an error is small; false, with the reason, if that is never
+/// reached.
+bool agree_at_points(Agreement& result, const std::vector<System>& systems) {
+    constexpr int most_unusable = 2000;
+    const SampledSystems sampled(systems);
+    int unusable = 0;
+    for (std::uint64_t seed = 1; result.failure > -60; ++seed) {
+        const std::vector<Echelon> forms = sampled.at(seed);
         if (forms.size() < systems.size()) {
             if (++unusable < most_unusable) continue;
             result.reason = say("no point was found where all roots exist");
-            return result;
+            return false;
         }
-        double degree = 0, conditions = 0;
-        for (const Echelon& form : forms) {
-            degree += form.degree + forms[0].degree;
-            conditions = std::max(conditions, form.conditions);
-        }
-        for (std::size_t k = 1; k < forms.size(); ++k) {
-            if (forms[k].rows == forms[0].rows) continue;
-            std::mt19937_64 random(seed);
-            int tried = 0;
-            for (int attempt = 0; attempt < 32; ++attempt)
-                if (const auto r = residual(systems[0], systems[k], random); r && ++tried && *r > 1e-9L) {
-                    result.verdict = Agreement::Verdict::refuted;
-                    result.reason =
-                        say("{} and {} differ: at a random state an equation of the second is off by {:.2g} "
-                            "of its largest term with the accelerations of the first",
-                            systems[0].formalism, systems[k].formalism, static_cast<double>(*r));
-                    return result;
-                }
-            result.reason =
-                say("{} and {} differ in exact arithmetic that does not know all identities, and agree at "
-                    "{} random states",
-                    systems[0].formalism, systems[k].formalism, tried);
-            return result;
-        }
+        for (std::size_t k = 1; k < forms.size(); ++k)
+            if (forms[k].rows != forms[0].rows) {
+                tell_difference(result, systems[0], systems[k], seed);
+                return false;
+            }
         ++result.points;
-        const double chance = std::log2(degree) + conditions - 61;
+        const double chance = chance_of(forms);
         if (chance > -1) {
             result.reason = say("the equations are of too high a degree for a bound on the failure of sampling");
-            return result;
+            return false;
         }
         result.failure += chance;
     }
+    return true;
+}
+
+}  // namespace
+
+Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, double work) {
+    Agreement result;
+    result.reason = equations.size() < 2 ? say("fewer than two formalisms apply") : obstacle_in_speeds(equations);
+    if (!result.reason.empty() || !agree_at_points(result, systems_of(equations, m))) return result;
     result.verdict = Agreement::Verdict::proved;
     result.normal_form = true;
     double left = work;

@@ -10,10 +10,8 @@ namespace alembert {
 /// Exact states one after the other. Each is computed when it is first asked for; null if no more are found.
 class ExactStates {
 public:
-    ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves, int halvings,
-                Motions::Positions positions = Motions::Positions::solved, unsigned turned = 0,
-                std::optional<OwnBranch> own = {})
-        : motions(m, e, at, halves, halvings, positions, std::move(own)), turned_(turned) {}
+    ExactStates(const Mechanism& m, const Equations& e, Motions::Sampling sampling, unsigned turned = 0)
+        : motions(m, e, std::move(sampling)), turned_(turned) {}
 
     /// From now on only states at which this holds; `conditions` random values must be squares for it.
     void keep_where(std::function<bool(const ModularPoint&)> holds, double conditions) {

@@ -67,9 +67,14 @@ std::vector<int> rubbed_rows(const Mechanism& m, const Equations& e) {
 
 }  // namespace
 
-Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halves, int halvings,
-                 Positions positions, std::optional<OwnBranch> own)
-    : own_(std::move(own)), at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
+Motions::Motions(const Mechanism& mechanism, const Equations& e) : Motions(mechanism, e, Sampling()) {}
+
+Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampling)
+    : own_(std::move(sampling.own)),
+      at_(sampling.at),
+      n_(e.size()),
+      m_(static_cast<int>(e.A.size())),
+      halves_(sampling.halves) {
     const Mechanism m = in_terms_of(e, mechanism);
     rubbed_ = rubbed_rows(m, e);
     if (!rubbed_.empty()) {
@@ -95,7 +100,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     int next_unknown = m_;
     for (const Mechanism::Constraint* c : m.undetermined())
         given.emplace_back(c->multiplier, program_.variable({Variable::Kind::unknown, next_unknown++}));
-    if (at != At::rest)
+    if (at_ != At::rest)
         for (const int k : rubbed_)
             given.emplace_back(e.lambda[static_cast<std::size_t>(k)],
                                program_.variable({Variable::Kind::unknown, k}));
@@ -121,31 +126,33 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     std::erase_if(conditions, [&](int node) { return program_.is_zero(node); });
     implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(implied), nodes.end());
 
-    if (at == At::rest) {
+    if (at_ == At::rest) {
         for (int k = 0; k < m_; ++k)
             given.emplace_back(e.lambda[k], program_.variable({Variable::Kind::unknown, k}));
         order_rest(conditions, balance_at_rest(m, e), m, given);
-    } else if (positions == Positions::free)
+    } else if (sampling.positions == Positions::free)
         loose_ = conditions;
     else
         order(conditions);
-    std::vector<int> all = nodes;
-    for (const SolvingStep& step : steps_) {
-        all.push_back(step.node);
-        if (step.second) all.push_back(step.second->node);
-    }
-    all.insert(all.end(), loose_.begin(), loose_.end());
-    finer_ = std::max(0, std::max(halvings, alembert::halvings(program_, all)) - halves);
-    std::set<SquarePoints::Key> solved;
-    for (const SolvingStep& step : steps_) {
-        solved.insert({step.variable.kind, step.variable.index});
-        if (step.second) solved.insert({step.second->variable.kind, step.second->variable.index});
-    }
-    usable_.emplace(std::vector{SquarePoints::Part{&program_, all}}, solved);
+    find_usable_points(nodes, sampling.halvings);
     find_branches();
     find_open_unknowns();
     if (own_ && !steps_.empty() && loose_.empty() && at_ == At::motion)
         own_points_.emplace(program_, steps_, *own_, halves_);
+}
+
+void Motions::find_usable_points(std::vector<int> nodes, int halvings) {
+    std::set<SquarePoints::Key> solved;
+    for (const SolvingStep& step : steps_) {
+        nodes.push_back(step.node);
+        solved.insert({step.variable.kind, step.variable.index});
+        if (!step.second) continue;
+        nodes.push_back(step.second->node);
+        solved.insert({step.second->variable.kind, step.second->variable.index});
+    }
+    nodes.insert(nodes.end(), loose_.begin(), loose_.end());
+    finer_ = std::max(0, std::max(halvings, alembert::halvings(program_, nodes)) - halves_);
+    usable_.emplace(std::vector{SquarePoints::Part{&program_, std::move(nodes)}}, solved);
 }
 
 void Motions::order(const std::vector<int>& conditions) {

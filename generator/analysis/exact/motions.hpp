@@ -62,10 +62,17 @@ public:
     enum class At { motion, rest };
     enum class Positions { solved, free };
 
-    /// Angles that are solved for may occur divided by up to 2^halves, and all others by up to 2^halvings
-    /// (analysis/exact/square_points.hpp), in the equations and in the expressions that will be evaluated.
-    Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0,
-            int halvings = 0, Positions positions = Positions::solved, std::optional<OwnBranch> own = {});
+    /// Which states are drawn. Angles that are solved for may occur divided by up to 2^halves, and all others by
+    /// up to 2^halvings (analysis/exact/square_points.hpp), in the equations and in the expressions that will be
+    /// evaluated.
+    struct Sampling {
+        At at = At::motion;
+        int halves = 0, halvings = 0;
+        Positions positions = Positions::solved;
+        std::optional<OwnBranch> own = {};
+    };
+    Motions(const Mechanism& mechanism, const Equations& equations);
+    Motions(const Mechanism& mechanism, const Equations& equations, Sampling sampling);
     Motions(const Motions&) = delete;
     Motions& operator=(const Motions&) = delete;
 
@@ -121,6 +128,8 @@ private:
     /// Orders the conditions of rest: constraints, and sums that vanish.
     void order_rest(const std::vector<int>& positions, const std::vector<GiNaC::ex>& balance, const Mechanism& m,
                     const std::vector<std::pair<GiNaC::symbol, int>>& given);
+    /// Where the roots exist that these nodes and the conditions need.
+    void find_usable_points(std::vector<int> nodes, int halvings);
     void find_branches();
     void find_open_unknowns();
     /// M, −Aᵀ and A at values of entries(), with a last column of zeros.

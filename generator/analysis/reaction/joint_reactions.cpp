@@ -4,6 +4,7 @@
 #include "analysis/reaction/joint_reactions.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "analysis/reaction/rolling_release.hpp"
@@ -111,6 +112,159 @@ std::array<double, 3> three(const std::vector<double>& value, const std::vector<
     return {value[nodes[3 * k]], value[nodes[3 * k + 1]], value[nodes[3 * k + 2]]};
 }
 
+/// The scene with its joints and its rolling contacts cut open.
+struct Cut {
+    Scene scene;
+    std::vector<ReleasedRolling> rollings;
+};
+
+Cut cut_open(const Scene& scene, int coordinates) {
+    Cut cut{.scene = released(scene), .rollings = {}};
+    for (std::size_t r = 0; r < scene.rolling.size(); ++r) {
+        if (!is_releasable(scene, scene.rolling[r])) continue;
+        cut.rollings.push_back({.rolling = static_cast<int>(r),
+                                .scene = &scene,
+                                .coordinates = coordinates,
+                                .first = static_cast<int>(cut.scene.coordinates.size()),
+                                .contact = static_cast<int>(cut.scene.particles.size())});
+        cut.scene = with_rolling_released(std::move(cut.scene), scene.rolling[r]);
+    }
+    cut.scene.on_warning = [](const Warning&) {};  // they were told for the scene itself
+    return cut;
+}
+
+/// The names of all multipliers of a mechanism, sorted.
+std::vector<std::string> multipliers_of(const Mechanism& mechanism) {
+    std::vector<std::string> names;
+    for (const auto* list : {&mechanism.constraints, &mechanism.redundant})
+        for (const Mechanism::Constraint& c : *list) names.push_back(c.multiplier.get_name());
+    for (const Mechanism::Unilateral& contact : mechanism.unilateral)
+        names.push_back(contact.gap.multiplier.get_name());
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+/// The loads R that hold the cuts closed, as nodes of a program.
+class CutLoads {
+public:
+    /// `cut` is the mechanism of the scene that is cut open, whose first coordinates are those of `given`.
+    CutLoads(const Mechanism& given, const Mechanism& cut, const std::vector<ReleasedRolling>& rollings,
+             const std::vector<std::string>& multipliers)
+        : given_(given),
+          m_(cut),
+          rollings_(rollings),
+          multipliers_(multipliers),
+          program_(begun(given)),
+          held_(held()),
+          terms_(static_cast<std::size_t>(cut.size())) {
+        add_loads();
+        lowering_ = lowering_into(program_, m_, held_);
+        for (const Mechanism::Constraint& c : m_.constraints) take_off(c);
+        for (const Mechanism::Unilateral& contact : m_.unilateral) take_off(contact.gap);
+    }
+
+    /// Adds force and moment of each joint.
+    void add_joints() {
+        int first = given_.size();
+        for (const JointArc& arc : given_.joints) {
+            const int sign = arc.role == JointArc::Role::places_parent ? -1 : 1;  // the sign for the child
+            std::array<int, 6> R;
+            for (std::size_t k = 0; k < 6; ++k) {
+                std::vector<Program::Term>& terms = terms_[static_cast<std::size_t>(first) + k];
+                for (Program::Term& term : terms) term.first = sign * term.first;
+                R[k] = program_.sum(0, terms);
+            }
+            first += 6;
+            add_joint(arc, R);
+        }
+    }
+
+    /// Adds the force of a rolling contact along its normal.
+    void add_normal(const ReleasedRolling& rolling, const Vector3& normal, const std::string& name) {
+        std::vector<Program::Term> along;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (normal[k].is_zero()) continue;
+            const int direction = lowering_(normal[k]);
+            const int force = program_.sum(0, terms_[static_cast<std::size_t>(rolling.first) + k]);
+            along.emplace_back(1, program_.product(1, {{direction, 1}, {force, 1}}));
+        }
+        program_.roots.push_back({Group::force, name, program_.sum(0, along)});
+    }
+
+    Program program() const { return program_.canonical(); }
+
+private:
+    /// The shifts and turns of the cuts, which are 0.
+    std::vector<std::pair<GiNaC::symbol, int>> held() {
+        std::vector<std::pair<GiNaC::symbol, int>> result;
+        for (int i = given_.size(); i < m_.size(); ++i)
+            for (const GiNaC::symbol& symbol : {m_.q[i], m_.qdot[i], m_.qddot[i]})
+                result.emplace_back(symbol, program_.number(0));
+        return result;
+    }
+
+    /// ∂T-terms(c) − Q(c).
+    void add_loads() {
+        const bool known = masses_are_known(m_);
+        const std::vector<int> loads =
+            known ? held_loads(program_, m_, given_.size(), held_) : inverse_loads(program_, m_, held_);
+        const std::size_t first = known ? static_cast<std::size_t>(given_.size()) : 0;
+        for (std::size_t k = 0; k < loads.size(); ++k) terms_[first + k].emplace_back(1, loads[k]);
+    }
+
+    /// −A_cᵀλ of one constraint.
+    void take_off(const Mechanism::Constraint& c) {
+        const auto found = std::lower_bound(multipliers_.begin(), multipliers_.end(), c.multiplier.get_name());
+        if (found == multipliers_.end() || *found != c.multiplier.get_name()) return;
+        const int lambda =
+            program_.variable({Variable::Kind::unknown, static_cast<int>(found - multipliers_.begin())});
+        for (int i = given_.size(); i < m_.size(); ++i)
+            if (!c.row[i].is_zero() && !is_of_own_contact(c, i, rollings_))
+                terms_[i].emplace_back(-1, program_.product(1, {{lowering_(c.row[i]), 1}, {lambda, 1}}));
+    }
+
+    const JointArc& arc_named(const std::string& name) const {
+        return *std::find_if(m_.joints.begin(), m_.joints.end(),
+                             [&](const JointArc& arc) { return arc.name == name; });
+    }
+
+    /// The way from the joint's point of the parent to that of the child, along the axes of the joint.
+    Vector3 way_of(const JointArc& arc) const {
+        Vector3 way = arc.role == JointArc::Role::places_parent ? Vector3{0, 0, 0} : arc_named(arc.name).shift;
+        if (arc.role != JointArc::Role::closes_loop) return way;
+        const JointArc& release = arc_named(arc.name + ".release");
+        const Vector3 from = m_.masses[release.child].position,
+                      to = m_.masses[arc_named(arc.name + ".mark").child].position;
+        for (std::size_t k = 0; k < 3; ++k)
+            way[k] = dot(release.slide_axes[k], add(to, scale(-1, from, *m_.z), *m_.z), *m_.z);
+        return way;
+    }
+
+    void add_joint(const JointArc& arc, const std::array<int, 6>& R) {
+        const Vector3 way = way_of(arc);
+        std::array<int, 3> d;
+        for (std::size_t k = 0; k < 3; ++k) d[k] = lowering_(way[k]);
+        for (std::size_t k = 0; k < 3; ++k) program_.roots.push_back({Group::force, arc.name, R[k]});
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+            program_.roots.push_back({Group::moment, arc.name,
+                                      program_.sum(0, {{1, R[3 + k]},
+                                                       {-1, program_.product(1, {{d[a], 1}, {R[b], 1}})},
+                                                       {1, program_.product(1, {{d[b], 1}, {R[a], 1}})}})});
+        }
+    }
+
+    const Mechanism& given_;
+    const Mechanism& m_;
+    const std::vector<ReleasedRolling>& rollings_;
+    const std::vector<std::string>& multipliers_;
+    Program program_;
+    const std::vector<std::pair<GiNaC::symbol, int>> held_;
+    std::vector<std::vector<Program::Term>> terms_;  ///< of R, by coordinate of the cut mechanism
+    std::function<int(const GiNaC::ex&)> lowering_;
+};
+
 }  // namespace
 
 bool has_reactions(const Mechanism& mechanism) {
@@ -121,111 +275,26 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     if (mechanism.given_lagrangian)
         throw ModelError(say(
             "reactions of joints need masses and loads; a given Lagrangian does not say which body bears what"));
-    Scene cut = released(scene);
-    std::vector<ReleasedRolling> rollings;
-    for (std::size_t r = 0; r < scene.rolling.size(); ++r) {
-        if (!is_releasable(scene, scene.rolling[r])) continue;
-        rollings.push_back({.rolling = static_cast<int>(r),
-                            .scene = &scene,
-                            .coordinates = mechanism.size(),
-                            .first = static_cast<int>(cut.coordinates.size()),
-                            .contact = static_cast<int>(cut.particles.size())});
-        cut = with_rolling_released(std::move(cut), scene.rolling[r]);
-    }
-    cut.on_warning = [](const Warning&) {};  // they were told for the scene itself
-    Mechanism m = build(cut);
+    const Cut cut = cut_open(scene, mechanism.size());
+    Mechanism m = build(cut.scene);
     std::vector<std::optional<Vector3>> normals;
-    for (const ReleasedRolling& rolling : rollings) normals.push_back(normal_of(mechanism, m, rolling));
+    for (const ReleasedRolling& rolling : cut.rollings) normals.push_back(normal_of(mechanism, m, rolling));
     for (std::size_t r = 0; r < mechanism.rollings.size(); ++r)
         if (mechanism.rollings[r].is_along) m = along_axes(std::move(m), static_cast<int>(r));
-    const int n = mechanism.size();
+
     JointReactions result;
-    const auto add_multiplier = [&](const Mechanism::Constraint& c) {
-        result.multipliers.push_back(c.multiplier.get_name());
-    };
-    for (const auto* list : {&mechanism.constraints, &mechanism.redundant})
-        for (const Mechanism::Constraint& c : *list) add_multiplier(c);
-    for (const Mechanism::Unilateral& contact : mechanism.unilateral) add_multiplier(contact.gap);
-    std::sort(result.multipliers.begin(), result.multipliers.end());
-    result.multipliers.erase(std::unique(result.multipliers.begin(), result.multipliers.end()),
-                             result.multipliers.end());
-
-    Program program = begun(mechanism);
-    std::vector<std::pair<GiNaC::symbol, int>> held;
-    for (int i = n; i < m.size(); ++i)
-        for (const GiNaC::symbol& symbol : {m.q[i], m.qdot[i], m.qddot[i]})
-            held.emplace_back(symbol, program.number(0));
-    std::vector<std::vector<Program::Term>> terms(static_cast<std::size_t>(m.size()));
-    if (masses_are_known(m)) {
-        const std::vector<int> loads = held_loads(program, m, n, held);
-        for (std::size_t k = 0; k < loads.size(); ++k) terms[n + k].emplace_back(1, loads[k]);
-    } else {
-        const std::vector<int> loads = inverse_loads(program, m, held);
-        for (std::size_t k = 0; k < loads.size(); ++k) terms[k].emplace_back(1, loads[k]);
-    }
-    const auto lowering = lowering_into(program, m, held);
-    const auto take_off = [&](const Mechanism::Constraint& c) {
-        const auto found =
-            std::lower_bound(result.multipliers.begin(), result.multipliers.end(), c.multiplier.get_name());
-        if (found == result.multipliers.end() || *found != c.multiplier.get_name()) return;
-        const int lambda =
-            program.variable({Variable::Kind::unknown, static_cast<int>(found - result.multipliers.begin())});
-        for (int i = n; i < m.size(); ++i)
-            if (!c.row[i].is_zero() && !is_of_own_contact(c, i, rollings))
-                terms[i].emplace_back(-1, program.product(1, {{lowering(c.row[i]), 1}, {lambda, 1}}));
-    };
-    for (const Mechanism::Constraint& c : m.constraints) take_off(c);
-    for (const Mechanism::Unilateral& contact : m.unilateral) take_off(contact.gap);
-
-    const auto arc_named = [&](const std::string& name) -> const JointArc& {
-        return *std::find_if(m.joints.begin(), m.joints.end(),
-                             [&](const JointArc& arc) { return arc.name == name; });
-    };
-    int i = n;
-    for (const JointArc& arc : mechanism.joints) {
-        result.joints.push_back(arc.name);
-        const int sign = arc.role == JointArc::Role::places_parent ? -1 : 1;  // the sign for the child
-        std::array<int, 6> R;
-        for (int k = 0; k < 6; ++k, ++i) {
-            for (Program::Term& term : terms[i]) term.first = sign * term.first;
-            R[static_cast<std::size_t>(k)] = program.sum(0, terms[i]);
-        }
-        Vector3 way = sign > 0 ? arc_named(arc.name).shift : Vector3{0, 0, 0};
-        if (arc.role == JointArc::Role::closes_loop) {
-            const JointArc& release = arc_named(arc.name + ".release");
-            const Vector3 from = m.masses[release.child].position,
-                          to = m.masses[arc_named(arc.name + ".mark").child].position;
-            for (std::size_t k = 0; k < 3; ++k)
-                way[k] = dot(release.slide_axes[k], add(to, scale(-1, from, *m.z), *m.z), *m.z);
-        }
-        std::array<int, 3> d;
-        for (std::size_t k = 0; k < 3; ++k) d[k] = lowering(way[k]);
-        for (std::size_t k = 0; k < 3; ++k) program.roots.push_back({Group::force, arc.name, R[k]});
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-            program.roots.push_back({Group::moment, arc.name,
-                                     program.sum(0, {{1, R[3 + k]},
-                                                     {-1, program.product(1, {{d[a], 1}, {R[b], 1}})},
-                                                     {1, program.product(1, {{d[b], 1}, {R[a], 1}})}})});
-        }
-    }
-    for (std::size_t r = 0; r < rollings.size(); ++r) {
-        const ReleasedRolling& rolling = rollings[r];
-        const std::optional<Vector3>& normal = normals[r];
-        if (!normal) continue;
-        std::vector<Program::Term> along;
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!(*normal)[k].is_zero())
-                along.emplace_back(
-                    1,
-                    program.product(1, {{lowering((*normal)[k]), 1},
-                                        {program.sum(0, terms[static_cast<std::size_t>(rolling.first) + k]), 1}}));
-        const RollingRule& rule = scene.rolling[static_cast<std::size_t>(rolling.rolling)];
+    result.multipliers = multipliers_of(mechanism);
+    CutLoads loads(mechanism, m, cut.rollings, result.multipliers);
+    for (const JointArc& arc : mechanism.joints) result.joints.push_back(arc.name);
+    loads.add_joints();
+    for (std::size_t r = 0; r < cut.rollings.size(); ++r) {
+        if (!normals[r]) continue;
+        const RollingRule& rule = scene.rolling[static_cast<std::size_t>(cut.rollings[r].rolling)];
         result.rollings.push_back(rule.name.text);
         result.normals.push_back(normal_reaction_of(rule));
-        program.roots.push_back({Group::force, result.normals.back(), program.sum(0, along)});
+        loads.add_normal(cut.rollings[r], *normals[r], result.normals.back());
     }
-    result.program = program.canonical();
+    result.program = loads.program();
     return result;
 }
 

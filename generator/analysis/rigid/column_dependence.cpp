@@ -65,7 +65,7 @@ RegressorColumns::RegressorColumns(const Regressor& y, std::vector<std::size_t> 
         c_.gamma.push_back(nodes[next++]);
     }
     const int halves = std::max(halvings(p_, nodes_), halvings(c_.program, nodes));
-    motions_ = std::make_shared<Motions>(m, routh(m), Motions::At::motion, halves, halves);
+    motions_ = std::make_shared<Motions>(m, routh(m), Motions::Sampling{.halves = halves, .halvings = halves});
     const std::vector<SolvingStep>& steps = motions_->steps();
     const auto is_parameter = [](const SolvedUnknown& one) {
         return one.variable.kind == Variable::Kind::parameter;
