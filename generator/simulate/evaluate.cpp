@@ -82,6 +82,37 @@ std::vector<std::vector<double>> matrix_at(const Mechanism& m, const char* name,
     return rows;
 }
 
+/// T, V and E, with a warning where one of them is not a number.
+void add_energies(Evaluation& e, const Program& program, const State<double>& state,
+                  const std::vector<double>& value) {
+    const auto single = [&](Group group) { return value[program.nodes_of(group)[0]]; };
+    e.kinetic = single(Group::kinetic);
+    e.potential = single(Group::potential);
+    e.energy = single(Group::energy);
+    if (std::isfinite(e.kinetic) && std::isfinite(e.potential) && std::isfinite(e.energy)) return;
+    std::optional<std::string> what;
+    for (const Group group : {Group::kinetic, Group::potential, Group::energy})
+        if (!what) what = not_finite(program, state, group);
+    e.warn("not_a_number", say("warning: the energy is not a number here, because of {}\n",
+                               what.value_or(say("numbers that overflow"))));
+}
+
+/// The reactions as outputs, of joints and of bodies that roll.
+void add_reactions(Evaluation& e, const Program& program, const State<double>& state,
+                   const std::vector<double>& value) {
+    const std::vector<double> plain = reactions_without_rounding(program, state, value);
+    for (const ReactionOutput& r : e.reaction_outputs) {
+        e.outputs[r.output].second = plain[program.nodes_of(Group::output)[r.output]];
+        e.reactions.push_back({r.constraint, r.coordinate, e.outputs[r.output].second});
+    }
+    if (!has_reactions(e.mechanism)) return;
+    const JointReactions reactions = joint_reactions(e.scene, e.mechanism);
+    if (!e.mechanism.joints.empty()) e.joint_loads = reactions.without_rounding(program, state);
+    const std::vector<double> normals = reactions.normals_without_rounding(program, state);
+    for (std::size_t k = 0; k < normals.size(); ++k)
+        e.normal_reactions.emplace_back(reactions.normals[k], normals[k]);
+}
+
 }  // namespace
 
 Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
@@ -115,8 +146,6 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     }
     state.qddot = accelerations_at(e, program, state);
     const std::vector<double> value = interpret(program, state);  // outputs may contain accelerations
-    const auto single = [&](Group group) { return value[program.nodes_of(group)[0]]; };
-
     e.time = state.t;
     e.q = state.q;
     for (const Quantity& q : program.coordinates) e.coordinates.push_back(q.name);
@@ -132,16 +161,7 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
                          [&](const auto& known) { return known.first == name; }))
             e.multipliers.emplace_back(name, 0.0);  // the contact is open
     }
-    e.kinetic = single(Group::kinetic);
-    e.potential = single(Group::potential);
-    e.energy = single(Group::energy);
-    if (!std::isfinite(e.kinetic) || !std::isfinite(e.potential) || !std::isfinite(e.energy)) {
-        std::optional<std::string> what;
-        for (const Group group : {Group::kinetic, Group::potential, Group::energy})
-            if (!what) what = not_finite(program, state, group);
-        e.warn("not_a_number", say("warning: the energy is not a number here, because of {}\n",
-                                   what.value_or(say("numbers that overflow"))));
-    }
+    add_energies(e, program, state, value);
     const std::vector<double> position = values_of(program, value, Group::position),
                               velocity = values_of(program, value, Group::velocity);
     for (std::size_t k = 0; k < position.size(); ++k)
@@ -151,20 +171,7 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
         e.mass = matrix_at(m, "mass", start.state());
         e.coriolis = matrix_at(m, "coriolis", start.state());
     }
-    if (options.reactions) {
-        const std::vector<double> plain = reactions_without_rounding(program, state, value);
-        for (const ReactionOutput& r : e.reaction_outputs) {
-            e.outputs[r.output].second = plain[program.nodes_of(Group::output)[r.output]];
-            e.reactions.push_back({r.constraint, r.coordinate, e.outputs[r.output].second});
-        }
-        if (has_reactions(m)) {
-            const JointReactions reactions = joint_reactions(e.scene, m);
-            if (!m.joints.empty()) e.joint_loads = reactions.without_rounding(program, state);
-            const std::vector<double> normals = reactions.normals_without_rounding(program, state);
-            for (std::size_t k = 0; k < normals.size(); ++k)
-                e.normal_reactions.emplace_back(reactions.normals[k], normals[k]);
-        }
-    }
+    if (options.reactions) add_reactions(e, program, state, value);
     return e;
 }
 

@@ -173,15 +173,16 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         self->projection.accelerations(t, y, par, friction(values), rate + self->program.coordinates.size());
     };
     const bool constrained = !mode.derived.mechanism.constraints.empty();
+    const auto smooth = [self, work, with_series, constrained, friction](const std::vector<double>& values) {
+        Rhs rhs = make_rhs(self->module, values, work);
+        rhs.extra = self->contact.rhs.extra;
+        rhs.effort = self->contact.rhs.effort;
+        if (with_series) rhs.series = make_series(self->compiled.series.module, values);
+        return constrained ? self->projection.guarded(std::move(rhs), values, friction(values)) : rhs;
+    };
     FilippovSystem system = switching_of(
-        mode.module, start_.parameters, jumps, mode.compiled.sides, work, constrained ? correct : Correction(),
-        [self, work, with_series, constrained, friction](const std::vector<double>& values) {
-            Rhs rhs = make_rhs(self->module, values, work);
-            rhs.extra = self->contact.rhs.extra;
-            rhs.effort = self->contact.rhs.effort;
-            if (with_series) rhs.series = make_series(self->compiled.series.module, values);
-            return constrained ? self->projection.guarded(std::move(rhs), values, friction(values)) : rhs;
-        });
+        mode.module, start_.parameters, jumps, mode.compiled.sides,
+        {.work = work, .correct = constrained ? Correction(correct) : Correction(), .smooth = smooth});
     mode.side_sizes.assign(system.names.size(), 0);
     system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };
     system.on_change = [this, self](const ModeChange& change) {

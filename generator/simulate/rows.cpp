@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
@@ -14,49 +16,67 @@ namespace alembert {
 
 namespace {
 
-/// Adds the rows of one phase, without the last one if the next phase begins with the same row.
-void add_rows(std::vector<double>& values, const Phase& phase, LoadedMode& mode, const Derived& d,
-              std::size_t rows, const JointReactions* reactions, State<double> at) {
-    const alembert_solver_table& table = mode.module.table();
-    const auto n = static_cast<std::size_t>(d.mechanism.size()), bilateral = d.mechanism.constraints.size(),
-               redundant = d.mechanism.redundant.size(), held = static_cast<std::size_t>(table.constraints);
-    std::vector<double> rate(static_cast<std::size_t>(mode.contact.rhs.dimension)),
-        out(static_cast<std::size_t>(table.outputs)), lambda(held + redundant),
-        all(bilateral + redundant + d.mechanism.unilateral.size());
-    for (std::size_t row = 0; row < rows; ++row) {
-        const double t = phase.motion.times[row];
-        const auto state = phase.motion.state(row);
-        mode.hold_sides(t, state.data());
-        mode.contact.rhs(t, state.data(), rate.data());
-        double energy[4], jacobi = 0;
-        table.energy(t, state.data(), rate.data(), mode.par.data(), energy, &jacobi);
-        table.outputs_at(t, state.data(), rate.data(), mode.par.data(), out.data());
-        table.multipliers_at(t, state.data(), mode.par.data(), lambda.data());
-        std::copy_n(lambda.begin(), bilateral, all.begin());
-        std::copy_n(lambda.begin() + static_cast<std::ptrdiff_t>(held), redundant,
-                    all.begin() + static_cast<std::ptrdiff_t>(bilateral));
-        for (std::size_t i = 0; i < phase.closed.size(); ++i)
-            all[bilateral + redundant + static_cast<std::size_t>(phase.closed[i])] = lambda[bilateral + i];
-        const auto add = [&values](const auto& list) {
-            values.insert(values.end(), std::begin(list), std::end(list));
-        };
-        values.push_back(t);
-        add(state.first(n));
-        add(std::span(rate).first(n));
-        add(all);
-        values.push_back(energy[2]);
-        add(out);
-        if (reactions == nullptr) continue;
-        at.t = t;
-        std::copy_n(state.begin(), at.q.size(), at.q.begin());
-        std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at.q.size()), at.qdot.size(), at.qdot.begin());
-        for (const JointLoad& load : reactions->at(mode.program, at)) {
+/// Puts the rows of phases one after the other.
+class RowWriter {
+public:
+    /// `at` is a state with the scene's parameters.
+    RowWriter(std::vector<double>& values, const Mechanism& m, const JointReactions* reactions, State<double> at)
+        : values_(values), m_(m), reactions_(reactions), at_(std::move(at)) {}
+
+    /// The first `rows` of a phase.
+    void add(const Phase& phase, LoadedMode& mode, std::size_t rows) {
+        const alembert_solver_table& table = mode.module.table();
+        const auto n = static_cast<std::size_t>(m_.size()), bilateral = m_.constraints.size(),
+                   redundant = m_.redundant.size(), held = static_cast<std::size_t>(table.constraints);
+        std::vector<double> rate(static_cast<std::size_t>(mode.contact.rhs.dimension)),
+            out(static_cast<std::size_t>(table.outputs)), lambda(held + redundant),
+            all(bilateral + redundant + m_.unilateral.size());
+        for (std::size_t row = 0; row < rows; ++row) {
+            const double t = phase.motion.times[row];
+            const auto state = phase.motion.state(row);
+            mode.hold_sides(t, state.data());
+            mode.contact.rhs(t, state.data(), rate.data());
+            double energy[4], jacobi = 0;
+            table.energy(t, state.data(), rate.data(), mode.par.data(), energy, &jacobi);
+            table.outputs_at(t, state.data(), rate.data(), mode.par.data(), out.data());
+            table.multipliers_at(t, state.data(), mode.par.data(), lambda.data());
+            std::copy_n(lambda.begin(), bilateral, all.begin());
+            std::copy_n(lambda.begin() + static_cast<std::ptrdiff_t>(held), redundant,
+                        all.begin() + static_cast<std::ptrdiff_t>(bilateral));
+            for (std::size_t i = 0; i < phase.closed.size(); ++i)
+                all[bilateral + redundant + static_cast<std::size_t>(phase.closed[i])] = lambda[bilateral + i];
+            values_.push_back(t);
+            add(state.first(n));
+            add(std::span(rate).first(n));
+            add(all);
+            values_.push_back(energy[2]);
+            add(out);
+            if (reactions_ != nullptr) add_reactions(t, state, mode.program);
+        }
+    }
+
+private:
+    template <typename List>
+    void add(const List& list) {
+        values_.insert(values_.end(), std::begin(list), std::end(list));
+    }
+
+    void add_reactions(double t, std::span<const double> state, const Program& program) {
+        at_.t = t;
+        std::copy_n(state.begin(), at_.q.size(), at_.q.begin());
+        std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at_.q.size()), at_.qdot.size(), at_.qdot.begin());
+        for (const JointLoad& load : reactions_->at(program, at_)) {
             add(load.force);
             add(load.moment);
         }
-        add(reactions->normals_at(mode.program, at));
+        add(reactions_->normals_at(program, at_));
     }
-}
+
+    std::vector<double>& values_;
+    const Mechanism& m_;
+    const JointReactions* const reactions_;
+    State<double> at_;
+};
 
 /// Does the next phase begin with the row with which this one ends?
 bool is_continued(const Trajectory& here, const Trajectory& next) {
@@ -98,11 +118,12 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
 MotionTable rows_of(const PhasedMotion& motion, const Derived& d, LoadedModes& modes,
                     const JointReactions* reactions, const State<double>& first) {
     MotionTable table{.columns = row_columns(d.mechanism, modes({}).program, reactions), .values = {}};
+    RowWriter writer(table.values, d.mechanism, reactions, first);
     for (std::size_t k = 0; k < motion.phases.size(); ++k) {
         const Phase& phase = motion.phases[k];
         std::size_t rows = phase.motion.rows();
         if (k + 1 < motion.phases.size() && is_continued(phase.motion, motion.phases[k + 1].motion)) --rows;
-        add_rows(table.values, phase, modes(phase.closed), d, rows, reactions, first);
+        writer.add(phase, modes(phase.closed), rows);
     }
     return table;
 }

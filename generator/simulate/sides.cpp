@@ -139,14 +139,13 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
 }
 
 FilippovSystem switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
-                            std::vector<std::string> names, Work work, Correction correct,
-                            std::function<Rhs(const std::vector<double>& values)> smooth) {
+                            std::vector<std::string> names, MotionOnSides motion) {
     const auto held = std::make_shared<HeldParameters>(module, values, jumps.held());
     FilippovSystem system;
     system.names = std::move(names);
     system.pairs = jumps.pairs;
-    system.rates = [module, held, work, correct = std::move(correct)](double t, const double* y,
-                                                                      const double* sigma, double* rate) {
+    system.rates = [module, held, work = motion.work, correct = std::move(motion.correct)](
+                       double t, const double* y, const double* sigma, double* rate) {
         const alembert_solver_table& table = module.table();
         const double* const par = held->with(sigma);
         table.rhs(t, y, par, rate);
@@ -166,7 +165,7 @@ FilippovSystem switching_of(const Module& module, const std::vector<double>& val
     system.positional = jumps.positional;
     system.values = events_from(jumps.events(), system.numbers());
     if (jumps.bounds() > 0) system.bounds = events_from(jumps.bounds(), jumps.bounds());
-    system.smooth = [held, smooth = std::move(smooth)](const std::vector<double>& sigma) {
+    system.smooth = [held, smooth = std::move(motion.smooth)](const std::vector<double>& sigma) {
         return smooth(held->values(sigma));
     };
     return system;

@@ -40,11 +40,17 @@ std::vector<std::string> names_of_sides(const Program& program, const Switched& 
 using Correction =
     std::function<void(double t, const double* y, const double* sigma, const double* par, double* rate)>;
 
-/// `smooth` is as in FilippovSystem; the caller adds the callbacks for steps and changes. `values` are the scene's
-/// parameters, without those that are held.
+/// The motion while no side changes; `smooth` is as in FilippovSystem.
+struct MotionOnSides {
+    Work work;
+    Correction correct;
+    std::function<Rhs(const std::vector<double>& values)> smooth;
+};
+
+/// The caller adds the callbacks for steps and changes. `values` are the scene's parameters, without those that
+/// are held.
 FilippovSystem switching_of(const Module& module, const std::vector<double>& values, const Switched& jumps,
-                            std::vector<std::string> names, Work work, Correction correct,
-                            std::function<Rhs(const std::vector<double>& values)> smooth);
+                            std::vector<std::string> names, MotionOnSides motion);
 
 /// The program in which signs that the scene writes as x/|x| or x/√(x²) are such (program/quotient_signs.hpp),
 /// with a warning for each.
