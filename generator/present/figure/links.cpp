@@ -168,93 +168,98 @@ void add_hinges(Sketch& s) {
     }
 }
 
-void add_coordinates(Sketch& s) {
-    // Segments that may turn: rods and bars between points, then the first axes of bodies.
-    struct Segment {
-        int pivot, end;
-        int pivot_spot, end_spot;
-    };
-    std::vector<Segment> segments;
+namespace {
+
+/// A line that may turn about its first end; tracks, and the same points as spots.
+struct TurningLine {
+    int pivot, end;
+    int pivot_spot, end_spot;
+};
+
+/// Rods and bars between points, then the first axes of bodies.
+std::vector<TurningLine> turning_lines(Sketch& s) {
+    std::vector<TurningLine> lines;
     std::vector<std::pair<int, int>> known;
     for (const Sketch::Site& site : s.sites)
         if (s.is_finite(site.track)) known.emplace_back(s.spot(site.track), site.track);
     for (const FigureElement& e : s.elements)
         if (e.kind == Kind::rod || e.kind == Kind::bar || e.kind == Kind::spring || e.kind == Kind::rope)
             if (const auto ends = ends_on(known, e.points[0], e.points[1])) {
-                segments.push_back({ends->first, ends->second, e.points[0], e.points[1]});
-                segments.push_back({ends->second, ends->first, e.points[1], e.points[0]});
+                lines.push_back({ends->first, ends->second, e.points[0], e.points[1]});
+                lines.push_back({ends->second, ends->first, e.points[1], e.points[0]});
             }
     // Bodies turn with their centres about the points that they carry.
     for (const Sketch::Frame3& body : s.bodies)
         for (const Sketch::Site& site : s.sites)
             if (&s.canonical(site.track) == &site && !s.same(site.track, body.centre) &&
                 s.is_fixed_in(body.axes, body.centre, site.track))
-                segments.push_back({site.track, body.centre, s.spot(site.track), s.spot(body.centre)});
+                lines.push_back({site.track, body.centre, s.spot(site.track), s.spot(body.centre)});
+    return lines;
+}
 
-    std::vector<FigureElement> found;
-    for (int k = 0; k < s.m.size(); ++k) {
-        const std::string name = s.m.q[k].get_name();
-        const auto turning = std::find_if(segments.begin(), segments.end(), [&](const Segment& segment) {
-            return turns_by(s, k, segment.pivot, segment.end);
-        });
-        if (turning != segments.end()) {
-            found.push_back({.kind = Kind::angle,
-                             .points = {turning->pivot_spot, s.spot(turning->end, k), turning->end_spot},
-                             .label = name,
-                             .coordinate = k});
-            continue;
-        }
-        // Masses are preferred to points, and points that fewer coordinates move to those that more coordinates
-        // move.
-        const Sketch::Site* moved = nullptr;
-        const auto rank = [&](const Sketch::Site& site) {
-            return (site.mass >= 0 ? 0 : 1000) + movers(s, site.track);
-        };
-        for (const Sketch::Site& site : s.sites) {
-            if (!s.is_finite(site.track) || !shifts_by(s, k, site.track)) continue;
-            add_rope(s, k, site);
-            if (moved == nullptr || rank(site) < rank(*moved)) moved = &site;
-        }
-        if (moved != nullptr) {
-            found.push_back({.kind = Kind::length,
-                             .points = {s.spot(moved->track, k), s.spot(moved->track)},
-                             .label = name,
-                             .coordinate = k});
-            if (const auto way = direction_of(s, k, moved->track))
-                found.back().points.push_back(s.spot(moved->track, -1, *way));
-            continue;
-        }
-        for (const Sketch::Frame3& body : s.bodies) {
-            bool is_drawn = false;
-            for (int axis = 0; axis < 3 && !is_drawn; ++axis) {
-                if (s.is_plane && axis == s.normal) continue;
-                bool turns = true;
-                for (int state = 0; state < Sketch::states && turns; ++state)
-                    turns = std::abs(
-                                angle_between(s.at(state, body.axes[axis]), s.with(state, body.axes[axis], k, 0)) -
-                                std::abs(wrapped(s.coordinate(state, k)))) < 1e-6;
-                if (!turns) continue;
-                Vector3 end = s.m.masses[body.mass].position;
-                const Vector3 direction = s.formulas.places().orientation(body.name).axis(axis);
-                const double size = 0.3 * s.scale;
-                for (int i = 0; i < 3; ++i) end[i] += direction[i] * exactly(size);
-                const int track = s.track(end);
-                found.push_back({.kind = Kind::angle,
-                                 .points = {s.spot(body.centre, k), s.spot(track, k), s.spot(track)},
-                                 .label = name,
-                                 .size = 1,
-                                 .coordinate = k});
-                is_drawn = true;
-            }
-            if (is_drawn) break;
-        }
+/// The angle by which coordinate k turns a line.
+std::optional<FigureElement> angle_of_line(Sketch& s, int k, const std::vector<TurningLine>& lines) {
+    const auto turning = std::find_if(
+        lines.begin(), lines.end(), [&](const TurningLine& line) { return turns_by(s, k, line.pivot, line.end); });
+    if (turning == lines.end()) return {};
+    return FigureElement{.kind = Kind::angle,
+                         .points = {turning->pivot_spot, s.spot(turning->end, k), turning->end_spot},
+                         .label = s.m.q[k].get_name(),
+                         .coordinate = k};
+}
+
+/// The length by which coordinate k shifts a point. Masses are preferred to points, and points that fewer
+/// coordinates move to those that more coordinates move.
+std::optional<FigureElement> length_of_shift(Sketch& s, int k) {
+    const Sketch::Site* moved = nullptr;
+    const auto rank = [&](const Sketch::Site& site) {
+        return (site.mass >= 0 ? 0 : 1000) + movers(s, site.track);
+    };
+    for (const Sketch::Site& site : s.sites) {
+        if (!s.is_finite(site.track) || !shifts_by(s, k, site.track)) continue;
+        add_rope(s, k, site);
+        if (moved == nullptr || rank(site) < rank(*moved)) moved = &site;
     }
-    const auto lengths =
-        std::count_if(found.begin(), found.end(), [](const FigureElement& e) { return e.kind == Kind::length; });
-    constexpr int readable = 6;  // the most dimension lines side by side
-    for (FigureElement& e : found)
-        if (lengths <= readable || e.kind != Kind::length) s.add(std::move(e));
-    if (lengths > readable) s.notes.emplace_back(say("Coordinates that are lengths are too many to be shown."));
+    if (moved == nullptr) return {};
+    FigureElement length{.kind = Kind::length,
+                         .points = {s.spot(moved->track, k), s.spot(moved->track)},
+                         .label = s.m.q[k].get_name(),
+                         .coordinate = k};
+    if (const auto way = direction_of(s, k, moved->track)) length.points.push_back(s.spot(moved->track, -1, *way));
+    return length;
+}
+
+/// Does coordinate k turn an axis of a body by its own value?
+bool turns_axis(const Sketch& s, int k, int axis) {
+    for (int state = 0; state < Sketch::states; ++state)
+        if (!(std::abs(angle_between(s.at(state, axis), s.with(state, axis, k, 0)) -
+                       std::abs(wrapped(s.coordinate(state, k)))) < 1e-6))
+            return false;
+    return true;
+}
+
+/// The angle by which coordinate k turns an axis of a body.
+std::optional<FigureElement> angle_of_axis(Sketch& s, int k) {
+    for (const Sketch::Frame3& body : s.bodies)
+        for (int axis = 0; axis < 3; ++axis) {
+            if (s.is_plane && axis == s.normal) continue;
+            if (!turns_axis(s, k, body.axes[axis])) continue;
+            Vector3 end = s.m.masses[body.mass].position;
+            const Vector3 direction = s.formulas.places().orientation(body.name).axis(axis);
+            const double size = 0.3 * s.scale;
+            for (int i = 0; i < 3; ++i) end[i] += direction[i] * exactly(size);
+            const int track = s.track(end);
+            return FigureElement{.kind = Kind::angle,
+                                 .points = {s.spot(body.centre, k), s.spot(track, k), s.spot(track)},
+                                 .label = s.m.q[k].get_name(),
+                                 .size = 1,
+                                 .coordinate = k};
+        }
+    return {};
+}
+
+/// Springs that turn are drawn where the angle of their coordinate is.
+void place_coils(Sketch& s) {
     for (FigureElement& e : s.elements) {
         if (e.kind != Kind::coil) continue;
         const auto angle = std::find_if(s.elements.begin(), s.elements.end(), [&](const FigureElement& other) {
@@ -263,6 +268,26 @@ void add_coordinates(Sketch& s) {
         if (angle != s.elements.end()) e.points = {angle->points[0]};
     }
     std::erase_if(s.elements, [](const FigureElement& e) { return e.kind == Kind::coil && e.points.empty(); });
+}
+
+}  // namespace
+
+void add_coordinates(Sketch& s) {
+    const std::vector<TurningLine> lines = turning_lines(s);
+    std::vector<FigureElement> found;
+    for (int k = 0; k < s.m.size(); ++k) {
+        std::optional<FigureElement> mark = angle_of_line(s, k, lines);
+        if (!mark) mark = length_of_shift(s, k);
+        if (!mark) mark = angle_of_axis(s, k);
+        if (mark) found.push_back(std::move(*mark));
+    }
+    const auto lengths =
+        std::count_if(found.begin(), found.end(), [](const FigureElement& e) { return e.kind == Kind::length; });
+    constexpr int readable = 6;  // the most dimension lines side by side
+    for (FigureElement& e : found)
+        if (lengths <= readable || e.kind != Kind::length) s.add(std::move(e));
+    if (lengths > readable) s.notes.emplace_back(say("Coordinates that are lengths are too many to be shown."));
+    place_coils(s);
 }
 
 namespace {

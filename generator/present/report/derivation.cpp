@@ -172,103 +172,139 @@ std::string words_before_equations(const DerivedScene& d) {
                       : say("; the coordinates are not independent"));
 }
 
-std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with_steps) {
-    const Derivation& shown = d.shown;
-    std::vector<Block> blocks;
-    if (!shown.definitions.empty()) {
-        blocks.push_back({say("The equations are beyond the readable size; intermediate symbols:"), {}});
-        for (const auto& [name, value] : shown.definitions)
-            blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
-        for (const Section& section : shown.sections) {
-            if (!with_steps) break;
-            blocks.push_back({section.words, {}});
-            for (const Statement& s : section.statements)
-                blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+namespace {
+
+/// The blocks of a derivation, one after the other.
+class DerivationBlocks {
+public:
+    DerivationBlocks(const DerivedScene& d, const Notation& n) : d_(d), shown_(d.shown), n_(n) {}
+
+    std::vector<Block> run(bool with_steps) {
+        add_definitions(with_steps);
+        add_equations();
+        add_constraints();
+        add_reactions();
+        add_gaps();
+        for (const Derivation::Rubs& f : shown_.frictions) add_friction(f);
+        for (std::size_t i = 0; i < shown_.equations.size(); ++i)
+            if (shown_.equations[i].divided_by)
+                begin(scaling(shown_.rows[i], *shown_.equations[i].divided_by, n_));
+        return std::move(blocks_);
+    }
+
+private:
+    void begin(const std::string& words) { blocks_.push_back({words, {}}); }
+    void add(std::string left, std::string right) {
+        blocks_.back().equalities.emplace_back(std::move(left), std::move(right));
+    }
+    void add(const std::vector<Statement>& list) {
+        for (const Statement& s : list) add(n_.left(s), n_.phrase(s.value));
+    }
+    void add(const std::vector<ReadableEquation>& list) {
+        for (const ReadableEquation& e : list) add(n_.phrase(e.lhs), n_.phrase(e.rhs));
+    }
+    void add(const std::vector<std::pair<Phrase, Phrase>>& list) {
+        for (const auto& [left, right] : list) add(n_.phrase(left), n_.phrase(right));
+    }
+
+    /// The intermediate symbols, or the steps of the derivation.
+    void add_definitions(bool with_steps) {
+        if (!shown_.definitions.empty()) {
+            begin(say("The equations are beyond the readable size; intermediate symbols:"));
+            add(shown_.definitions);
+            for (const Section& section : shown_.sections) {
+                if (!with_steps) break;
+                begin(section.words);
+                add(section.statements);
+            }
+        } else if (with_steps) {
+            blocks_ = steps(shown_, n_);
         }
-    } else if (with_steps) {
-        for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
+        if (!shown_.choice.empty()) begin(shown_.choice);
+        add(shown_.speeds);
     }
-    if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
-    for (const auto& [speed, form] : shown.speeds)
-        blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
-    blocks.push_back({words_before_equations(d), {}});
-    for (const ReadableEquation& e : shown.equations)
-        blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
-    if (!shown.abbreviations.empty()) {
-        blocks.push_back({say("with the scene's definitions:"), {}});
-        for (const auto& [name, value] : shown.abbreviations)
-            blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
+
+    void add_equations() {
+        begin(words_before_equations(d_));
+        add(shown_.equations);
+        if (!shown_.abbreviations.empty()) {
+            begin(say("with the scene's definitions:"));
+            add(shown_.abbreviations);
+        }
+        if (shown_.has_unit_quaternions)
+            begin(say("e.e = 1 of each quaternion e has been used in all terms, after differentiation."));
+        for (const Phrase& positive : shown_.positive)
+            begin(say("on the sheet of roots where {} > 0", n_.inline_phrase(positive)));
+        if (!shown_.kinematics.empty()) {
+            begin(say("with the rates of the coordinates:"));
+            add(shown_.kinematics);
+        }
+        for (const Phrase& pole : shown_.poles)
+            begin(say("They do not follow from the speeds where {} = 0.", n_.inline_phrase(pole)));
     }
-    if (shown.has_unit_quaternions)
-        blocks.push_back(
-            {say("e.e = 1 of each quaternion e has been used in all terms, after differentiation."), {}});
-    for (const Phrase& positive : shown.positive)
-        blocks.push_back({say("on the sheet of roots where {} > 0", n.inline_phrase(positive)), {}});
-    if (!shown.kinematics.empty()) {
-        blocks.push_back({say("with the rates of the coordinates:"), {}});
-        for (const auto& [rate, value] : shown.kinematics)
-            blocks.back().equalities.emplace_back(n.phrase(rate), n.phrase(value));
+
+    void add_constraints() {
+        if (!shown_.constraints.empty()) {
+            const bool all = d_.equations.A.empty();
+            begin(all ? say("The constraints, which the speeds obey:")
+                      : say("with the constraints (multipliers stand on the right with a plus: M q'' = F "
+                            "+ A^T lambda):"));
+            for (const auto& [name, phrase] : shown_.constraints) add(n_.phrase(phrase), "0");
+        }
+        if (!shown_.shares.empty()) {
+            begin(say("with the least reactions, since constraints depend on each other:"));
+            add(shown_.shares);
+        }
     }
-    for (const Phrase& pole : shown.poles)
-        blocks.push_back({say("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
-    if (!shown.constraints.empty()) {
-        const bool all = d.equations.A.empty();
-        blocks.push_back({all ? say("The constraints, which the speeds obey:")
-                              : say("with the constraints (multipliers stand on the right with a plus: M q'' = F "
-                                    "+ A^T lambda):"),
-                          {}});
-        for (const auto& [name, phrase] : shown.constraints)
-            blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
+
+    void add_reactions() {
+        if (!shown_.reactions.empty()) {
+            begin(say("Reactions as generalized forces, Q = A^T lambda:"));
+            add(shown_.reactions);
+        }
+        if (!d_.joint_loads.empty()) {
+            begin(
+                say("Joints bear, as force and moment on the child at its point, along the joint's axes "
+                    "in the parent:"));
+            add(d_.joint_loads);
+        }
+        if (!d_.normal_reactions.empty()) {
+            begin(say("The ground presses bodies that roll with the normal reactions (lambda_NAME_normal):"));
+            add(d_.normal_reactions);
+        }
     }
-    if (!shown.shares.empty()) {
-        blocks.push_back({say("with the least reactions, since constraints depend on each other:"), {}});
-        for (const ReadableEquation& e : shown.shares)
-            blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+
+    void add_gaps() {
+        if (shown_.gaps.empty()) return;
+        begin(say("with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:"));
+        for (const auto& [name, phrase] : shown_.gaps)
+            add(n_.left({Statement::Kind::energy, "gap", name, {}, {}}), n_.phrase(phrase));
     }
-    if (!shown.reactions.empty()) {
-        blocks.push_back({say("Reactions as generalized forces, Q = A^T lambda:"), {}});
-        for (const Statement& r : shown.reactions)
-            blocks.back().equalities.emplace_back(n.left(r), n.phrase(r.value));
+
+    void add_friction(const Derivation::Rubs& f) {
+        begin(
+            say("Friction '{}' acts with the force {} against the sliding velocity {}. Where that is 0 it "
+                "sticks: the velocity stays 0, and a force of at most {} takes the place of the sliding "
+                "one.",
+                f.name, n_.inline_phrase(f.sliding),
+                f.across ? fmt::format("({}, {})", n_.inline_phrase(f.slip), n_.inline_phrase(*f.across))
+                         : n_.inline_phrase(f.slip),
+                n_.inline_phrase(f.sticking)));
+        if (f.held.empty()) return;
+        begin(say("While '{}' sticks, with its force {}:", f.name, fmt::join(f.forces, ", ")));
+        add(f.held);
     }
-    if (!d.joint_loads.empty()) {
-        blocks.push_back({say("Joints bear, as force and moment on the child at its point, along the joint's axes "
-                              "in the parent:"),
-                          {}});
-        for (const Statement& s : d.joint_loads)
-            blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
-    }
-    if (!d.normal_reactions.empty()) {
-        blocks.push_back(
-            {say("The ground presses bodies that roll with the normal reactions (lambda_NAME_normal):"), {}});
-        for (const Statement& s : d.normal_reactions)
-            blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
-    }
-    if (!shown.gaps.empty()) {
-        blocks.push_back(
-            {say("with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:"), {}});
-        for (const auto& [name, phrase] : shown.gaps)
-            blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}),
-                                                  n.phrase(phrase));
-    }
-    for (const Derivation::Rubs& f : shown.frictions) {
-        blocks.push_back(
-            {say("Friction '{}' acts with the force {} against the sliding velocity {}. Where that is 0 it "
-                 "sticks: the velocity stays 0, and a force of at most {} takes the place of the sliding "
-                 "one.",
-                 f.name, n.inline_phrase(f.sliding),
-                 f.across ? fmt::format("({}, {})", n.inline_phrase(f.slip), n.inline_phrase(*f.across))
-                          : n.inline_phrase(f.slip),
-                 n.inline_phrase(f.sticking)),
-             {}});
-        if (f.held.empty()) continue;
-        blocks.push_back({say("While '{}' sticks, with its force {}:", f.name, fmt::join(f.forces, ", ")), {}});
-        for (const ReadableEquation& e : f.held)
-            blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
-    }
-    for (std::size_t i = 0; i < shown.equations.size(); ++i)
-        if (shown.equations[i].divided_by)
-            blocks.push_back({scaling(shown.rows[i], *shown.equations[i].divided_by, n), {}});
-    return blocks;
+
+    const DerivedScene& d_;
+    const Derivation& shown_;
+    const Notation& n_;
+    std::vector<Block> blocks_;
+};
+
+}  // namespace
+
+std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with_steps) {
+    return DerivationBlocks(d, n).run(with_steps);
 }
 
 std::string as_page(const DerivedScene& d, const PageOptions& options) {

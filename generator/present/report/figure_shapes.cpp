@@ -94,47 +94,68 @@ void add_damper(StrokeBoard& board, const FigureElement& e) {
     board.text("name", vertex_between(a, b, 0.5, off > 0 ? off + 17 : 1.7 * board.label_side(a, b)), e.label);
 }
 
+void add_block(StrokeBoard& board, const FigureElement& e) {
+    const int a = e.points[0], b = e.points[1];
+    board
+        .put(Kind::path, "body",
+             {vertex_between(a, b, 0, -11, -18, true), vertex_between(a, b, 0, -11, 18),
+              vertex_between(a, b, 0, 11, 18), vertex_between(a, b, 0, 11, -18)})
+        .closed = true;
+    board.text("name", vertex_at(a), e.label);
+}
+
+/// A rod or a bar, with its name beside its middle.
+void add_beam(StrokeBoard& board, const FigureElement& e) {
+    const int a = e.points[0], b = e.points[1];
+    const bool is_bar = e.kind == Element::bar;
+    if (is_bar) board.line("bar-edge", a, b);
+    board.line(is_bar ? "bar" : "rod", a, b);
+    board.text("name", vertex_between(a, b, 0.5, (is_bar ? 1.4 : 1) * board.label_side(a, b)), e.label);
+}
+
+void add_ring(StrokeBoard& board, const FigureElement& e) {
+    const std::vector<int>& p = e.points;
+    board.put(Kind::ring, "ring", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2])});
+    board.line("spoke", p[0], p[1]);
+    board.put(Kind::circle, "dot", {vertex_at(p[0])}).size = 2;
+}
+
+/// A circle, and on it the great circles that show how the ball has turned.
+void add_ball(StrokeBoard& board, const FigureElement& e) {
+    const std::vector<int>& p = e.points;
+    FigureShape& circle = board.put(Kind::circle, e.label == "cage" ? "cage" : "ring", {vertex_at(p[0])});
+    circle.size = e.size;
+    circle.in_scene = true;
+    board.put(Kind::ring, "great", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2])});
+    if (p.size() < 4) return;
+    board.put(Kind::ring, "great", {vertex_at(p[0]), vertex_at(p[2]), vertex_at(p[3])});
+    board.put(Kind::ring, "great", {vertex_at(p[0]), vertex_at(p[3]), vertex_at(p[1])});
+}
+
+/// The line through all points of an element.
+FigureShape& add_path(StrokeBoard& board, const char* style, const FigureElement& e) {
+    std::vector<FigureVertex> way;
+    for (const int k : e.points) way.push_back(vertex_at(k, 0, 0, way.empty()));
+    return board.put(Kind::path, style, way);
+}
+
 void add(StrokeBoard& board, const FigureElement& e, double largest) {
     const std::vector<int>& p = e.points;
     switch (e.kind) {
         case Element::disc:
             return add_disc(board, e, largest);
         case Element::block:
-            board
-                .put(Kind::path, "body",
-                     {vertex_between(p[0], p[1], 0, -11, -18, true), vertex_between(p[0], p[1], 0, -11, 18),
-                      vertex_between(p[0], p[1], 0, 11, 18), vertex_between(p[0], p[1], 0, 11, -18)})
-                .closed = true;
-            return board.text("name", vertex_at(p[0]), e.label);
+            return add_block(board, e);
         case Element::rod:
-            board.line("rod", p[0], p[1]);
-            return board.text("name", vertex_between(p[0], p[1], 0.5, board.label_side(p[0], p[1])), e.label);
         case Element::bar:
-            board.line("bar-edge", p[0], p[1]);
-            board.line("bar", p[0], p[1]);
-            return board.text("name", vertex_between(p[0], p[1], 0.5, 1.4 * board.label_side(p[0], p[1])),
-                              e.label);
-        case Element::plate: {
-            std::vector<FigureVertex> corners;
-            for (const int k : p) corners.push_back(vertex_at(k, 0, 0, corners.empty()));
-            board.put(Kind::path, "plate", corners).closed = true;
+            return add_beam(board, e);
+        case Element::plate:
+            add_path(board, "plate", e).closed = true;
             return;
-        }
         case Element::ring:
-            board.put(Kind::ring, "ring", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2])});
-            board.line("spoke", p[0], p[1]);
-            board.put(Kind::circle, "dot", {vertex_at(p[0])}).size = 2;
-            return;
-        case Element::ball: {
-            FigureShape& circle = board.put(Kind::circle, e.label == "cage" ? "cage" : "ring", {vertex_at(p[0])});
-            circle.size = e.size;
-            circle.in_scene = true;
-            board.put(Kind::ring, "great", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2])});
-            if (p.size() < 4) return;
-            board.put(Kind::ring, "great", {vertex_at(p[0]), vertex_at(p[2]), vertex_at(p[3])});
-            board.put(Kind::ring, "great", {vertex_at(p[0]), vertex_at(p[3]), vertex_at(p[1])});
-            return;
-        }
+            return add_ring(board, e);
+        case Element::ball:
+            return add_ball(board, e);
         case Element::box:
             board.put(Kind::box, "box", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2]), vertex_at(p[3])});
             return;
@@ -162,12 +183,9 @@ void add(StrokeBoard& board, const FigureElement& e, double largest) {
         case Element::tie:
             board.line("tie", p[0], p[1]);
             return;
-        case Element::curve: {
-            std::vector<FigureVertex> way;
-            for (const int k : p) way.push_back(vertex_at(k, 0, 0, way.empty()));
-            board.put(Kind::path, "curve", way);
+        case Element::curve:
+            add_path(board, "curve", e);
             return;
-        }
         case Element::force:
         case Element::waiting:
         case Element::impulse:
