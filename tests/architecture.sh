@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The layers of docs/design.md, held by grep: who may include what. With --count: how many rooms, arrows and floors there are.
+# The layers of docs/design.md, held by grep: who may include what; and how long functions and files may be. With --count: how
+# many rooms, arrows and floors there are, lines, and functions.
 set -u
 cd "$(dirname "$0")/.."
 failed=0
@@ -107,5 +108,8 @@ for struct in $(sed -n "s/^struct \([a-z_]*\) {/\1/p" lib/alembert/native/abi.hp
 done
 missing=$(files lib generator tests | xargs grep -L 'SPDX-License-Identifier')
 [ -z "$missing" ] || { printf 'no licence line in:\n%s\n' "$missing"; failed=1; }
+
+# Functions of at most 80 lines and 6 parameters, files of at most 700 lines.
+python3 tests/measures.py "$@" || failed=1
 [ "$failed" = 0 ] && echo 'the layers hold'
 exit "$failed"
