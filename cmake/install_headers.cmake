@@ -50,11 +50,16 @@ set(moved
   state analysis/state
   symbolic algebra/symbolic
 )
+function(forward old new)
+  file(WRITE ${into}/${old}
+    "// SPDX-License-Identifier: GPL-2.0-or-later\n// Moved; this name goes with the next version.\n#pragma once\n#include \"alembert/${new}\"\n")
+endfunction()
+forward(run/grid.hpp scene/grid.hpp)
+forward(run/quad_motion.hpp program/quad_motion.hpp)
 while(moved)
   list(POP_FRONT moved old new)
   file(GLOB headers RELATIVE ${SOURCE}/${new} ${SOURCE}/${new}/*.hpp)
   foreach(header IN LISTS headers)
-    file(WRITE ${into}/${old}/${header}
-      "// SPDX-License-Identifier: GPL-2.0-or-later\n// Moved; this name goes with the next version.\n#pragma once\n#include \"alembert/${new}/${header}\"\n")
+    forward(${old}/${header} ${new}/${header})
   endforeach()
 endwhile()

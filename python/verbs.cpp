@@ -68,7 +68,7 @@ public:
         Json& points = options_["points"];  // one after the other
         for (std::size_t k = 0; k < points.size() && !names.empty(); ++k)
             if (points[k].is_number())  // what is not finite is a text, and refused later
-                points[k] = points[k].get<double>() * size_of_one(scene, names[k % names.size()]);
+                points[k] = points[k].get<double>() * unit_of_name(scene, names[k % names.size()]).size;
     }
 
     bool has(const char* name) const { return options_.contains(name); }
@@ -121,7 +121,7 @@ private:
     static void scale(Json& range, const Scene& scene) {
         for (const std::size_t k : {1, 2})
             if (range[k].is_number())
-                range[k] = range[k].get<double>() * size_of_one(scene, range[0].get<std::string>());
+                range[k] = range[k].get<double>() * unit_of_name(scene, range[0].get<std::string>()).size;
     }
     static Axis axis_of(const Json& range, std::size_t count) {
         return {.name = range.at(0).get<std::string>(),

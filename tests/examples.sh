@@ -50,9 +50,14 @@ awk -v folder="$work/cpp" '
     # Every installed name of a header of the runtime, the old ones too.
     echo 'add_library(headers OBJECT headers.cc)'
     echo 'target_link_libraries(headers PRIVATE alembert::runtime)'
+    # Old names of headers of the generator lead to the new ones.
+    echo 'add_library(old_headers OBJECT old_headers.cc)'
+    echo 'target_link_libraries(old_headers PRIVATE alembert::alembert)'
 } >"$work/cpp/CMakeLists.txt"
 (cd "$work/prefix/include" && printf '#include <%s>\n' alembert/*.hpp alembert/{ode,hybrid,batch,native,base}/*.hpp) |
     grep -v '<alembert/alembert.hpp>' >"$work/cpp/headers.cc"
+(cd "$work/prefix/include" && grep -l 'Moved; this name' alembert/*/*.hpp | sed 's/.*/#include <&>/') >"$work/cpp/old_headers.cc"
+[ "$(wc -l <"$work/cpp/old_headers.cc")" -gt 200 ] || { echo 'the old names of headers are not installed'; exit 1; }
 cmake -G Ninja -S "$work/cpp" -B "$work/cpp/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Debug \
     -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >>"$work/log" 2>&1 ||
     { tail -n 30 "$work/log"; exit 1; }

@@ -62,8 +62,9 @@ private:
             if (e.tree) is_new = dimensions_.learn(e, wanted) || is_new;
         };
         for (const ValueMeaning& meaning : meanings_) learn(*meaning.value, meaning.dimension);
-        for (const Expression* e : {&scene_.kinetic, &scene_.potential, &scene_.lagrangian, &scene_.rayleigh})
-            learn(*e, energy_of_scene_or_rate(*e));
+        const std::optional<Dimension> energy = energy_of_scene();
+        for (const Expression* e : {&scene_.kinetic, &scene_.potential, &scene_.lagrangian}) learn(*e, energy);
+        learn(scene_.rayleigh, energy ? std::optional(over_time(*energy)) : std::nullopt);
         for (const ConstraintRule& c : scene_.constraints) {
             learn(c.equation.lhs, is_number(c.equation.rhs) ? std::nullopt : dimensions_.of(c.equation.rhs));
             learn(c.equation.rhs, is_number(c.equation.lhs) ? std::nullopt : dimensions_.of(c.equation.lhs));
@@ -78,12 +79,6 @@ private:
         for (const Input& f : scene_.inputs) learn(f.value, dimensions_.of_name(f.name.text));
         for (const Coordinate& q : scene_.coordinates) learn(q.initial, dimensions_.of_name(q.name.text));
         return is_new;
-    }
-
-    std::optional<Dimension> energy_of_scene_or_rate(const Expression& e) {
-        const std::optional<Dimension> energy = energy_of_scene();
-        if (!energy || &e != &scene_.rayleigh) return energy;
-        return over_time(*energy);
     }
 
     const Scene& scene_;

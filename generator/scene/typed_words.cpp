@@ -10,6 +10,7 @@
 #include "scene/functions.hpp"
 #include "scene/text.hpp"
 #include "scene/typed.hpp"
+#include "scene/typed_pieces.hpp"
 #include "scene/unit_text.hpp"
 
 namespace alembert {
@@ -17,95 +18,6 @@ namespace alembert {
 namespace {
 
 constexpr std::size_t longest_in_words = 64 * 1024;  // more is refused as an expression
-
-struct Piece {
-    enum class Kind { word, number, primes, command, sign, end };
-    Kind kind;
-    std::size_t begin, end;
-    std::size_t match = 0;                 ///< of a bracket: the piece of the other one; 0 if there is none
-    std::vector<std::size_t> commas = {};  ///< of an opening bracket: those directly inside
-};
-
-/// The pieces of a text, the brackets with their partners; the last is the end.
-class Pieces {
-public:
-    explicit Pieces(std::string_view text) : text_(text) {
-        while (at_ < text_.size()) next();
-        list_.push_back({Piece::Kind::end, text_.size(), text_.size()});
-        match();
-    }
-
-    std::size_t size() const { return list_.size(); }
-    const Piece& operator[](std::size_t k) const { return list_[std::min(k, list_.size() - 1)]; }
-    std::string_view word(std::size_t k) const {
-        return text_.substr((*this)[k].begin, (*this)[k].end - (*this)[k].begin);
-    }
-    bool is(std::size_t k, std::string_view word) const { return this->word(k) == word; }
-    bool is_word(std::size_t k) const { return (*this)[k].kind == Piece::Kind::word; }
-    /// An opening bracket that is closed.
-    bool opens(std::size_t k, std::string_view bracket) const { return is(k, bracket) && (*this)[k].match > k; }
-
-private:
-    std::string_view text_;
-    std::size_t at_ = 0;
-    std::vector<Piece> list_;
-
-    void add(Piece::Kind kind, std::size_t begin) { list_.push_back({kind, begin, at_}); }
-
-    bool has_digit(std::size_t i) const { return i < text_.size() && text_[i] >= '0' && text_[i] <= '9'; }
-
-    void next() {
-        const std::size_t begin = at_;
-        const char byte = text_[at_];
-        if (byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r') {
-            ++at_;
-        } else if (has_digit(at_) || (byte == '.' && has_digit(at_ + 1))) {
-            number();
-            add(Piece::Kind::number, begin);
-        } else if (byte == '\'') {
-            while (at_ < text_.size() && text_[at_] == '\'') ++at_;
-            add(Piece::Kind::primes, begin);
-        } else if (byte == '\\') {
-            ++at_;
-            while (at_ < text_.size() && ((text_[at_] | 0x20) >= 'a' && (text_[at_] | 0x20) <= 'z')) ++at_;
-            if (at_ == begin + 1 && at_ < text_.size()) decode(text_, at_);
-            add(Piece::Kind::command, begin);
-        } else if (is_letter(decode(text_, at_))) {
-            letters();
-            add(Piece::Kind::word, begin);
-        } else {
-            add(Piece::Kind::sign, begin);
-        }
-    }
-
-    void letters() {
-        for (std::size_t after = at_; at_ < text_.size(); at_ = after) {
-            const char32_t c = decode(text_, after);
-            if (!is_letter(c) && !is_digit(c)) return;
-        }
-    }
-
-    void number() {
-        while (has_digit(at_) || (at_ < text_.size() && text_[at_] == '.')) ++at_;
-        if (at_ >= text_.size() || (text_[at_] != 'e' && text_[at_] != 'E')) return;
-        const bool has_sign = at_ + 1 < text_.size() && (text_[at_ + 1] == '+' || text_[at_ + 1] == '-');
-        const std::size_t digits = at_ + (has_sign ? 2 : 1);
-        if (!has_digit(digits)) return;
-        for (at_ = digits; has_digit(at_);) ++at_;
-    }
-
-    void match() {
-        std::vector<std::size_t> open;
-        for (std::size_t k = 0; k < list_.size(); ++k) {
-            if (is(k, "(") || is(k, "{")) open.push_back(k);
-            if (is(k, ",") && !open.empty()) list_[open.back()].commas.push_back(k);
-            if ((!is(k, ")") && !is(k, "}")) || open.empty()) continue;
-            list_[k].match = open.back();
-            list_[open.back()].match = k;
-            open.pop_back();
-        }
-    }
-};
 
 struct Rewording {
     std::size_t begin, end;
@@ -119,7 +31,7 @@ public:
 
     std::vector<Rewording> edits() {
         for (std::size_t k = 0; k + 1 < pieces_.size(); k = std::max(k, skipped_) + 1)
-            if (pieces_[k].kind == Piece::Kind::command)
+            if (pieces_[k].kind == TypedPiece::Kind::command)
                 command(k);
             else if (pieces_.is(k, "^") && pieces_.opens(k + 1, "{"))
                 round(k + 1, "(", ")");
@@ -132,7 +44,7 @@ public:
     }
 
 private:
-    const Pieces pieces_;
+    const TypedPieces pieces_;
     const KnownNames& names_;
     std::vector<Rewording> edits_;
     std::size_t skipped_ = 0;  ///< the last piece that needs no look of its own
@@ -153,7 +65,7 @@ private:
     /// A unit stands right behind a number.
     bool is_unit(std::size_t k) const {
         const std::string word(pieces_.word(k));
-        return k > 0 && pieces_[k - 1].kind == Piece::Kind::number && !is_call(k) && !names_.has(word) &&
+        return k > 0 && pieces_[k - 1].kind == TypedPiece::Kind::number && !is_call(k) && !names_.has(word) &&
                is_known_unit(word);
     }
 
@@ -176,7 +88,7 @@ private:
 
     /// x_{1} is x_1, or x1 where the scene has that; \theta_1 likewise. `letters` is what stands before the index.
     bool index_in_braces(std::size_t k, const std::string& letters) {
-        const bool is_command = pieces_[k].kind == Piece::Kind::command;
+        const bool is_command = pieces_[k].kind == TypedPiece::Kind::command;
         const std::size_t next = k + 1, open = is_command ? k + 2 : k + 1;
         const bool is_apart = pieces_[next].begin != pieces_[k].end;
         if (is_apart || (is_command ? !pieces_.word(next).starts_with('_') : !letters.ends_with('_')))
@@ -214,7 +126,7 @@ private:
 
     /// x(t) is x, and x'(t) is x'.
     void drop_time(std::size_t k) {
-        const std::size_t open = k + (pieces_[k + 1].kind == Piece::Kind::primes ? 2 : 1);
+        const std::size_t open = k + (pieces_[k + 1].kind == TypedPiece::Kind::primes ? 2 : 1);
         if (pieces_.opens(open, "(") && pieces_.is(open + 1, "t") && pieces_[open].match == open + 2 &&
             !names_.has("t"))
             remove(open, open + 2);
@@ -287,13 +199,13 @@ private:
         for (int level = 0; level < most_levels; ++level) {
             ++last;
             while (pieces_.is(last, "-") || pieces_.is(last, "+")) ++last;
-            const bool is_named = pieces_.is_word(last) || pieces_[last].kind == Piece::Kind::command;
+            const bool is_named = pieces_.is_word(last) || pieces_[last].kind == TypedPiece::Kind::command;
             if (is_named && (pieces_.opens(last + 1, "(") || pieces_.opens(last + 1, "{"))) ++last;
             if (pieces_.opens(last, "(") || pieces_.opens(last, "{"))
                 last = pieces_[last].match;
-            else if (!is_named && pieces_[last].kind != Piece::Kind::number)
+            else if (!is_named && pieces_[last].kind != TypedPiece::Kind::number)
                 return;
-            if (pieces_[last + 1].kind == Piece::Kind::primes) ++last;
+            if (pieces_[last + 1].kind == TypedPiece::Kind::primes) ++last;
             if (!pieces_.is(last + 1, "^")) break;
             ++last;
         }
@@ -324,8 +236,8 @@ private:
 
     /// With blanks where the word would run into its neighbours: \cos\theta.
     std::string apart(std::size_t k, const std::string& word) const {
-        using Kind = Piece::Kind;
-        const Piece &before = pieces_[k == 0 ? 0 : k - 1], &after = pieces_[k + 1];
+        using Kind = TypedPiece::Kind;
+        const TypedPiece &before = pieces_[k == 0 ? 0 : k - 1], &after = pieces_[k + 1];
         const bool joins_before =
             k > 0 && before.end == pieces_[k].begin && (before.kind == Kind::word || before.kind == Kind::number);
         const bool joins_after =
@@ -356,7 +268,7 @@ private:
             const bool is_name = pieces_[next].match == next + 2;
             remove(k, k);
             round(next, is_name ? "" : "(", (is_name ? "" : ")") + primes);
-        } else if (pieces_.is_word(next) || pieces_[next].kind == Piece::Kind::command) {
+        } else if (pieces_.is_word(next) || pieces_[next].kind == TypedPiece::Kind::command) {
             remove(k, k);
             append(next, primes);
         }

@@ -80,21 +80,6 @@ private:
     std::vector<Diagnostic>& found_;
 };
 
-/// The unit in which numbers for a name are given; empty for none.
-std::string given_unit(const Scene& scene, const std::string& name) {
-    const auto in = [&](const auto& items, const std::string& text) -> std::string {
-        for (const auto& item : items)
-            if (item.name.text == text) return item.shown.unit;
-        return {};
-    };
-    const bool is_rate = name.ends_with('\'');
-    if (is_rate) return in(scene.coordinates, name.substr(0, name.find('\'')));
-    for (const std::string& found :
-         {in(scene.parameters, name), in(scene.coordinates, name), in(scene.speeds, name)})
-        if (!found.empty()) return found;
-    return {};
-}
-
 }  // namespace
 
 bool has_quantities(const Tree& tree) {
@@ -117,18 +102,15 @@ bool is_in_si(const Scene& scene) {
     return are(scene.parameters) && are(scene.inputs) && are(scene.coordinates) && are(scene.speeds);
 }
 
-double size_of_one(const Scene& scene, const std::string& name) {
-    const std::string unit = given_unit(scene, name);
-    return unit.empty() ? 1 : meaning_of_unit(unit)->factor;
-}
-
 UnitOfName unit_of_name(const Scene& scene, const std::string& name) {
     const bool is_rate = name.ends_with('\'');
     const std::string stem = name.substr(0, name.find('\''));
     const auto in = [&](const auto& items) -> std::optional<UnitOfName> {
         for (const auto& item : items) {
             if (item.name.text != stem) continue;
-            UnitOfName found{item.shown.unit.empty() ? item.unit : item.shown.unit, item.shown.size};
+            UnitOfName found{.unit = item.unit};
+            if (!item.shown.unit.empty())
+                found = {item.shown.unit, item.shown.size, meaning_of_unit(item.shown.unit)->exact};
             if (is_rate && !found.unit.empty()) found.unit += "/s";
             return found;
         }
@@ -138,16 +120,16 @@ UnitOfName unit_of_name(const Scene& scene, const std::string& name) {
     if (is_rate) return {};
     if (const auto found = in(scene.speeds)) return *found;
     if (const auto found = in(scene.parameters)) return *found;
-    return {name == "t" ? "s" : "", 1};
+    return {.unit = name == "t" ? "s" : ""};
 }
 
 std::string in_si(const Scene& scene, const std::string& name, const std::string& value) {
-    const std::string unit = given_unit(scene, name);
-    if (unit.empty()) return value;
+    const UnitOfName unit = unit_of_name(scene, name);
+    if (unit.exact.empty()) return value;
     std::vector<Diagnostic> mistakes;
     const Expression typed = parse_expression(value, {}, mistakes);
     if (!typed || has_quantities(*typed.tree)) return value;
-    return fmt::format("({})*({})", value, meaning_of_unit(unit)->exact);
+    return fmt::format("({})*({})", value, unit.exact);
 }
 
 }  // namespace alembert

@@ -22,14 +22,12 @@ namespace alembert {
 /// whether it is in the unit) to `found`.
 void convert_units(Scene& scene, std::vector<Diagnostic>& found);
 
-/// What 1 is worth in SI units where it is given for a name: 0.001 for `l` in mm, π/180 for `theta'` in deg; 1 for
-/// names that are not known.
-double size_of_one(const Scene& scene, const std::string& name);
-
-/// The unit in which texts and pictures show a name, a rate's too: that of the scene, or that of the SI.
+/// The unit in which numbers are given for a name, a rate's too, and in which texts and pictures show it: that of
+/// the scene, or that of the SI.
 struct UnitOfName {
-    std::string unit = {};  ///< "deg/s"; empty for none
-    double size = 1;        ///< what 1 of it is worth in SI units
+    std::string unit = {};  ///< "deg/s"; empty for none, and for names that are not known
+    double size = 1;        ///< what 1 of it is worth in SI units: 0.001 for `l` in mm, π/180 for `theta'` in deg
+    std::string exact = {};  ///< the size as an expression; empty where it is 1
 
     /// "phi [deg]"; only the name where the unit is of the SI.
     std::string label(const std::string& name) const { return size == 1 ? name : name + " [" + unit + "]"; }

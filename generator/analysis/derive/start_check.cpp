@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/derive/start_check.hpp"
 
-#include <algorithm>
-
 #include "alembert/base/tolerances.hpp"
 #include "analysis/contact/contacts.hpp"
 #include "analysis/state/assemble.hpp"
@@ -15,14 +13,6 @@ namespace {
 
 constexpr const char* kind = "initial_values";
 
-/// The place of the constraint that the message names.
-Place place_in(const std::string& message, const Mechanism& m) {
-    const auto named = std::find_if(m.constraints.begin(), m.constraints.end(), [&](const auto& c) {
-        return message.find("'" + c.name + "'") != std::string::npos;
-    });
-    return named == m.constraints.end() ? Place{} : named->place;
-}
-
 }  // namespace
 
 std::vector<Diagnostic> warnings_of_start(const Mechanism& mechanism, const Overrides& at) {
@@ -31,9 +21,10 @@ std::vector<Diagnostic> warnings_of_start(const Mechanism& mechanism, const Over
     Start start = start_of(m, at);
     try {
         assemble(start, m, lower_constraints(m), {}, m.impulses.empty());
-    } catch (const std::runtime_error& broken) {
-        const std::string message = broken.what();
-        return {{place_in(message, m), message, Severity::warning, kind}};
+    } catch (const BrokenConstraint& broken) {
+        return {{broken.place, broken.what(), Severity::warning, kind}};
+    } catch (const std::runtime_error& other) {  // guesses that do not converge, speeds that cannot be had
+        return {{{}, other.what(), Severity::warning, kind}};
     }
     if (m.unilateral.empty()) return {};
     std::vector<Diagnostic> found = negative_gaps(m, ContactView(m), start.state(), tolerance::closed_gap);

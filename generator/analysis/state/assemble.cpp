@@ -193,10 +193,11 @@ private:
             if (misfit <= tolerance::initial_values * size[nodes[k]] + rounding(k, x, value) + rounded[nodes[k]])
                 continue;
             if (!std::isfinite(misfit))
-                throw ModelError(
+                throw BrokenConstraint(
                     say("constraint '{}' is not finite at the start: it divides by zero there, or takes "
                         "a root or a logarithm of what has none; give other initial values",
-                        m_.constraints[k].name));
+                        m_.constraints[k].name),
+                    m_.constraints[k].place);
             const std::string what =
                 say("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
             if (guessed)
@@ -204,8 +205,9 @@ private:
                                            "or let more values move",
                                            what),
                                        start_.t, start_.q);
-            throw ModelError(
-                say("{}; give initial values that obey it, or let some move: guess, rate_guess", what));
+            throw BrokenConstraint(
+                say("{}; give initial values that obey it, or let some move: guess, rate_guess", what),
+                m_.constraints[k].place);
         }
     }
 

@@ -9,21 +9,28 @@
 #include <string>
 #include <vector>
 
+#include "alembert/base/error.hpp"
 #include "analysis/state/left_out.hpp"
 #include "program/lower/start.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
 
+/// What `assemble` throws for a constraint that the given values break.
+struct BrokenConstraint : ModelError {
+    BrokenConstraint(const std::string& text, Place at) : ModelError(text), place(at) {}
+    Place place;  ///< of the constraint
+};
+
 /// Moves the coordinates that are guesses until all holonomic constraints hold, by Gauss-Newton steps of least
 /// change, then the guessed rates until all rates obey them (if the scene gives speeds, all rates until these hold
 /// too). Returns a line for each value that moved. Values with names in `held` are not changed. If an impact is
 /// about to impose the constraints, rates need not obey them: they are then left as they are if the guessed ones
 /// cannot reach the constraints, or follow from the speeds only. The program is lower_constraints(mechanism).
-/// Throws IntegrationError if guesses do not converge or the speeds lose rank at the start, ModelError if a
+/// Throws IntegrationError if guesses do not converge or the speeds lose rank at the start, BrokenConstraint if a
 /// constraint is broken by more than 1e-9 of the sum of the sizes of its terms (and, where something moves, by
-/// more than rounding) and nothing may move, if the initial speeds are impossible, or if a constraint that was
-/// left out does not hold with these values (left_out.hpp).
+/// more than rounding) and nothing may move, ModelError if the initial speeds are impossible, or if a constraint
+/// that was left out does not hold with these values (left_out.hpp).
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, bool rates_must_obey = true);
 

@@ -15,7 +15,10 @@ namespace alembert {
 
 namespace {
 
-/// A mass in g or an inertia in kg mm² that is taken as kg or kg m² is wrong by more than these factors.
+/// Chosen so that no machine comes near: a mass of 1e5 times the next one beside gravity, and a radius of gyration
+/// of 300 times the distance of the farthest mass. An inertia in kg mm² that is taken as kg m² makes that radius
+/// 1000 times as long; a mass in g that is taken as kg is 1000 times as heavy, as heavy parts of machines are, and
+/// stays unseen.
 constexpr double suspicious_mass_ratio = 1e5, suspicious_gyration_ratio = 300;
 
 /// Whether a load acts is asked at so many random states, and of scenes with at most so many coordinates.
