@@ -84,6 +84,12 @@ TEST_CASE("typed words: a name of the scene keeps its own meaning") {
     CHECK(written("thetadot + ln(x) + e^x", names_of({"theta", "x"}, {"thetadot", "ln", "e"})) ==
           "thetadot + ln(x) + e^x");
     CHECK(written("θ + theta", names_of({"theta", "θ"})) == "θ + theta");
+    // alpha and omega are functions of a body, and yet the letters of a scene where nothing is called.
+    const KnownNames angles = names_of({"α", "ω", "θ"});
+    CHECK(written("a*sin(alpha) + omega^2 + alphadot + alpha(t)", angles) == "a*sin(α) + ω^2 + α' + α");
+    CHECK(written("\\alpha + \\dot\\omega + \\dot{\\theta}", angles) == "α + ω' + θ'");
+    CHECK(written("dot(omega(B), ex(B)) + alpha(B)", angles) == "dot(omega(B), ex(B)) + alpha(B)");
+    CHECK(written("alpha", usual) == "alpha");
     CHECK(written("ϑ + θ", names_of({"ϑ", "θ"})) == "ϑ + θ");
     CHECK(written("ϕ", names_of({"φ", "phi"})) == "ϕ");  // which of the two is not known
     CHECK(written("k(t)", names_of({"x"}, {"k"})) == "k(t)");

@@ -119,6 +119,10 @@ private:
     void known(std::size_t k, const std::string& text) {
         if (find_function(text) == nullptr) {
             if (names_.moves(text)) drop_time(k);
+        } else if (const std::string meant = names_.meant(text);
+                   !meant.empty() && (!is_call(k) || is_of_time(k + 1))) {
+            replace(k, meant);  // alpha and omega are functions, too: those of a body
+            if (names_.moves(meant)) drop_time(k);
         } else if (text == "dot" && is_call(k) && pieces_[k + 1].commas.empty()) {
             rate_of_name(k, "'");
         }
@@ -127,9 +131,13 @@ private:
     /// x(t) is x, and x'(t) is x'.
     void drop_time(std::size_t k) {
         const std::size_t open = k + (pieces_[k + 1].kind == TypedPiece::Kind::primes ? 2 : 1);
-        if (pieces_.opens(open, "(") && pieces_.is(open + 1, "t") && pieces_[open].match == open + 2 &&
-            !names_.has("t"))
-            remove(open, open + 2);
+        if (is_of_time(open)) remove(open, open + 2);
+    }
+
+    /// "(t)"
+    bool is_of_time(std::size_t open) const {
+        return pieces_.opens(open, "(") && pieces_.is(open + 1, "t") && pieces_[open].match == open + 2 &&
+               !names_.has("t");
     }
 
     bool call(std::size_t k, const std::string& text) {
@@ -247,6 +255,7 @@ private:
 
     /// "theta", as the scene spells it, for \theta; "sin" for \sin.
     std::string letter_or_function(const std::string& command) const {
+        if (const std::string own = names_.meant(command); !own.empty()) return own;
         if (is_reserved_function(command)) return command;
         if (!function_meant(command).empty()) return std::string(function_meant(command));
         const GreekLetter* const greek = greek_named(command);
