@@ -19,7 +19,7 @@
 #include "base/archive/file_form.hpp"
 #include "base/language/say.hpp"
 #include "commands/progress.hpp"
-#include "commands/streams.hpp"
+#include "derivation/system.hpp"
 #include "present/report/marked_page.hpp"
 #include "scene/text_file.hpp"
 
@@ -29,10 +29,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-GradedRow row_of(const Scene& scene, const std::string& file, const MarkOptions& options, bool with_page) {
+GradedRow row_of(DerivedSystem& system, const std::string& file, const MarkOptions& options, bool with_page) {
     const std::string name = fs::path(file).filename().string();
     try {
-        const Marked marked = mark(scene, read_derivation(text_of_file(file), name), options);
+        const Marked marked = mark(system, read_derivation(text_of_file(file), name), options);
         GradedRow row = graded(marked);
         if (with_page) row.page = marked_fragment(marked);
         return row;
@@ -70,10 +70,10 @@ struct Worker {
 };
 
 /// The same work for each process: takes files until none are left.
-[[noreturn]] void work(const Scene& scene, const std::vector<std::string>& files, const MarkOptions& options,
+[[noreturn]] void work(DerivedSystem& system, const std::vector<std::string>& files, const MarkOptions& options,
                        bool with_pages, std::pair<SharedCount&, std::FILE*> shared) {
     for (std::size_t k = shared.first.take(); k < files.size(); k = shared.first.take()) {
-        Json line = to_json(row_of(scene, files[k], options, with_pages));
+        Json line = to_json(row_of(system, files[k], options, with_pages));
         line["index"] = k;
         const std::string text = line.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
         if (std::fputs(text.c_str(), shared.second) < 0 || std::fflush(shared.second) != 0) _exit(1);
@@ -120,8 +120,7 @@ Gradebook grade(const Scene& scene, const std::vector<std::string>& files, const
         lost.problem = say("the process that checked this file ended early");
         book.rows.push_back(std::move(lost));
     }
-    Scene silent = scene;  // one process says what there is to say about the scene
-    silent.on_warning = [](const Warning&) {};
+    DerivedSystem system(scene, options.by);  // once, before there are several processes
     SharedCount next;
     std::cout.flush();
     std::fflush(nullptr);
@@ -132,7 +131,7 @@ Gradebook grade(const Scene& scene, const std::vector<std::string>& files, const
         if (!worker.rows) throw CompileError(say("a temporary file cannot be made"));
         worker.process = fork();
         if (worker.process < 0) throw CompileError(say("a process cannot be started"));
-        if (worker.process == 0) work(silent, files, options, with_pages, {next, worker.rows.get()});
+        if (worker.process == 0) work(system, files, options, with_pages, {next, worker.rows.get()});
         workers.push_back(std::move(worker));
     };
     const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, files.size());
