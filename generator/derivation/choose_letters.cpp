@@ -40,7 +40,7 @@ struct OpenLetters {
 OpenLetters open_letters(const Written& written, const Letters& letters) {
     std::map<Letter, int> all;
     std::set<Letter> introduced;
-    for (const Statement& statement : written.statements)
+    for (const WrittenStatement& statement : written.statements)
         for (std::size_t k = 0; k < statement.sides.size(); ++k) {
             const Math* side = statement.sides[k].get();
             collect_letters(*side, all);
@@ -59,7 +59,7 @@ OpenLetters open_letters(const Written& written, const Letters& letters) {
 /// Names of the scene that no letter of the derivation is.
 std::vector<std::string> unused(const std::vector<std::string>& names, const Written& written, const Letters& letters) {
     std::map<Letter, int> all;
-    for (const Statement& statement : written.statements)
+    for (const WrittenStatement& statement : written.statements)
         for (const MathPtr& side : statement.sides) collect_letters(*side, all);
     std::set<std::string> used;
     for (const auto& [letter, dots] : all)

@@ -100,7 +100,7 @@ private:
     std::map<std::string, GiNaC::ex> known_;  ///< names beside those of the scene, as they are in the system
     std::map<Letter, Components> vectors_;    ///< letters that are vectors, with the letters of their components
     std::vector<LineNotes> notes_;            ///< one for each line
-    const Statement* statement_ = nullptr;
+    const WrittenStatement* statement_ = nullptr;
     std::optional<BaseState> near_;  ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;   ///< whether the derivation has begun to linearize
     bool all_forces_ = false;        ///< whether its generalized forces contain those of the potential

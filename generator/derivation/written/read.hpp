@@ -29,7 +29,7 @@ enum class Relation {
 };
 
 /// One chain a = b = c. Rows of `align` that begin with `&=` go on with the chain of the row above.
-struct Statement {
+struct WrittenStatement {
     std::vector<MathPtr> sides;       ///< empty if it was not understood; one side alone is an expression, no claim
     std::vector<Relation> relations;  ///< one fewer than sides
     std::vector<MathPtr> conditions{};  ///< of `cases` and "if": not judged; told
@@ -46,7 +46,7 @@ struct Statement {
 struct Written {
     std::string file;  ///< the name as given, for messages
     std::string text;
-    std::vector<Statement> statements;
+    std::vector<WrittenStatement> statements;
     int line(std::size_t offset) const;    ///< from 1
     int column(std::size_t offset) const;  ///< from 1, in characters
 };
