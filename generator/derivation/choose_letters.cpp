@@ -99,7 +99,7 @@ bool is_accelerated(const Math& math) {
 /// Letters of mechanics that stand in an equation of motion as forces do: the tension T in m y'' = T − m g.
 std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) {
     std::set<Letter> result;
-    for (const Statement& statement : written.statements) {
+    for (const WrittenStatement& statement : written.statements) {
         if (std::none_of(statement.sides.begin(), statement.sides.end(), [](const MathPtr& side) { return is_accelerated(*side); }))
             continue;
         std::map<Letter, int> here;
