@@ -92,6 +92,31 @@ std::vector<Assignment> assignments(const std::vector<Letter>& letters, const st
     return result;
 }
 
+bool is_accelerated(const Math& math) {
+    return math.dots > 1 || std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return is_accelerated(*arg); });
+}
+
+/// Letters of mechanics that stand in an equation of motion as forces do: the tension T in m y'' = T − m g.
+std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) {
+    std::set<Letter> result;
+    for (const Statement& statement : written.statements) {
+        if (std::none_of(statement.sides.begin(), statement.sides.end(), [](const MathPtr& side) { return is_accelerated(*side); }))
+            continue;
+        std::map<Letter, int> here;
+        for (const MathPtr& side : statement.sides) collect_letters(*side, here);
+        for (const auto& [letter, dots] : here)
+            if (const auto name = letters.name_of(letter); name && quantity_of(letter) && !letters.is_of_scene(*name))
+                result.insert(letter);
+    }
+    return result;
+}
+
+double score_of(DerivedSystem& system, const Written& written, const Letters& letters) {
+    Marker marker(system, written, letters);
+    marker.run();
+    return marker.score();
+}
+
 Letters with(Letters letters, const Assignment& assignment) {
     for (const auto& [letter, name] : assignment) letters.bind(letter, name);
     return letters;
@@ -111,6 +136,13 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
         result.letters.bind(letter_in(text), name);
         result.told[text] = name;
     }
+    for (const Letter& letter : perhaps_forces(written, result.letters)) {
+        Letters otherwise = result.letters;
+        otherwise.leave_open(letter);
+        if (score_of(system, written, otherwise) <= score_of(system, written, result.letters)) continue;
+        result.letters = std::move(otherwise);
+        result.remarks.push_back(say("{} is a force here, no energy or momentum", shown(letter)));
+    }
     const OpenLetters open = open_letters(written, result.letters);
     std::vector<std::string> parameters;
     for (const Parameter& p : scene.parameters) parameters.push_back(p.name.text);
@@ -124,9 +156,7 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
         for (const Assignment& trial : assignments(letters, names)) {
             Assignment whole = best;
             whole.insert(whole.end(), trial.begin(), trial.end());
-            Marker marker(system, written, with(result.letters, whole));
-            marker.run();
-            const double score = marker.score();
+            const double score = score_of(system, written, with(result.letters, whole));
             if (score > most) most = score, chosen = whole;
         }
         best = chosen;

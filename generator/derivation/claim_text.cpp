@@ -31,7 +31,7 @@ private:
     std::string& out() { return result_.text; }
 
     [[noreturn]] void refuse(const Math& math, std::string reason) const {
-        throw NotUnderstood{.reason = std::move(reason), .offset = math.offset, .length = math.length};
+        throw NoMeaning{.reason = std::move(reason), .offset = math.offset, .length = math.length};
     }
 
     static Bond bond(const Math& math) {
@@ -124,7 +124,7 @@ private:
 
     std::string name(const Math& math, bool as_quantity) const {
         if (const auto known = how_.letters.name_of(math.letter, as_quantity)) return *known;
-        throw NotUnderstood{.reason = say("the letter {} is neither a name of the scene nor defined before",
+        throw NoMeaning{.reason = say("the letter {} is neither a name of the scene nor defined before",
                                           fmt::format("'{}'", identifier_of(math.letter))),
                             .offset = math.offset,
                             .length = math.length,

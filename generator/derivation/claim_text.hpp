@@ -30,7 +30,7 @@ struct ClaimText {
 };
 
 /// Thrown for what has no meaning as a number in this scene.
-struct NotUnderstood {
+struct NoMeaning {
     std::string reason;
     std::size_t offset = 0, length = 0;   ///< in the document
     std::optional<Letter> unknown = {};   ///< the letter that is not known
@@ -45,7 +45,7 @@ struct ClaimWriting {
     const std::map<std::string, int>* displacements = nullptr;
 };
 
-/// Throws NotUnderstood.
+/// Throws NoMeaning.
 ClaimText claim_text(const Math& math, const ClaimWriting& writing);
 
 /// Every letter of the tree, with the most dots that it has anywhere.

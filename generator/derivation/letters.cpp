@@ -170,7 +170,7 @@ std::optional<std::string> Letters::in_scene(const Letter& letter) const {
 
 std::optional<std::string> Letters::of_mechanics(const Letter& letter) const {
     const std::optional<MechanicalQuantity> quantity = quantity_of(letter);
-    if (!quantity) return std::nullopt;
+    if (!quantity || open_.contains(letter)) return std::nullopt;
     if (*quantity != MechanicalQuantity::momentum && *quantity != MechanicalQuantity::force) return name_of(*quantity);
     const std::string coordinate = coordinate_of(letter.index);
     if (coordinate.empty()) return std::nullopt;

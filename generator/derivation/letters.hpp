@@ -36,6 +36,8 @@ public:
 
     /// From now on the letter is this name, whatever it was.
     void bind(const Letter& letter, const std::string& name);
+    /// From now on it is none of mechanics' own letters: T is a tension here.
+    void leave_open(const Letter& letter) { open_.insert(letter); }
     /// The name that claims have for it; nothing if it is not known. `as_quantity`: where it stands it can only be a
     /// quantity of mechanics (∂L/∂q'), even if the scene has a length of this name.
     std::optional<std::string> name_of(const Letter& letter, bool as_quantity = false) const;
@@ -59,6 +61,7 @@ private:
 
     std::map<Letter, std::string> bound_;
     std::map<Letter, std::string> written_so_;  ///< the letters of the scene's names
+    std::set<Letter> open_;
     std::set<std::string> scene_names_, functions_, moving_, taken_;
     std::vector<std::string> coordinates_;
 };

@@ -74,7 +74,7 @@ void Marker::line(std::size_t s, std::size_t k) {
     speaks_of_small_ = speaks_of_small_ || statement_->relations[k] == Relation::approximately;
     try {
         judge(line, lhs, rhs, statement_->relations[k]);
-    } catch (const NotUnderstood& not_understood) {
+    } catch (const NoMeaning& not_understood) {
         line.status = LineStatus::not_understood;
         line.reason = not_understood.reason;
     }
@@ -97,7 +97,11 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     if (is_virtual_work(lhs)) return judge_work(line, rhs);
     if (judge_vector(line, lhs, rhs)) return;
     if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs)) return;
-    judge_pair(line, lhs, rhs);
+    try {
+        judge_pair(line, lhs, rhs);
+    } catch (const NoMeaning& reason) {
+        if (!reason.unknown || !find_meaning(line, lhs, rhs, *reason.unknown)) throw;
+    }
 }
 
 Marker::Sides Marker::sides_of(const Math& lhs, const Math& rhs) const {
@@ -253,6 +257,7 @@ bool Marker::follows(MarkedLine& line, const Sides& sides) {
     const MotionRow own = rows.row(own_residual(sides));
     line.follows_from = rows.is_identity(own) == true ? own_.wrong_in(sides.own_names())
                                                       : own_.explained_by(own, speaks_of_small_);
+    if (!line.follows_from) line.follows_from = own_.explained_by_relations(own.residual);
     if (!line.follows_from) return false;
     line.status = LineStatus::follows;
     line.reason = say("it follows from line {}", lines[*line.follows_from].line);
@@ -270,7 +275,7 @@ void Marker::judge_work(MarkedLine& line, const Math& rhs) {
         const ClaimText text = claim_text(rhs, {.letters = letters_, .displacements = &displacements});
         if (i < 0) {
             if (!truth_.value(text.text).is_zero())
-                throw NotUnderstood{.reason = say("each term of a virtual work holds one virtual displacement")};
+                throw NoMeaning{.reason = say("each term of a virtual work holds one virtual displacement")};
             continue;
         }
         texts.push_back(text.text);
@@ -323,9 +328,11 @@ void Marker::take_in(std::size_t s, std::size_t k) {
         const Sides both = sides_of(*sides[k], *sides[k + 1]);
         MotionRow own = system_.rows().row(own_residual(both));
         if (system_.rows().is_identity(own) == true) return;
+        const Mechanism& m = system_.mechanism();
+        if (is_wrong(line.status) && !m.z->depends(own.residual, m.qddot)) own_.add_relation(own.residual, lines.size() - 1);
         own_.add_equation(std::move(own), lines.size() - 1, is_wrong(line.status),
                           line.status == LineStatus::right_near || speaks_of_small_);
-    } catch (const NotUnderstood&) {  // a side that has no meaning of its own states nothing
+    } catch (const NoMeaning&) {  // a side that has no meaning of its own states nothing
     }
 }
 

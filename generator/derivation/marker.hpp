@@ -49,7 +49,7 @@ public:
 private:
     /// A line while it is judged.
     struct Sides {
-        const Math *lhs, *rhs;
+        const Math *lhs = nullptr, *rhs = nullptr;
         ClaimText left, right;          ///< as the system has it
         ClaimText own_left, own_right;  ///< with the derivation's own steps
         std::set<std::string> own_names() const;
@@ -75,6 +75,9 @@ private:
     bool is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text);
     bool bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    bool bind_to_part(const Letter& letter);
+    bool find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    bool determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     std::string bind(const Letter& letter, const GiNaC::ex& truth);
 
     bool judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs);

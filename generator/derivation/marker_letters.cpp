@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "base/language/say.hpp"
 #include "derivation/bindings.hpp"
+#include "derivation/parts.hpp"
 
 namespace alembert {
 
@@ -84,10 +86,26 @@ std::string Marker::bind(const Letter& letter, const ex& truth) {
     return name;
 }
 
+/// T of one body, V of gravity: what the scene has a part for.
+bool Marker::bind_to_part(const Letter& letter) {
+    const std::optional<ex> part = part_named(letter, letters_, system_);
+    if (!part) return false;
+    const std::string name = bind(letter, *part);
+    const bool of_force = letter.base == "Q" && !letter.raised.empty() && letter.raised != "*";
+    const std::string whole = letter.base == "T" || letter.base == "K"   ? letters_.name_of(MechanicalQuantity::kinetic)
+                              : letter.base == "V" || letter.base == "U" ? letters_.name_of(MechanicalQuantity::potential)
+                              : of_force ? "Q_" + letters_.coordinate_of(letter.index)
+                                         : "";
+    if (!whole.empty()) own_.count_as_part(name, whole, *part);
+    own_.state(name, *part, {});
+    return true;
+}
+
 /// A letter alone on one side may be introduced here. Returns whether it was; then the line is judged.
 bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const Lone lone = lone_letter(lhs);
     if (lone.letter == nullptr || letters_.name_of(lone.letter->letter)) return false;
+    if (bind_to_part(lone.letter->letter)) return false;
     const ClaimText text = claim_text(rhs, {.letters = letters_});
     if (lone.power == 1 && is_constant_of_motion(line, *lone.letter, text)) return true;
     if (bind_to_scene(line, *lone.letter, rhs, lone.power)) return true;
@@ -144,6 +162,72 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         return true;
     }
     return tell(*named, false);
+}
+
+/// A letter that stands among others: one of the scene's places and speeds with which the line is right, or a force that the
+/// line determines.
+bool Marker::find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    if (bind_to_part(letter)) {
+        judge(line, lhs, rhs, Relation::equal);
+        return true;
+    }
+    const Letters before = letters_;
+    for (const Binding& binding : bindings_of(letter, system_.scene())) {
+        const std::string name = bind(letter, truth_.value(binding.text));
+        try {
+            const Sides sides = sides_of(lhs, rhs);
+            const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+            if (system_.rows().holds(row) == true) {
+                own_.state(name, known_[name], {});
+                judge_pair(line, lhs, rhs);
+                return true;
+            }
+        } catch (const NoMeaning&) {  // another letter is not known either
+        }
+        known_.erase(name);
+        letters_ = before;
+    }
+    return determine(line, lhs, rhs, letter);
+}
+
+/// M x'' = F + S sin θ determines S. What follows must agree with it.
+bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    const Letters before = letters_;
+    const std::string name = bind(letter, 0);
+    const auto give_up = [&] {
+        known_.erase(name);
+        letters_ = before;
+        return false;
+    };
+    Sides sides;
+    try {
+        sides = sides_of(lhs, rhs);
+    } catch (const NoMeaning&) {
+        return give_up();
+    }
+    const Mechanism& m = system_.mechanism();
+    const auto solved = [&](const std::function<ex(const ex&)>& residual) -> std::optional<ex> {
+        const ex none = residual(0), slope = residual(1) - none;
+        if (!system_.rows().is_identity(system_.rows().row(residual(2) - none - 2 * slope)).value_or(false)) return std::nullopt;
+        if (m.z->name(slope).is_zero() || m.z->depends(slope, m.qddot)) return std::nullopt;
+        return m.z->name(-none / slope);
+    };
+    const auto truth = solved([&](const ex& value) {
+        truth_.know(name, value);
+        return truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    });
+    if (!truth) return give_up();
+    const auto own = solved([&](const ex& value) {
+        own_.state(name, value, {});
+        return own_residual(sides);
+    });
+    known_[name] = *truth;
+    truth_.know(name, *truth);
+    own_.state(name, own.value_or(*truth), own_.wrong_in(sides.own_names()));
+    line.status = LineStatus::right;
+    line.claim = sides.left.text + " = " + sides.right.text;
+    line.reason = say("it determines {}", name);
+    return true;
 }
 
 void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
@@ -273,7 +357,7 @@ bool Marker::judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (!left || !right) {
         const bool may_bind = open.kind == Kind::letter && open.dots == 0 && !letters_.name_of(open.letter);
         if (!may_bind)
-            throw NotUnderstood{.reason = say("a vector stands on one side only"), .offset = open.offset, .length = open.length};
+            throw NoMeaning{.reason = say("a vector stands on one side only"), .offset = open.offset, .length = open.length};
         is_defined = bind_vector(open, left ? *left : *right);
         left = components(lhs);
         right = components(rhs);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "model/formalism/elements.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -28,14 +30,30 @@ OwnWorld::Stated OwnWorld::stated_or(const std::string& name, const Stated& othe
     return found == stated_.end() ? otherwise : found->second;
 }
 
+void OwnWorld::count_as_part(const std::string& name, const std::string& whole, const ex& truth) {
+    parts_[name] = {whole, truth};
+}
+
+OwnWorld::Stated OwnWorld::with_parts(const std::string& whole, const ex& truth) const {
+    Stated result{truth, {}};
+    for (const auto& [name, part] : parts_) {
+        const auto stated = stated_.find(name);
+        if (part.whole != whole || stated == stated_.end() || !stated->second.wrong) continue;
+        result.value += stated->second.value - part.truth;
+        result.wrong = later(result.wrong, stated->second.wrong);
+    }
+    return result;
+}
+
 void OwnWorld::refresh() {
     const Mechanism& m = system_.mechanism();
-    laws_.reset();
+    laws_[0].reset(), laws_[1].reset();
     const std::string names[] = {letters_.name_of(MechanicalQuantity::kinetic), letters_.name_of(MechanicalQuantity::potential),
                                  letters_.name_of(MechanicalQuantity::lagrangian), letters_.name_of(MechanicalQuantity::energy),
                                  letters_.name_of(MechanicalQuantity::hamiltonian)};
     const bool has_parts = !m.given_lagrangian;
-    const Stated T = stated_or(names[0], {m.kinetic_energy(), {}}), V = stated_or(names[1], {m.potential_energy(), {}});
+    const Stated T = stated_or(names[0], with_parts(names[0], m.kinetic_energy())),
+                 V = stated_or(names[1], with_parts(names[1], m.potential_energy()));
     const bool apart = has_parts || (stated_.contains(names[0]) && stated_.contains(names[1]));
     const Stated L = stated_or(
         names[2], apart ? Stated{m.z->name(T.value - V.value), later(T.wrong, V.wrong)} : Stated{m.lagrangian(), {}});
@@ -57,7 +75,7 @@ void OwnWorld::refresh() {
     const std::vector<ex> forces = system_.forces(all_forces_);
     for (int i = 0; i < m.size(); ++i) {
         const std::string name = "Q_" + m.q[i].get_name();
-        if (!letters_.is_of_scene(name)) know(name, stated_or(name, {forces[i], {}}));
+        if (!letters_.is_of_scene(name)) know(name, stated_or(name, with_parts(name, forces[i])));
     }
     for (const auto& [name, value] : stated_)
         if (!known_.contains(name)) know(name, value);
@@ -80,7 +98,7 @@ void OwnWorld::state_step(const std::string& text, const ex& value, std::optiona
     if (is_new) place->second = letters_.free_name(fmt::format("step_{}", steps_.size()));
     know(place->second, {system_.mechanism().z->name(value), wrong});
     stated_[place->second] = known_[place->second];
-    laws_.reset();
+    laws_[0].reset(), laws_[1].reset();
 }
 
 std::optional<std::size_t> OwnWorld::wrong_in(const std::set<std::string>& names) const {
@@ -106,7 +124,7 @@ std::optional<OwnWorld::Stated> OwnWorld::step(const std::string& text) const {
 }
 
 // d/dt ∂L/∂q' − ∂L/∂q = Q + Σ λ ∂f/∂q, each part as far as the derivation has written it out.
-OwnWorld::Law OwnWorld::law_of(int i) {
+OwnWorld::Law OwnWorld::law_of(int i, bool with_reactions) {
     const Mechanism& m = system_.mechanism();
     const std::string q = m.q[i].get_name(), p = "p_" + q;
     const std::string T = letters_.name_of(MechanicalQuantity::kinetic), V = letters_.name_of(MechanicalQuantity::potential),
@@ -141,20 +159,42 @@ OwnWorld::Law OwnWorld::law_of(int i) {
         }
     }
     Stated force{system_.forces(false)[i], {}};
-    if (stated_.contains("Q_" + q)) {
-        force = stated_.at("Q_" + q);
+    if (const auto known = known_.find("Q_" + q); known != known_.end() && known->second.wrong) {
+        force = known->second;
         if (all_forces_) force.value += slope(V, m.q[i]).value;
     }
-    const ex residual = rate->value - along->value - force.value - system_.reaction(i);
+    const ex reaction = with_reactions ? system_.reaction(i) : ex(0);
+    const ex residual = rate->value - along->value - force.value - reaction;
     return {system_.rows().row(residual), later(later(rate->wrong, along->wrong), force.wrong)};
 }
 
-const std::vector<OwnWorld::Law>& OwnWorld::laws() {
-    if (!laws_) {
-        laws_.emplace();
-        for (int i = 0; i < system_.mechanism().size(); ++i) laws_->push_back(law_of(i));
+const std::vector<OwnWorld::Law>& OwnWorld::laws(bool with_reactions) {
+    std::optional<std::vector<Law>>& made = laws_[with_reactions ? 1 : 0];
+    if (!made) {
+        made.emplace();
+        for (int i = 0; i < system_.mechanism().size(); ++i) made->push_back(law_of(i, with_reactions));
     }
-    return *laws_;
+    return *made;
+}
+
+void OwnWorld::add_relation(const ex& residual, std::size_t line) {
+    const Mechanism& m = system_.mechanism();
+    const std::vector<ex> slopes = m.z->pull_back({{residual, 1}}, m.qdot);
+    for (std::size_t i = m.q.size(); i-- > 0;) {
+        if (slopes[i].is_zero() || m.z->depends(slopes[i], m.qdot)) continue;
+        const ex rest = m.z->name(residual - slopes[i] * m.qdot[i]);
+        relations_.push_back({{{m.qdot[i], m.z->name(-rest / slopes[i])}}, line});
+        return;
+    }
+}
+
+std::optional<std::size_t> OwnWorld::explained_by_relations(const ex& residual) {
+    ex value = residual;
+    for (auto relation = relations_.rbegin(); relation != relations_.rend(); ++relation) {
+        value = substitute(*system_.mechanism().z, {value}, relation->rate)[0];
+        if (system_.rows().is_identity(system_.rows().row(value)) == true) return relation->line;
+    }
+    return std::nullopt;
 }
 
 std::vector<const OwnWorld::OwnEquation*> OwnWorld::consistent(bool near) const {
@@ -177,8 +217,12 @@ std::optional<std::size_t> OwnWorld::explained_by(const MotionRow& row, bool nea
         if (equation->is_wrong && (near || !equation->is_near) && rows.follows(row, {&equation->row})) return equation->line;
     std::vector<const MotionRow*> given;
     std::optional<std::size_t> wrong;
-    for (const Law& law : laws()) given.push_back(&law.row), wrong = later(wrong, law.wrong);
-    if (wrong && rows.follows(row, given)) return wrong;
+    for (const bool with_reactions : {true, false}) {
+        given.clear();
+        wrong.reset();
+        for (const Law& law : laws(with_reactions)) given.push_back(&law.row), wrong = later(wrong, law.wrong);
+        if (wrong && rows.follows(row, given)) return wrong;
+    }
     given.clear();
     wrong.reset();
     for (const OwnEquation* equation : consistent(near)) {
@@ -192,7 +236,7 @@ bool OwnWorld::founds(const MotionRow& row) {
     MotionRows& rows = system_.rows();
     std::vector<const MotionRow*> given;
     bool right = true;
-    for (const Law& law : laws()) given.push_back(&law.row), right = right && !law.wrong;
+    for (const Law& law : laws(true)) given.push_back(&law.row), right = right && !law.wrong;
     if (right || rows.follows(row, given)) return true;
     given.clear();
     for (const OwnEquation& equation : equations_)

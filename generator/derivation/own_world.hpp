@@ -25,10 +25,12 @@ class OwnWorld {
 public:
     OwnWorld(DerivedSystem& system, const Letters& letters);
 
-    /// Throws NotUnderstood.
+    /// Throws NoMeaning.
     GiNaC::ex value(const std::string& text) { return world_.value(text); }
     /// The name has this value from now on. `wrong`: the line from which a wrong value comes.
     void state(const std::string& name, const GiNaC::ex& value, std::optional<std::size_t> wrong);
+    /// The name is a part of the sum `whole`, "T_1" of "T": what it is said to be counts in the whole, too.
+    void count_as_part(const std::string& name, const std::string& whole, const GiNaC::ex& truth);
     /// The same of an expression that is no name, by its text: "diff(L,theta')".
     void state_step(const std::string& text, const GiNaC::ex& value, std::optional<std::size_t> wrong);
     const std::map<std::string, std::string>& steps() const { return steps_; }
@@ -39,6 +41,11 @@ public:
     std::map<std::string, GiNaC::ex> values() const;
     /// An equation of motion of the derivation's own.
     void add_equation(MotionRow row, std::size_t line, bool is_wrong, bool is_near);
+
+    /// A relation between coordinates and rates that is wrong, solved for one of the rates.
+    void add_relation(const GiNaC::ex& residual, std::size_t line);
+    /// The latest wrong relation without which `residual` would not vanish; nothing if it does not vanish with them.
+    std::optional<std::size_t> explained_by_relations(const GiNaC::ex& residual);
 
     /// The wrong line that explains a row: Lagrange's equations with the derivation's own quantities give it, or its own
     /// equations do. `near`: whether equations near an equilibrium count.
@@ -66,8 +73,9 @@ private:
     std::optional<Stated> step(const std::string& text) const;
     void refresh();
     void know(const std::string& name, const Stated& value);
-    Law law_of(int coordinate);
-    const std::vector<Law>& laws();
+    Law law_of(int coordinate, bool with_reactions);
+    /// With the reactions of the constraints, and as if the coordinates were independent.
+    const std::vector<Law>& laws(bool with_reactions);
     /// The latest equations that agree with each other.
     std::vector<const OwnEquation*> consistent(bool near) const;
 
@@ -77,7 +85,19 @@ private:
     std::map<std::string, Stated> stated_, known_;
     std::map<std::string, std::string> steps_;
     std::vector<OwnEquation> equations_;
-    std::optional<std::vector<Law>> laws_;
+    std::optional<std::vector<Law>> laws_[2];
+    struct PartOf {
+        std::string whole;
+        GiNaC::ex truth;
+    };
+    std::map<std::string, PartOf> parts_;
+    /// The value of a sum with its parts as they are stated.
+    Stated with_parts(const std::string& whole, const GiNaC::ex& truth) const;
+    struct Relation {
+        GiNaC::exmap rate;
+        std::size_t line;
+    };
+    std::vector<Relation> relations_;
     bool all_forces_ = false;
 };
 

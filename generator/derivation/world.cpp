@@ -9,13 +9,13 @@ namespace alembert {
 GiNaC::ex World::value(const std::string& text) {
     std::vector<Diagnostic> mistakes;
     const Expression expression = parse_expression(text, {}, mistakes);
-    if (!mistakes.empty()) throw NotUnderstood{.reason = mistakes[0].message};
+    if (!mistakes.empty()) throw NoMeaning{.reason = mistakes[0].message};
     try {
         return m_.z->name(formulas_.value(expression));
     } catch (const SceneMistake& mistake) {
-        throw NotUnderstood{.reason = mistake.diagnostic.message};
+        throw NoMeaning{.reason = mistake.diagnostic.message};
     } catch (const std::exception&) {
-        throw NotUnderstood{.reason = say("it has no value: it names something else, or divides by zero")};
+        throw NoMeaning{.reason = say("it has no value: it names something else, or divides by zero")};
     }
 }
 

@@ -19,7 +19,7 @@ public:
         : m_(mechanism), formulas_(scene, mechanism, std::move(sheets)) {}
 
     void know(const std::string& name, const GiNaC::ex& value) { formulas_.know(name, value); }
-    /// Throws NotUnderstood for a text that has no value here.
+    /// Throws NoMeaning for a text that has no value here.
     GiNaC::ex value(const std::string& text);
 
 private:
