@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <sstream>
 
 #include "alembert/base/error.hpp"
 #include "base/archive/file_form.hpp"
@@ -14,6 +15,7 @@
 #include "commands/terminal.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "derivation/scene_from.hpp"
 #include "present/report/check.hpp"
 #include "present/report/marked.hpp"
 #include "present/report/marked_page.hpp"
@@ -29,6 +31,7 @@ struct CheckOptions : SceneOptions {
     bool complete = false;  ///< whether the right claims must determine the motion
     std::vector<std::string> letters;
     std::string page, csv;
+    bool drafts = false;  ///< whether `scene` is a derivation from which a scene is drafted
 };
 
 int exit_code(const Checked& checked, bool must_be_complete) {
@@ -58,10 +61,8 @@ int exit_code(const Gradebook& book) {
     return has_problem ? 3 : is_open ? 2 : 0;
 }
 
-/// As the scene has them, and over these --letters.
-MarkOptions mark_options(const CheckOptions& options, const Scene& scene) {
+MarkOptions mark_options(const CheckOptions& options) {
     MarkOptions result{.by = options.by};
-    for (const WrittenLetter& letter : scene.letters) result.letters[letter.written.text] = letter.name.text;
     for (const std::string& given : options.letters) {
         const std::size_t equals = given.rfind('=');
         if (equals == 0 || equals == std::string::npos || equals + 1 == given.size())
@@ -111,7 +112,7 @@ void write_book(const Gradebook& book, const CheckOptions& options, const Scene&
 
 int run_folder(const Scene& scene, const CheckOptions& options) {
     const Gradebook book =
-        grade(scene, derivations_in(options.claims), mark_options(options, scene), !options.page.empty());
+        grade(scene, derivations_in(options.claims), mark_options(options), !options.page.empty());
     write_book(book, options, scene);
     if (options.json)
         show(as_json(book));
@@ -122,7 +123,7 @@ int run_folder(const Scene& scene, const CheckOptions& options) {
 
 int run_derivation(const Scene& scene, const CheckOptions& options, std::string text) {
     const std::string name = options.claims == "-" ? say("standard input") : options.claims;
-    const Marked marked = mark(scene, read_derivation(std::move(text), name), mark_options(options, scene));
+    const Marked marked = mark(scene, read_derivation(std::move(text), name), mark_options(options));
     if (!options.page.empty())
         write_file(options.page, as_html(marked, {.title = scene.title, .version = ALEMBERT_VERSION}),
                    {options.scene, options.claims});
@@ -139,9 +140,34 @@ std::string text_of_input() {
     return {std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
 }
 
+/// The scene, and what its derivation is worth by it, in comments: the whole can be kept as a scene.
+int run_draft(const CheckOptions& options) {
+    if (!options.claims.empty())
+        throw ModelError(say("--scene-from drafts the scene from the derivation itself; name this file alone"));
+    std::string text = options.scene == "-" ? text_of_input() : text_of_file(options.scene);
+    Written written = read_derivation(std::move(text), options.scene);
+    const DraftedScene drafted = scene_from(written);
+    const Scene scene = parse_scene(drafted.text, say("the scene drafted from {}", options.scene));
+    const Marked marked = mark(scene, std::move(written), mark_options(options));
+    if (!options.page.empty())
+        write_file(options.page, as_html(marked, {.title = scene.title, .version = ALEMBERT_VERSION}), {options.scene});
+    if (options.json) {
+        Json json = as_json(marked);
+        json["scene"] = drafted.text;
+        json["assumed"] = drafted.assumed;
+        show(json);
+        return exit_code(marked, options.complete);
+    }
+    show(drafted.text + "\n");
+    std::istringstream report(as_text(marked, ink_for(STDOUT_FILENO), columns_of(STDOUT_FILENO).value_or(0)));
+    for (std::string line; std::getline(report, line);) show((line.empty() ? "#" : "# " + line) + "\n");
+    return exit_code(marked, options.complete);
+}
+
 int run(const CheckOptions& options) {
     check_output(options.page, FileForm::page, {options.scene, options.claims});
     check_output(options.csv, FileForm::csv, {options.scene, options.claims});
+    if (options.drafts) return run_draft(options);
     Scene scene = scene_of(options.scene);
     if (options.claims.empty()) {
         if (!options.page.empty() || !options.csv.empty() || !options.letters.empty())
@@ -174,6 +200,9 @@ void add_check(CLI::App& app, Chosen& chosen) {
             verb.add_option("--letters", options.letters,
                             say("for which name a letter of the derivation stands, as in \"\\\\ell=l\""))
                 .type_name(values::assignment);
+            verb.add_flag("--scene-from", options.drafts,
+                          say("SCENE is a derivation; a scene is drafted from its letters and energies, and its lines "
+                              "are held against them"));
             verb.add_option("--html", options.page, say("the marked derivation, or derivations, as a page"))
                 .type_name(values::file);
             verb.add_option("--csv", options.csv, say("a row for each derivation, as a table"))

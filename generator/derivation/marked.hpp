@@ -64,7 +64,7 @@ struct Marked {
 
 struct MarkOptions {
     std::string by = {};                             ///< a formalism; if empty, the one that a teacher would choose
-    std::map<std::string, std::string> letters = {}; ///< as written → in the scene, over what is found
+    std::map<std::string, std::string> letters = {}; ///< as written → in the scene, over [letters] and what is found
 };
 
 class DerivedSystem;

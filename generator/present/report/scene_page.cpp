@@ -72,6 +72,11 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
     add_mechanism(parts, all);
     add_derivation(parts, all);
     add_claims(parts, all);
+    if (!options.derivation.empty()) {
+        parts.section("hand-derivation", say("Derivation by hand"));
+        parts.body += options.derivation;
+        parts.end();
+    }
     add_agreement(parts, all);
     add_constraints(parts, all);
     add_stability(parts, all);

@@ -15,6 +15,7 @@ namespace alembert {
 struct ScenePageOptions {
     std::string version = {};
     std::string by = {};  ///< the requested formalism
+    std::string derivation = {};  ///< a marked derivation in HTML (marked_page.hpp); empty for none
 };
 
 std::string as_html(const Overview& overview, const ScenePageOptions& options = {});
