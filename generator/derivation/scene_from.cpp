@@ -165,7 +165,7 @@ private:
     std::string text_of(const Math& math) const {
         try {
             return claim_text(math, {.letters = letters_}).text;
-        } catch (const NotUnderstood& problem) {
+        } catch (const NoMeaning& problem) {
             throw ModelError(say("{}:{}: no scene can be drafted: {}", written_.file, written_.line(math.offset),
                                  problem.reason));
         }
