@@ -19,10 +19,10 @@ namespace alembert {
 /// A letter as written. Two that look alike are equal, whatever notation they were written in: `\theta_{1}`, `θ₁`
 /// and `theta1` all have the base "theta" and the index "1"; `\ell` has the base "ell", `\varphi` "varphi".
 struct Letter {
-    std::string base;    ///< ASCII: the letter, the word in \mathrm{…}, or the name of the sign without backslash
-    std::string index;   ///< of what stands below: "1", "1,2", "C", "cm", "theta_1"; empty if nothing does
-    std::string raised;  ///< of what stands above and is no power: "*", "(1)", "C", "particle M1"; empty likewise
-    std::string accent;  ///< "vec", "hat", "bar", "tilde", "mathbf", "mathcal", "prime" …; empty if plain
+    std::string base{};    ///< ASCII: the letter, the word in \mathrm{…}, or the name of the sign without backslash
+    std::string index{};   ///< of what stands below: "1", "1,2", "C", "cm", "theta_1"; empty if nothing does
+    std::string raised{};  ///< of what stands above and is no power: "*", "(1)", "C", "particle M1"; empty likewise
+    std::string accent{};  ///< "vec", "hat", "bar", "tilde", "mathbf", "mathcal", "prime" …; empty if plain
     auto operator<=>(const Letter&) const = default;
 };
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Finds the formulas of a document and the words between them.
+
+#include "derivation/written/read.hpp"
+#include "derivation/written/tokens.hpp"
+
+namespace alembert {
+
+/// How formulas are marked in a document.
+enum class Markup { tex, markdown };
+
+/// Reads all of a document once, from its beginning to its end.
+class DocumentReader {
+public:
+    DocumentReader(const std::string& text, Markup markup);
+
+    /// Throws BeyondLimit.
+    std::vector<Statement> statements();
+
+private:
+    const std::string& text_;
+    const Markup markup_;
+    const bool has_marks_;  // $ and the like: lines without them are words first
+    TokenContext context_;
+    std::vector<Statement> list_;
+    std::size_t at_ = 0, end_ = 0;
+    std::string words_;
+    bool is_first_order_ = false;
+    bool starts_paragraph_ = false;
+    bool is_line_start_ = true;
+    std::size_t no_dollar_before_ = 0;  // up to here a $ has no partner
+    std::vector<std::string> unclosed_;
+
+    bool starts_with(std::string_view what) const { return text_.compare(at_, what.size(), what) == 0; }
+    std::size_t line_end(std::size_t from) const;
+    std::size_t paragraph_end(std::size_t from) const;
+    std::string_view slice(std::size_t begin, std::size_t end) const {
+        return std::string_view(text_).substr(begin, end - begin);
+    }
+
+    void scan(std::size_t begin, std::size_t end, Markup markup);
+    void next(Markup markup);
+    void say_words(std::string_view text);
+    void end_paragraph();
+    void dollar();
+    bool enclosed(std::string_view open, std::string_view close, bool is_displayed);
+    void backslash(Markup markup);
+    void environment();
+    void command_among_words();
+    void formula(std::size_t begin, std::size_t end, Notation notation, bool is_displayed, bool joins_rows = false);
+    void add(std::vector<Statement> found, bool is_displayed);
+    void refuse(std::size_t begin, std::size_t end, std::string reason);
+    std::size_t end_of_environment(const std::string& name, std::size_t from) const;
+
+    // lines.cpp
+    bool line(Markup markup);
+    bool fence();
+    bool code();
+    bool bare_display();
+    bool plain_line(std::size_t begin, std::size_t end);
+    bool bare_parentheses();
+    std::vector<Statement> plain_statements(std::size_t begin, std::size_t end);
+};
+
+/// Whether text has $…$, \[, \(, a mathematical environment or \frac.
+bool has_marks_of_latex(std::string_view text);
+
+}  // namespace alembert
