@@ -152,7 +152,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_given_value(line, sides) || holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
+    if (is_given_value(line, sides) || is_assumption(line, sides) || holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
         holds_near(line, sides, row.residual) || follows(line, sides))
         return;
     line.status = LineStatus::mistake;
@@ -169,6 +169,22 @@ bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
     if (!letters_.is_of_scene(name)) return false;
     line.status = LineStatus::not_about_scene;
     line.reason = say("a value of {}; lines are judged for all values", name);
+    return true;
+}
+
+/// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
+bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
+    const auto is_plain = [&](const Math& math) {
+        const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
+        return inner.kind == Kind::number || inner.kind == Kind::letter;
+    };
+    if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
+    const auto moves = [&](const ClaimText& side) {
+        return std::any_of(side.names.begin(), side.names.end(), [&](const std::string& name) { return letters_.moves(name); });
+    };
+    if (!moves(sides.left) && !moves(sides.right)) return false;
+    line.status = LineStatus::not_about_scene;
+    line.reason = say("it describes a state; lines are judged for all motions");
     return true;
 }
 
@@ -205,10 +221,10 @@ void Marker::use_all_forces(bool all) {
 
 /// A potential has any zero, and the derivative of a function of coordinates and time changes nothing in a Lagrangian.
 bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residual) {
-    const auto speaks_of = [&](std::initializer_list<MechanicalQuantity> list) {
+    const auto speaks_of = [&](std::initializer_list<MechanicalQuantity> list) {  // as what is said to be equal
         return std::any_of(list.begin(), list.end(), [&](MechanicalQuantity quantity) {
             const std::string name = letters_.name_of(quantity);
-            return sides.left.names.contains(name) || sides.right.names.contains(name);
+            return sides.left.text == name || sides.right.text == name;
         });
     };
     const Mechanism& m = system_.mechanism();
@@ -336,6 +352,16 @@ void Marker::take_in(std::size_t s, std::size_t k) {
     }
 }
 
+/// L = T − V: the law itself, which states no value.
+bool Marker::repeats_law(const Math& value) const {
+    std::map<Letter, int> letters;
+    collect_letters(value, letters);
+    return !letters.empty() && std::all_of(letters.begin(), letters.end(), [&](const auto& item) {
+        const auto name = letters_.name_of(item.first);
+        return name && quantity_of(item.first) && !letters_.is_of_scene(*name);
+    });
+}
+
 /// Records what a lone quantity, or a derivative of one, has been said to be.
 void Marker::take_in_as(const Math& what, const Math& value) {
     const bool is_name = (what.kind == Kind::letter && what.dots == 0) || what.kind == Kind::applied;
@@ -344,6 +370,7 @@ void Marker::take_in_as(const Math& what, const Math& value) {
     if (!is_name && !is_step) return;
     const ClaimText name = claim_text(what, {.letters = letters_});
     if (is_name && !known_.contains(name.text)) return;
+    if (is_name && quantity_of(what.letter) && repeats_law(value)) return;
     if (what.kind == Kind::letter && is_step && letters_.is_of_scene(*letters_.name_of(what.letter))) return;
     const ClaimText text = claim_text(value, {.letters = letters_, .steps = &own_.steps()});
     if (text.names.contains(name.text)) return;
@@ -362,6 +389,8 @@ void Marker::take_in_as(const Math& what, const Math& value) {
         own_.state(name.text, stated, wrong);
     else
         own_.state_step(name.text, stated, wrong);
+    if (what.kind == Kind::rate && what.dots == 1)
+        own_.state_rate(own_.value(claim_text(*what.args[0], {.letters = letters_, .steps = &own_.steps()}).text), stated, wrong);
 }
 
 }  // namespace alembert

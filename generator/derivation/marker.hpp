@@ -68,6 +68,7 @@ private:
     bool holds_with_all_forces(MarkedLine& line, const Sides& sides);
     bool holds_up_to(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool is_given_value(MarkedLine& line, const Sides& sides);
+    bool is_assumption(MarkedLine& line, const Sides& sides) const;
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
     bool follows(MarkedLine& line, const Sides& sides);
 
@@ -85,6 +86,7 @@ private:
     bool bind_vector(const Math& letter, const Components& value);
 
     void take_in(std::size_t statement, std::size_t side);
+    bool repeats_law(const Math& value) const;
     void take_in_as(const Math& what, const Math& value);
     void use_all_forces(bool all);
     bool speaks_of_law_in_general(const Math& math) const;

@@ -80,8 +80,10 @@ std::optional<bool> MotionRows::holds(const MotionRow& row) const {
                        [](const auto& values) { return !values || values->back().is_zero(); });
 }
 
-std::vector<std::vector<Prime>> MotionRows::matrix(std::size_t state, const std::vector<const MotionRow*>& rows) const {
-    std::vector<std::vector<Prime>> result = bound_[state];
+std::vector<std::vector<Prime>> MotionRows::matrix(std::size_t state, const std::vector<const MotionRow*>& rows,
+                                                    bool bound) const {
+    std::vector<std::vector<Prime>> result;
+    if (bound) result = bound_[state];
     for (const MotionRow* row : rows) result.push_back(*row->at[state]);
     return result;
 }
@@ -92,14 +94,14 @@ std::optional<bool> MotionRows::is_identity(const MotionRow& row) const {
     return follows(row, {});
 }
 
-bool MotionRows::follows(const MotionRow& row, const std::vector<const MotionRow*>& of) const {
+bool MotionRows::follows(const MotionRow& row, const std::vector<const MotionRow*>& of, bool bound) const {
     if (!row.linear || !row.is_known()) return false;
     for (const MotionRow* other : of)
         if (!other->linear) return false;
     bool seen = false;
     for (std::size_t s = 0; s < points_.size(); ++s) {
         if (!row.at[s] || std::any_of(of.begin(), of.end(), [&](const MotionRow* other) { return !other->at[s]; })) continue;
-        std::vector<std::vector<Prime>> rows = matrix(s, of);
+        std::vector<std::vector<Prime>> rows = matrix(s, of, bound);
         const int before = rank(rows);
         rows.push_back(*row.at[s]);
         if (rank(rows) > before) return false;
@@ -113,7 +115,7 @@ bool MotionRows::determine(const std::vector<const MotionRow*>& rows) const {
     for (std::size_t s = 0; s < points_.size(); ++s) {
         if (std::any_of(rows.begin(), rows.end(), [&](const MotionRow* row) { return !row->linear || !row->at[s]; }))
             continue;
-        std::vector<std::vector<Prime>> all = matrix(s, rows);
+        std::vector<std::vector<Prime>> all = matrix(s, rows, true);
         const int before = rank(all);
         for (std::size_t j = 0; j < m_.q.size(); ++j) {
             all.emplace_back(unknowns_.size() + 1, Prime(0));
@@ -125,11 +127,11 @@ bool MotionRows::determine(const std::vector<const MotionRow*>& rows) const {
     return seen;
 }
 
-bool MotionRows::agree(const std::vector<const MotionRow*>& rows) const {
+bool MotionRows::agree(const std::vector<const MotionRow*>& rows, bool bound) const {
     for (std::size_t s = 0; s < points_.size(); ++s) {
         if (std::any_of(rows.begin(), rows.end(), [&](const MotionRow* row) { return !row->linear || !row->at[s]; }))
             continue;
-        const auto all = matrix(s, rows);
+        const auto all = matrix(s, rows, bound);
         if (rank(all) > rank_of_slopes(all)) return false;
     }
     return true;

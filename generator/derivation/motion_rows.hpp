@@ -41,15 +41,15 @@ public:
     /// Nothing if it could not be evaluated anywhere.
     std::optional<bool> holds(const MotionRow& row) const;
     std::optional<bool> is_identity(const MotionRow& row) const;
-    /// False too where one of them is not linear.
-    bool follows(const MotionRow& row, const std::vector<const MotionRow*>& of) const;
+    /// False too where one of them is not linear. `bound`: whether the constraints of the system count, too.
+    bool follows(const MotionRow& row, const std::vector<const MotionRow*>& of, bool bound = true) const;
     /// Whether these and the constraints determine all accelerations.
     bool determine(const std::vector<const MotionRow*>& rows) const;
     /// Whether there are accelerations and multipliers that obey all of them.
-    bool agree(const std::vector<const MotionRow*>& rows) const;
+    bool agree(const std::vector<const MotionRow*>& rows, bool bound = true) const;
 
 private:
-    std::vector<std::vector<Prime>> matrix(std::size_t state, const std::vector<const MotionRow*>& rows) const;
+    std::vector<std::vector<Prime>> matrix(std::size_t state, const std::vector<const MotionRow*>& rows, bool bound) const;
 
     const Mechanism& m_;
     Lower lower_;

@@ -72,10 +72,14 @@ void OwnWorld::refresh() {
     }
     if (apart) know(names[3], stated_or(names[3], {m.z->name(T.value + V.value), later(T.wrong, V.wrong)}));
     know(names[4], stated_or(names[4], {m.z->name(GiNaC::add(action) - L.value), wrong}));
-    const std::vector<ex> forces = system_.forces(all_forces_);
+    const std::vector<ex> forces = system_.forces(false),
+                          slopes = apart && all_forces_ ? m.z->pull_back({{V.value, 1}}, m.q) : std::vector<ex>(m.q.size(), 0);
     for (int i = 0; i < m.size(); ++i) {
         const std::string name = "Q_" + m.q[i].get_name();
-        if (!letters_.is_of_scene(name)) know(name, stated_or(name, with_parts(name, forces[i])));
+        if (letters_.is_of_scene(name)) continue;
+        Stated force = with_parts(name, m.z->name(forces[i] - slopes[i]));
+        if (all_forces_) force.wrong = later(force.wrong, V.wrong);
+        know(name, stated_or(name, force));
     }
     for (const auto& [name, value] : stated_)
         if (!known_.contains(name)) know(name, value);
@@ -99,6 +103,18 @@ void OwnWorld::state_step(const std::string& text, const ex& value, std::optiona
     know(place->second, {system_.mechanism().z->name(value), wrong});
     stated_[place->second] = known_[place->second];
     laws_[0].reset(), laws_[1].reset();
+}
+
+void OwnWorld::state_rate(const ex& of, const ex& value, std::optional<std::size_t> wrong) {
+    rates_.push_back({of, {system_.mechanism().z->name(value), wrong}});
+    laws_[0].reset(), laws_[1].reset();
+}
+
+std::optional<OwnWorld::Stated> OwnWorld::rate_of(const ex& value) const {
+    MotionRows& rows = system_.rows();
+    for (auto rate = rates_.rbegin(); rate != rates_.rend(); ++rate)
+        if (rows.is_identity(rows.row(rate->of - value)) == true) return rate->value;
+    return std::nullopt;
 }
 
 std::optional<std::size_t> OwnWorld::wrong_in(const std::set<std::string>& names) const {
@@ -147,6 +163,7 @@ OwnWorld::Law OwnWorld::law_of(int i, bool with_reactions) {
     if (!momentum) momentum = slope(L, m.qdot[i]);
     std::optional<Stated> rate =
         first({"(" + partial(L, q + "'") + ")'", "(" + partial(T, q + "'") + ")'", "(" + p + ")'", p + "'"});
+    if (!rate) rate = rate_of(momentum->value);
     if (!rate) rate = Stated{m.time_derivative({momentum->value})[0], momentum->wrong};
     std::optional<Stated> along = step(partial(L, q));
     if (!along) {
@@ -197,13 +214,13 @@ std::optional<std::size_t> OwnWorld::explained_by_relations(const ex& residual) 
     return std::nullopt;
 }
 
-std::vector<const OwnWorld::OwnEquation*> OwnWorld::consistent(bool near) const {
+std::vector<const OwnWorld::OwnEquation*> OwnWorld::consistent(bool near, bool bound) const {
     std::vector<const OwnEquation*> result;
     std::vector<const MotionRow*> rows;
     for (auto equation = equations_.rbegin(); equation != equations_.rend(); ++equation) {
         if (equation->is_near && !near) continue;
         rows.push_back(&equation->row);
-        if (system_.rows().agree(rows))
+        if (system_.rows().agree(rows, bound))
             result.push_back(&*equation);
         else
             rows.pop_back();
@@ -223,13 +240,16 @@ std::optional<std::size_t> OwnWorld::explained_by(const MotionRow& row, bool nea
         for (const Law& law : laws(with_reactions)) given.push_back(&law.row), wrong = later(wrong, law.wrong);
         if (wrong && rows.follows(row, given)) return wrong;
     }
-    given.clear();
-    wrong.reset();
-    for (const OwnEquation* equation : consistent(near)) {
-        given.push_back(&equation->row);
-        if (equation->is_wrong) wrong = later(wrong, equation->line);
+    for (const bool bound : {true, false}) {  // also where the derivation's own constraints take the place of the scene's
+        given.clear();
+        wrong.reset();
+        for (const OwnEquation* equation : consistent(near, bound)) {
+            given.push_back(&equation->row);
+            if (equation->is_wrong) wrong = later(wrong, equation->line);
+        }
+        if (wrong && rows.follows(row, given, bound)) return wrong;
     }
-    return wrong && rows.follows(row, given) ? wrong : std::nullopt;
+    return std::nullopt;
 }
 
 bool OwnWorld::founds(const MotionRow& row) {

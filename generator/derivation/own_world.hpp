@@ -33,6 +33,8 @@ public:
     void count_as_part(const std::string& name, const std::string& whole, const GiNaC::ex& truth);
     /// The same of an expression that is no name, by its text: "diff(L,theta')".
     void state_step(const std::string& text, const GiNaC::ex& value, std::optional<std::size_t> wrong);
+    /// The time derivative of a value, as the derivation has written it out.
+    void state_rate(const GiNaC::ex& of, const GiNaC::ex& value, std::optional<std::size_t> wrong);
     const std::map<std::string, std::string>& steps() const { return steps_; }
 
     /// The latest wrong line from which the value of one of these names comes.
@@ -77,7 +79,7 @@ private:
     /// With the reactions of the constraints, and as if the coordinates were independent.
     const std::vector<Law>& laws(bool with_reactions);
     /// The latest equations that agree with each other.
-    std::vector<const OwnEquation*> consistent(bool near) const;
+    std::vector<const OwnEquation*> consistent(bool near, bool bound) const;
 
     DerivedSystem& system_;
     const Letters& letters_;
@@ -93,6 +95,13 @@ private:
     std::map<std::string, PartOf> parts_;
     /// The value of a sum with its parts as they are stated.
     Stated with_parts(const std::string& whole, const GiNaC::ex& truth) const;
+    struct Rate {
+        GiNaC::ex of;
+        Stated value;
+    };
+    std::vector<Rate> rates_;
+    /// The derivative of what has this value, if it has been written out.
+    std::optional<Stated> rate_of(const GiNaC::ex& value) const;
     struct Relation {
         GiNaC::exmap rate;
         std::size_t line;
