@@ -21,7 +21,12 @@ public:
     explicit Writer(const ClaimWriting& writing) : how_(writing) {}
 
     ClaimText write(const Math& math) {
-        term(math);
+        if (how_.alone_is_quantity && math.kind == Kind::letter) {
+            letter(math, true);
+            result_.parts.push_back({0, out().size(), math.offset, math.length});
+        } else {
+            term(math);
+        }
         return std::move(result_);
     }
 

@@ -105,8 +105,16 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
 }
 
 Marker::Sides Marker::sides_of(const Math& lhs, const Math& rhs) const {
-    const ClaimWriting as_is{.letters = letters_}, own{.letters = letters_, .steps = &own_.steps()};
+    const ClaimWriting as_is = as_written(), own = as_derived();
     return {&lhs, &rhs, claim_text(lhs, as_is), claim_text(rhs, as_is), claim_text(lhs, own), claim_text(rhs, own)};
+}
+
+ClaimWriting Marker::as_written() const {
+    return {.letters = letters_, .alone_is_quantity = notes_.back().alone_is_quantity};
+}
+
+ClaimWriting Marker::as_derived() const {
+    return {.letters = letters_, .steps = &own_.steps(), .alone_is_quantity = notes_.back().alone_is_quantity};
 }
 
 ex Marker::own_residual(const Sides& sides) {
@@ -152,11 +160,26 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_given_value(line, sides) || is_assumption(line, sides) || holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
-        holds_near(line, sides, row.residual) || follows(line, sides))
+    if (is_of_quantity(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
+        holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
+        holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
         return;
     line.status = LineStatus::mistake;
     if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();
+}
+
+/// T = ½ m v² in a scene whose string pulls with T: what stands alone may be the kinetic energy.
+bool Marker::is_of_quantity(MarkedLine& line, const Sides& sides) {
+    if (notes_.back().alone_is_quantity) return false;
+    const auto differs = [&](const Math& side) {
+        if (side.kind != Kind::letter || side.dots > 0) return false;
+        const auto quantity = letters_.name_of(side.letter, true);
+        return quantity && known_.contains(*quantity) && quantity != letters_.name_of(side.letter);
+    };
+    if (!differs(*sides.lhs) && !differs(*sides.rhs)) return false;
+    notes_.back().alone_is_quantity = true;
+    judge_pair(line, *sides.lhs, *sides.rhs);
+    return true;
 }
 
 /// l = 2 m: a number for a parameter of the scene says nothing about its mechanics.
@@ -204,6 +227,15 @@ bool Marker::holds_with_all_forces(MarkedLine& line, const Sides& sides) {
         return true;
     }
     use_all_forces(before);
+    return false;
+}
+
+bool Marker::follows_with_all_forces(MarkedLine& line, const Sides& sides) {
+    const std::set<std::string> names = sides.own_names();
+    if (std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("Q_"); })) return false;
+    use_all_forces(!all_forces_);
+    if (follows(line, sides)) return true;
+    use_all_forces(!all_forces_);
     return false;
 }
 
@@ -368,19 +400,25 @@ void Marker::take_in_as(const Math& what, const Math& value) {
     const bool is_step =
         what.kind == Kind::rate || what.kind == Kind::partial || (what.kind == Kind::letter && what.dots > 0);
     if (!is_name && !is_step) return;
-    const ClaimText name = claim_text(what, {.letters = letters_});
+    const ClaimText name = claim_text(what, as_written());
     if (is_name && !known_.contains(name.text)) return;
     if (is_name && quantity_of(what.letter) && repeats_law(value)) return;
     if (what.kind == Kind::letter && is_step && letters_.is_of_scene(*letters_.name_of(what.letter))) return;
-    const ClaimText text = claim_text(value, {.letters = letters_, .steps = &own_.steps()});
+    const ClaimText text = claim_text(value, as_derived());
     if (text.names.contains(name.text)) return;
     const ex stated = own_.value(text.text);
     const LineStatus status = lines.back().status;
     const bool up_to = status == LineStatus::right_up_to_constant || status == LineStatus::right_up_to_derivative ||
                        status == LineStatus::right_near;
     MotionRows& rows = system_.rows();
+    const ex truth = truth_.value(name.text);
+    const bool differs = !up_to && rows.is_identity(rows.row(stated - truth)) != true;
+    if (differs && what.kind != Kind::partial && is_step) {  // p' = Q is an equation of motion, and no step
+        const Mechanism& m = system_.mechanism();
+        if (!is_wrong(status) || m.z->depends(truth, m.qddot) != m.z->depends(stated, m.qddot)) return;
+    }
     std::optional<std::size_t> wrong;
-    if (!up_to && rows.is_identity(rows.row(stated - truth_.value(name.text))) != true) {
+    if (differs) {
         wrong = is_wrong(status) ? std::optional(lines.size() - 1) : own_.wrong_in(text.names);
         if (!wrong) wrong = own_.wrong_in({name.text});
         if (!wrong) wrong = lines.size() - 1;

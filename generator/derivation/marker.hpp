@@ -23,6 +23,7 @@ namespace alembert {
 struct LineNotes {
     LineClaim claim = {};            ///< empty where there is none
     ClaimText left = {}, right = {};
+    bool alone_is_quantity = false;  ///< as in ClaimWriting
     std::optional<MotionRow> equation = {};  ///< set if it is a right equation of motion, written out
     /// Names with the values that the derivation has stated, if some that stand in the line are wrong.
     std::map<std::string, GiNaC::ex> own = {};
@@ -61,6 +62,10 @@ private:
     void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
     void judge_work(MarkedLine& line, const Math& rhs);
     Sides sides_of(const Math& lhs, const Math& rhs) const;
+    ClaimWriting as_written() const;
+    ClaimWriting as_derived() const;
+    bool is_of_quantity(MarkedLine& line, const Sides& sides);
+    bool follows_with_all_forces(MarkedLine& line, const Sides& sides);
     GiNaC::ex own_residual(const Sides& sides);
 
     void judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row);
