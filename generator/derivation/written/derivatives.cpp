@@ -80,9 +80,11 @@ std::size_t MathParser::end_of_letter(std::size_t i) const {
             ++i;
         } else if (kind(i) == Kind::primes) {
             ++i;
-        } else if (kind(i) == Kind::power && kind(i + 1) == Kind::begin_group && kind(i + 2) == Kind::text &&
-                   partner_[i + 1] != none) {
+        } else if (kind(i) == Kind::power && kind(i + 1) == Kind::begin_group && partner_[i + 1] != none &&
+                   (kind(i + 2) == Kind::text || kind(i + 2) == Kind::times || kind(i + 2) == Kind::primes)) {
             i = partner_[i + 1] + 1;
+        } else if (kind(i) == Kind::power && kind(i + 1) == Kind::times) {
+            i += 2;
         } else if (kind(i) == Kind::open && partner_[i] == i + 2 && is_plain_letter(token(i + 1), "t")) {
             i += 3;
         } else if (kind(i) == Kind::begin_group && kind(i + 1) == Kind::open && partner_[i + 1] == i + 3 &&

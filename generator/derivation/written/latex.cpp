@@ -112,9 +112,8 @@ std::string product_in_latex(const Math& math) {
         const bool before_number = !text.empty() && one.kind == MathKind::number;
         // F(…) would be read for F times (…)
         const bool before_bracket = k > 0 && factor.starts_with("\\left(") && math.args[k - 1]->kind == MathKind::letter;
-        if (k > 0)
-            text += is_cross ? " \\times " : is_dotted || before_number || before_bracket ? " \\cdot " : " ";
-        text += factor;
+        if (k > 0) text += is_cross ? " \\times " : is_dotted || before_number ? " \\cdot " : " ";
+        text += before_bracket && !is_cross && !is_dotted ? "{" + factor + "}" : factor;
     }
     return text;
 }

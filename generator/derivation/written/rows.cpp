@@ -85,12 +85,59 @@ std::vector<WrittenToken> without_frames(std::vector<WrittenToken> tokens) {
 
 namespace {
 
+/// A row without its &.
+struct WrittenRow {
+    std::vector<WrittenToken> tokens;
+    bool begins_empty = false;   // nothing stands before the first &
+    bool is_indented = false;    // \quad
+    bool has_relation = false;
+    bool leads_to_relation = false;  // it, or a row that goes on with it, has a relation that is not its first sign
+};
+
+bool is_row_sign(RowKind kind) {
+    return kind == RowKind::plus || kind == RowKind::minus || kind == RowKind::times || kind == RowKind::divide ||
+           kind == RowKind::relation;
+}
+
+bool begins_with_sign(const WrittenRow& row) {
+    return is_row_sign(row.tokens.front().kind);
+}
+
 class RowJoiner {
 public:
     RowJoiner(const std::vector<WrittenToken>& tokens, bool joins_rows)
         : tokens_(tokens), partner_(partners(tokens)), joins_rows_(joins_rows) {}
 
     std::vector<std::vector<WrittenToken>> chains() {
+        divide();
+        for (std::size_t r = rows_.size(); r-- > 0;) {
+            WrittenRow& row = rows_[r];
+            const bool has_next = r + 1 < rows_.size() && rows_[r + 1].begins_empty && begins_with_sign(rows_[r + 1]) &&
+                                  rows_[r + 1].tokens.front().kind != RowKind::relation;
+            row.leads_to_relation = (row.has_relation && row.tokens.front().kind != RowKind::relation) ||
+                                    (has_next && rows_[r + 1].leads_to_relation);
+        }
+        std::vector<std::vector<WrittenToken>> chains;
+        bool has_relation = false;  // the chain
+        for (WrittenRow& row : rows_) {
+            const bool joins = !chains.empty() && goes_on(row, chains.back(), has_relation);
+            if (!joins) chains.emplace_back();
+            has_relation = row.has_relation || (joins && has_relation);
+            chains.back().insert(chains.back().end(), std::make_move_iterator(row.tokens.begin()),
+                                 std::make_move_iterator(row.tokens.end()));
+        }
+        return chains;
+    }
+
+private:
+    const std::vector<WrittenToken>& tokens_;
+    const std::vector<std::size_t> partner_;
+    const bool joins_rows_;
+    WrittenRow row_;
+    std::vector<WrittenRow> rows_;
+    int cells_ = 0;
+
+    void divide() {
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             const WrittenToken& token = tokens_[i];
             if (partner_[i] != no_partner && partner_[i] > i) {
@@ -100,33 +147,22 @@ public:
                 end_row();
             } else if (token.kind == RowKind::ampersand) {
                 ++cells_;
-                if (row_.empty()) begins_empty_ = true;
+                if (row_.tokens.empty()) row_.begins_empty = true;
                 // The second & of a row of `align` begins another equation, that of `eqnarray` (a &=& b) does not.
-                if (cells_ % 2 == 0 && row_has_relation_ && !ends_with_sign(row_)) row_.push_back(space(token));
+                if (cells_ % 2 == 0 && row_.has_relation && !is_row_sign(row_.tokens.back().kind)) add_space(token);
+            } else if (token.kind == RowKind::space && row_.tokens.empty()) {
+                row_.is_indented = true;
             } else {
-                row_has_relation_ |= token.kind == RowKind::relation;
-                row_.push_back(token);
+                row_.has_relation |= token.kind == RowKind::relation;
+                row_.tokens.push_back(token);
             }
         }
         end_row();
-        end_chain();
-        return std::move(chains_);
     }
 
-private:
-    const std::vector<WrittenToken>& tokens_;
-    const std::vector<std::size_t> partner_;
-    const bool joins_rows_;
-    std::vector<WrittenToken> row_, chain_;
-    std::vector<std::vector<WrittenToken>> chains_;
-    int cells_ = 0;
-    bool begins_empty_ = false;
-    bool chain_has_relation_ = false, row_has_relation_ = false;
-
-    static WrittenToken space(const WrittenToken& at) {
-        WrittenToken token = at;
-        token.kind = RowKind::space;
-        return token;
+    void add_space(const WrittenToken& at) {
+        row_.tokens.push_back(at);
+        row_.tokens.back().kind = RowKind::space;
     }
 
     /// All of a bracket; the ends of rows in it, outside of matrices, only divide the line.
@@ -135,53 +171,23 @@ private:
         for (std::size_t i = begin; i <= partner_[begin]; ++i) {
             const RowKind kind = tokens_[i].kind;
             matrices += kind == RowKind::begin_environment ? 1 : kind == RowKind::end_environment ? -1 : 0;
-            if (matrices > 0 || (kind != RowKind::row && kind != RowKind::ampersand)) row_.push_back(tokens_[i]);
+            if (matrices > 0 || (kind != RowKind::row && kind != RowKind::ampersand)) row_.tokens.push_back(tokens_[i]);
         }
-    }
-
-    static bool is_sign(const WrittenToken& token) {
-        const RowKind kind = token.kind;
-        return kind == RowKind::plus || kind == RowKind::minus || kind == RowKind::times || kind == RowKind::divide ||
-               kind == RowKind::relation;
-    }
-
-    static bool ends_with_sign(const std::vector<WrittenToken>& row) { return !row.empty() && is_sign(row.back()); }
-
-    const WrittenToken* first_of_row() const {
-        for (const WrittenToken& token : row_)
-            if (token.kind != RowKind::space) return &token;
-        return nullptr;
-    }
-
-    bool goes_on() const {
-        const WrittenToken* const first = first_of_row();
-        if (chain_.empty() || first == nullptr) return false;
-        if (joins_rows_ || first->kind == RowKind::relation || ends_with_sign(chain_)) return true;
-        const bool begins_with_sign = is_sign(*first);
-        if (begins_empty_ && (begins_with_sign || !row_has_relation_)) return first->kind != RowKind::text;
-        // a \\ + b = c
-        return begins_with_sign && (!row_has_relation_ || !chain_has_relation_);
     }
 
     void end_row() {
-        while (!row_.empty() && row_.back().kind == RowKind::space) row_.pop_back();
-        if (!row_.empty()) {
-            if (!goes_on()) end_chain();
-            const auto from = std::find_if_not(row_.begin(), row_.end(), [](const WrittenToken& token) {
-                return token.kind == RowKind::space;
-            });
-            chain_has_relation_ |= row_has_relation_;
-            chain_.insert(chain_.end(), std::make_move_iterator(from), std::make_move_iterator(row_.end()));
-        }
-        row_.clear();
+        while (!row_.tokens.empty() && row_.tokens.back().kind == RowKind::space) row_.tokens.pop_back();
+        if (!row_.tokens.empty()) rows_.push_back(std::move(row_));
+        row_ = {};
         cells_ = 0;
-        begins_empty_ = row_has_relation_ = false;
     }
 
-    void end_chain() {
-        if (!chain_.empty()) chains_.push_back(std::move(chain_));
-        chain_.clear();
-        chain_has_relation_ = false;
+    bool goes_on(const WrittenRow& row, const std::vector<WrittenToken>& chain, bool chain_has_relation) const {
+        if (joins_rows_ || row.tokens.front().kind == RowKind::relation || is_row_sign(chain.back().kind)) return true;
+        if (!begins_with_sign(row)) return false;
+        if (!chain_has_relation) return true;  // a \\ + b = c
+        if (row.begins_empty) return row.is_indented || !row.leads_to_relation;
+        return !row.has_relation;
     }
 };
 
