@@ -97,7 +97,7 @@ std::string details_of(const MarkedLine& line, const std::string& indent) {
     const auto add = [&](const std::string& label, const std::string& text) {
         if (!text.empty()) page += indent + label + text + "\n";
     };
-    add("", line.reason);
+    if (line.status != LineStatus::follows) add("", line.reason);
     if (line.status != LineStatus::mistake) return page;
     if (c.likely)
         add(say("probable slip: "), words_of(*c.likely));

@@ -43,19 +43,37 @@ std::string formula(const WrittenStatement& statement, std::size_t first, std::s
     return breakable(rows);
 }
 
-/// The right line typeset; in the scene's language where its LaTeX cannot be read.
+/// The right line typeset; as text where that cannot be read.
 std::string right_line(const MarkedLine& line) {
-    if (!line.right_latex.empty()) try {
-            const Written written = read_derivation("\\[" + line.right_latex + "\\]", "right.tex");
-            if (written.statements.size() == 1 && !written.statements[0].sides.empty())
-                return formula(written.statements[0], 0, written.statements[0].sides.size() - 1, {});
-        } catch (const SceneError&) {  // NOLINT(bugprone-empty-catch): the text is shown instead
+    const bool has_latex = !line.right_latex.empty();
+    try {
+        const Written written = has_latex ? read_derivation("\\[" + line.right_latex + "\\]", "right.tex")
+                                          : read_derivation(line.right + "\n", "right.txt");
+        if (written.statements.size() == 1 && !written.statements[0].sides.empty())
+            return formula(written.statements[0], 0, written.statements[0].sides.size() - 1, {});
+    } catch (const SceneError&) {  // NOLINT(bugprone-empty-catch): the text is shown instead
+    }
+    return "<code>" + html(has_latex ? line.right_latex : line.right) + "</code>";
+}
+
+/// Without what Markdown marks headings, lists and strong words with, and without the point of the formula before.
+std::string plain_words(const std::string& words) {
+    std::string result;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool begins = i == 0 || words[i - 1] == ' ';
+        if (begins && words[i] == '#') {
+            while (i < words.size() && words[i] == '#') ++i;
+            continue;
         }
-    return "<code>" + html(line.right) + "</code>";
+        if (words[i] == '*' || words[i] == '`') continue;
+        result += words[i];
+    }
+    const std::size_t first = result.find_first_not_of(" .,;:");
+    return first == std::string::npos ? std::string() : result.substr(first);
 }
 
 void add_facts(std::string& page, const MarkedLine& line) {
-    if (!line.reason.empty()) put(page, "<p>{}</p>\n", html(line.reason));
+    if (!line.reason.empty() && line.status != LineStatus::follows) put(page, "<p>{}</p>\n", html(line.reason));
     if (line.status != LineStatus::mistake) return;
     const CheckedClaim& c = line.checked;
     if (c.likely)
@@ -92,10 +110,23 @@ std::pair<std::size_t, std::size_t> sides_of(const WrittenStatement& statement, 
     return {std::min(nth, last), std::min(nth + 1, last)};
 }
 
-void add_statement(std::string& page, const Marked& marked, std::size_t which, std::vector<std::size_t> lines) {
+void end_words(std::string& page, std::string& words) {
+    if (!words.empty()) put(page, "<p class=\"words\">{}</p>\n", words);
+    words.clear();
+}
+
+/// `words`: the paragraph that is still open, with formulas among its words that claim nothing.
+void add_statement(std::string& page, std::string& words, const Marked& marked, std::size_t which,
+                   const std::vector<std::size_t>& lines) {
     const WrittenStatement& statement = marked.written.statements[which];
-    if (!statement.words.empty()) put(page, "<p class=\"words\">{}</p>\n", html(statement.words));
+    const std::string before = plain_words(statement.words);
+    words += (words.empty() || before.empty() ? "" : " ") + html(before);
     const std::string source = marked.written.text.substr(statement.offset, statement.length);
+    if (lines.empty() && statement.sides.size() == 1 && !statement.displayed) {
+        words += " <math>" + written_mathml(*statement.sides[0]) + "</math>";
+        return;
+    }
+    end_words(page, words);
     if (lines.empty() && !statement.sides.empty()) {
         put(page, "<div class=\"marked\"><span class=\"where\">{}</span>\n<div class=\"as-written\">{}</div></div>\n",
             marked.written.line(statement.offset), formula(statement, 0, statement.sides.size() - 1, {}));
@@ -152,7 +183,9 @@ std::string marked_fragment(const Marked& marked) {
     if (const std::string missing = words_of_missing(marked); !missing.empty())
         put(page, "<p>{}</p>\n", html(missing));
     page += "<div class=\"sheet-of-lines\">\n";
-    for (std::size_t s = 0; s < lines.size(); ++s) add_statement(page, marked, s, lines[s]);
+    std::string words;
+    for (std::size_t s = 0; s < lines.size(); ++s) add_statement(page, words, marked, s, lines[s]);
+    end_words(page, words);
     page += "</div>\n";
     std::string letters;
     for (const auto& [written, name] : marked.letters)

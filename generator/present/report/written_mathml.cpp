@@ -27,6 +27,7 @@ std::string bracketed(const std::string& content, const std::string& open = "(",
     return row_of("<mo stretchy=\"true\">" + open + "</mo>" + content + "<mo stretchy=\"true\">" + close + "</mo>");
 }
 
+const std::string thin_space = "<mspace width=\"0.17em\"></mspace>";
 const std::string minus_sign = "<mo>&#x2212;</mo>", no_sign = "<mo>&#x2062;</mo>", of_sign = "<mo>&#x2061;</mo>",
                   partial_sign = "<mi>&#x2202;</mi>";
 
@@ -137,10 +138,17 @@ private:
         return row_of(result);
     }
 
+    /// sin θ, or sin² θ.
+    static bool has_function_first(const Math& math) {
+        const Math& first = math.kind == Kind::power ? *math.args[0] : math;
+        return first.kind == Kind::call && first.text != "sqrt" && first.text != "abs" && first.text != "exp";
+    }
+
     std::string product(const Math& math) {
         std::string result;
         for (const MathPtr& factor : math.args) {
-            if (!result.empty()) result += factor->kind == Kind::number ? sign_of("&#x22C5;") : no_sign;
+            const bool is_number = factor->kind == Kind::number, is_function = has_function_first(*factor);
+            if (!result.empty()) result += is_number ? sign_of("&#x22C5;") : is_function ? thin_space : no_sign;
             result += in_product(*factor);
         }
         return row_of(result);
@@ -160,7 +168,7 @@ private:
 
     std::string argument(const Math& math) {
         const bool is_atom = math.kind == Kind::letter || math.kind == Kind::number;
-        return is_atom ? write(math) : bracketed(write(math));
+        return is_atom ? thin_space + write(math) : bracketed(write(math));
     }
 
     std::string call(const Math& math) {
@@ -240,8 +248,11 @@ private:
                 return rate(math);
             case Kind::partial:
                 return partial(math);
-            case Kind::variation:
-                return row_of(element_of("mi", "δ") + argument(*math.args[0]));
+            case Kind::variation: {
+                const bool is_letter = math.args[0]->kind == Kind::letter;
+                return row_of(element_of("mi", "δ") +
+                              (is_letter ? write(*math.args[0]) : bracketed(write(*math.args[0]))));
+            }
             case Kind::vector:
             case Kind::matrix:
                 return table(math);
