@@ -228,6 +228,9 @@ std::vector<int> Claims::lower(Program& program, const std::vector<ex>& list) co
     for (const Mechanism::Constraint* c : m_.undetermined())
         given.emplace_back(c->multiplier, program.variable({Variable::Kind::unknown, next_unknown++}));
     for (const Open& o : open_) given.emplace_back(o.symbol, program.variable(o.variable));
+    constexpr int beyond_all = 1 << 20;  // no state gives them: they are random in exact arithmetic
+    for (const auto& [coordinate, symbol] : displacements())
+        given.emplace_back(symbol, program.variable({Variable::Kind::unknown, beyond_all + coordinate}));
     for (const auto& [call, value] : held_functions(m_))
         given.emplace_back(call, lower_expressions(program, m_, {value})[0]);
     return lower_expressions(program, m_, list, given);
