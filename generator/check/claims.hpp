@@ -83,6 +83,7 @@ private:
     /// Which names the form leaves open; returns whether constants are among them.
     bool find_open(ClaimForm& form) const;
     void know_what_derive_prints(const Scene& scene, const std::string& by);
+    void know_reactions(const Scene& scene);
     void open_name(const std::string& name, bool constant);
     GiNaC::ex without_third_derivatives(const GiNaC::ex& residual, Place at) const;
 

@@ -6,6 +6,8 @@
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
 #include "check/near_point.hpp"
+#include "check/quantities.hpp"
+#include "check/total_derivative.hpp"
 #include "check/zero.hpp"
 
 namespace alembert {
@@ -28,7 +30,8 @@ public:
         : m_(read.mechanism()),
           e_(read.equations()),
           residual_(m_.z->expand(read.read(claim).residual)),
-          near_(m_, e_, values_near(claim, read)) {}
+          near_(m_, e_, values_near(claim, read)),
+          spoken_(letters_in(claim, read)) {}
 
     void settle(CheckedClaim& result) {
         const int size = m_.size() + static_cast<int>(e_.A.size());
@@ -42,6 +45,7 @@ public:
         }
         result.reason = near_.obstacle();
         if (!result.reason.empty()) return;
+        if (spoken_.constant || spoken_.derivative || spoken_.kinetic) return settle_energy(result);
         std::vector<ZeroTest> tests{zero_test(near_.at(residual_), m_)};
         if (tests[0].zero == false) result.reason = say("it does not even hold at the point itself");
         const auto slopes = eliminated();
@@ -60,6 +64,51 @@ public:
 
 private:
     using Small = NearPoint::Small;
+
+    /// Energies are held to second order, because the linear equations follow from their quadratic parts.
+    void settle_energy(CheckedClaim& result) {
+        if (!e_.A.empty()) {
+            result.reason = say("energies near a state are decided where the coordinates are independent");
+            return;
+        }
+        const ex constant = near_.at(residual_);
+        ex quadratic = 0;
+        std::vector<ZeroTest> tests;
+        for (const Small& a : near_.small()) {
+            const ex slope = residual_.diff(a.variable);
+            tests.push_back(zero_test(near_.at(slope), m_));
+            quadratic += near_.at(slope) * deviation(a);
+            for (const Small& b : near_.small()) {
+                const ex second = near_.at(slope.diff(b.variable));
+                tests.push_back(zero_test(second, m_));
+                quadratic += second * deviation(a) * deviation(b) / 2;
+            }
+        }
+        const ZeroTest own = zero_test(constant, m_);
+        if (spoken_.kinetic) tests.push_back(own);
+        settle_by(tests, result);
+        if (result.verdict == Verdict::proved && own.zero != true)
+            result.up_to = UpTo{.kind = UpTo::Kind::constant};
+        if (result.verdict == Verdict::refuted && spoken_.derivative && is_void(quadratic)) {
+            result = CheckedClaim();
+            result.verdict = Verdict::proved;
+            result.normal_form = true;
+            result.up_to = UpTo{.kind = UpTo::Kind::derivative};
+        }
+        if (result.verdict == Verdict::refuted) result.difference = in_print(constant + quadratic);
+        if (result.up_to)
+            result.reason = result.up_to->kind == UpTo::Kind::constant
+                                ? say("right to second order and up to a constant")
+                                : say("right to second order and up to a time derivative, which changes no equation "
+                                      "of motion");
+    }
+
+    /// Whether this part of a Lagrangian changes no equation of motion.
+    bool is_void(const ex& part) const {
+        for (const ex& equation : euler_operator(m_.z->name(part), m_))
+            if (zero_test(m_.z->expand(equation), m_).zero != true) return false;
+        return true;
+    }
 
     /// What remains of the claim's derivatives with respect to each small quantity when the accelerations and
     /// multipliers, and what the constraints determine, are eliminated. Nothing if the equations leave
@@ -124,6 +173,7 @@ private:
     const Equations& e_;
     const ex residual_;
     NearPoint near_;
+    const SpokenLetters spoken_;
     std::vector<std::vector<ex>> reduced_;  ///< the linear equations of all of them, solved
 };
 

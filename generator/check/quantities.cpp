@@ -24,8 +24,6 @@ namespace {
 constexpr double largest_shown = 10000;
 constexpr std::size_t most_shown = 150;
 
-using Spoken = LetterClaim::Spoken;
-
 bool is_book_call_of(const Tree& tree, const Mechanism& m) {
     if (tree.text != "T" && tree.text != "V" && tree.text != book_inertia && !tree.text.starts_with("Q_"))
         return false;
@@ -35,9 +33,9 @@ bool is_book_call_of(const Tree& tree, const Mechanism& m) {
 }
 
 /// `is_term`: whether it is no part of what is differentiated.
-void listen(const Tree& tree, bool is_term, const Comparison& now, Spoken& spoken) {
+void listen(const Tree& tree, bool is_term, const Claims& read, SpokenLetters& spoken) {
     const std::string& text = tree.text;
-    if (tree.kind == Tree::Kind::name && now.claims.is_letter(text)) {
+    if (tree.kind == Tree::Kind::name && read.is_letter(text)) {
         const bool is_virtual = !after_prefix(text, "delta_").empty(), is_force = text.starts_with("Q_");
         spoken.any = true;
         spoken.forces = spoken.forces || is_force || text == "deltaW";
@@ -45,23 +43,18 @@ void listen(const Tree& tree, bool is_term, const Comparison& now, Spoken& spoke
         if (!is_term || tree.primes > 0) return;
         spoken.constant = spoken.constant || text == "V" || text == "E" || text == "H";
         spoken.derivative = spoken.derivative || text == "L";
+        spoken.kinetic = spoken.kinetic || text == "T";
         return;
     }
-    if (tree.kind == Tree::Kind::call && is_book_call_of(tree, now.m)) {
+    if (tree.kind == Tree::Kind::call && is_book_call_of(tree, read.mechanism())) {
         spoken.any = true;
         spoken.constant = spoken.constant || (is_term && text == "V");
+        spoken.kinetic = spoken.kinetic || (is_term && text == "T");
         return;
     }
     const bool differentiates =
         tree.kind == Tree::Kind::derivative || (tree.kind == Tree::Kind::call && text == "diff");
-    for (const TreePtr& arg : tree.args) listen(*arg, is_term && !differentiates, now, spoken);
-}
-
-Spoken spoken_in(const Comparison& now, std::size_t k) {
-    Spoken spoken;
-    listen(*now.scene.claims[k].equation.lhs.tree, true, now, spoken);
-    listen(*now.scene.claims[k].equation.rhs.tree, true, now, spoken);
-    return spoken;
+    for (const TreePtr& arg : tree.args) listen(*arg, is_term && !differentiates, read, spoken);
 }
 
 /// Are these values, one for each coordinate, a combination of the rows of the constraints at all states?
@@ -116,25 +109,24 @@ bool is_quantity(const Tree& tree, const Comparison& now) {
 
 }  // namespace
 
-/// States of any motion that the constraints allow.
-class AnyStates {
-public:
-    AnyStates(Comparison& now, int halvings) {
-        const Equations any = any_motion(now.e, now.m);
-        for (const int halves : {0, 1, 2}) {
-            states_.emplace(now.m, any, Motions::Sampling{.halves = halves, .halvings = halvings});
-            if (states_->get(0) != nullptr) return;
-        }
-        states_.reset();
+AnyStates::AnyStates(const Mechanism& m, const Equations& e, int halvings) {
+    const Equations any = any_motion(e, m);
+    for (const int halves : {0, 1, 2}) {
+        states_.emplace(m, any, Motions::Sampling{.halves = halves, .halvings = halvings});
+        if (states_->get(0) != nullptr) return;
     }
-    ExactStates* get() { return states_ ? &*states_ : nullptr; }
+    states_.reset();
+}
 
-private:
-    std::optional<ExactStates> states_;
-};
+SpokenLetters letters_in(const Claim& claim, const Claims& read) {
+    SpokenLetters spoken;
+    listen(*claim.equation.lhs.tree, true, read, spoken);
+    listen(*claim.equation.rhs.tree, true, read, spoken);
+    return spoken;
+}
 
 bool speaks_of_letters(const Comparison& now, std::size_t k) {
-    return spoken_in(now, k).any;
+    return letters_in(now.scene.claims[k], now.claims).any;
 }
 
 std::string words_of_identity() {
@@ -142,7 +134,7 @@ std::string words_of_identity() {
 }
 
 LetterClaim::LetterClaim(Comparison& now, std::size_t k, ExactStates& states)
-    : now_(now), k_(k), states_(states), spoken_(spoken_in(now, k)), c_(now.verdicts[k]) {}
+    : now_(now), k_(k), states_(states), spoken_(letters_in(now.scene.claims[k], now.claims)), c_(now.verdicts[k]) {}
 
 LetterClaim::~LetterClaim() = default;
 
@@ -184,7 +176,7 @@ bool LetterClaim::prove() {
 ExactStates* LetterClaim::any(const ex& e) {
     if (!any_) {
         Program p;
-        any_ = std::make_unique<AnyStates>(now_, halvings(p, now_.claims.lower(p, {e})));
+        any_ = std::make_unique<AnyStates>(now_.m, now_.e, halvings(p, now_.claims.lower(p, {e})));
     }
     return any_->get();
 }
@@ -216,8 +208,8 @@ bool LetterClaim::holds_for_allowed(const ClaimForm& form) {
 
 /// What is claimed minus the quantity, whose letter stands on the left or on the right.
 ex LetterClaim::excess() const {
-    Spoken left;
-    listen(*now_.scene.claims[k_].equation.lhs.tree, true, now_, left);
+    SpokenLetters left;
+    listen(*now_.scene.claims[k_].equation.lhs.tree, true, now_.claims, left);
     const ex& residual = now_.forms[k_].residual;
     return left.constant || left.derivative ? now_.m.z->name(-residual) : residual;
 }

@@ -16,12 +16,30 @@
 
 namespace alembert {
 
+/// What the letters in a claim leave open.
+struct SpokenLetters {
+    bool any = false, forces = false, displacements = false;
+    bool constant = false;    ///< V, E or H as a term
+    bool derivative = false;  ///< L as a term
+    bool kinetic = false;     ///< T as a term
+};
+SpokenLetters letters_in(const Claim& claim, const Claims& read);
+
 bool speaks_of_letters(const Comparison& now, std::size_t claim);
 
 /// Why a claim about such letters needs no equation of motion.
 std::string words_of_identity();
 
-class AnyStates;
+/// States of any motion that the constraints allow, whatever the forces are.
+class AnyStates {
+public:
+    AnyStates(const Mechanism& mechanism, const Equations& equations, int halvings);
+    /// Null if none was found.
+    ExactStates* get() { return states_ ? &*states_ : nullptr; }
+
+private:
+    std::optional<ExactStates> states_;
+};
 
 /// A claim that may speak of letters. `settle`, then, if that is false, the comparison of the sides as they stand, then
 /// `tell`.
@@ -38,13 +56,6 @@ public:
     bool settle();
     /// Adds to the verdict how the letters were read, and of a wrong claim what the quantity is.
     void tell();
-
-    /// What the letters leave open.
-    struct Spoken {
-        bool any = false, forces = false, displacements = false;
-        bool constant = false;    ///< V, E or H as a term
-        bool derivative = false;  ///< L as a term
-    };
 
 private:
     bool vanishes(const GiNaC::ex& residual);
@@ -63,7 +74,7 @@ private:
     Comparison& now_;
     std::size_t k_;
     ExactStates& states_;
-    const Spoken spoken_;
+    const SpokenLetters spoken_;
     CheckedClaim& c_;
     std::unique_ptr<AnyStates> any_;
     bool loads_ = false;            ///< whether the forces are those of the loads alone

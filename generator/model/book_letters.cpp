@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
-#include "model/energy.hpp"
+#include "model/energies.hpp"
 #include "scene/book_letters.hpp"
 
 namespace alembert {

@@ -5,6 +5,7 @@
 
 #include "algebra/symbolic/fourier.hpp"
 #include "algebra/symbolic/nonzero.hpp"
+#include "model/energies.hpp"
 
 namespace alembert {
 

@@ -22,12 +22,6 @@ struct Energy {
     std::shared_ptr<Intermediates> z;  ///< the table of the intermediate symbols of these values
 };
 
-/// T and V alone. If only a Lagrangian is given, they are its part of second degree in the rates and −L at rest.
-struct Energies {
-    GiNaC::ex kinetic, potential;
-};
-Energies energies_of(const Mechanism& mechanism);
-
 /// For expressions of readable size conservation is decided by exact zero tests, for larger ones by structure
 /// (whether t occurs at all, whether there are loads at all).
 Energy energy_of(const Mechanism& mechanism);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/own_quantities.hpp"
 
-#include "model/energy.hpp"
+#include "model/energies.hpp"
 #include "model/places.hpp"
 
 namespace alembert {

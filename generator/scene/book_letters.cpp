@@ -37,8 +37,19 @@ bool is_book_call(const Tree& call, const NameSpaces& names) {
            is_coordinate(after_prefix(call.text, "Q_"), names);
 }
 
-std::vector<std::string> book_letters(const NameSpaces& names) {
+std::vector<std::string> reaction_letters(const Scene& scene, const NameSpaces& names) {
     std::vector<std::string> result;
+    const auto add = [&](const std::string& name) {
+        if (!is_declared(name, names)) result.push_back(name);
+    };
+    for (const RollingRule& rolling : scene.rolling) add("N_" + rolling.name.text);
+    for (const Joint& joint : scene.joints)
+        for (const char* letter : {"F_x_", "F_y_", "F_z_", "M_x_", "M_y_", "M_z_"}) add(letter + joint.name.text);
+    return result;
+}
+
+std::vector<std::string> book_letters(const Scene& scene, const NameSpaces& names) {
+    std::vector<std::string> result = reaction_letters(scene, names);
     const auto add = [&](const std::string& name) {
         if (!is_declared(name, names)) result.push_back(name);
     };

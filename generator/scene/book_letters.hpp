@@ -27,7 +27,11 @@ constexpr const char* book_inertia = "inertia";
 /// "Q_" of Q_theta and "delta_" of delta_theta, with the name that follows; empty if it begins with neither.
 std::string after_prefix(const std::string& name, const std::string& prefix);
 
+/// The reactions that `derive --reactions` shows: N_wheel of a rolling condition, F_x_hinge … M_z_hinge of a joint, as far
+/// as the scene does not declare these names.
+std::vector<std::string> reaction_letters(const Scene& scene, const NameSpaces& names);
+
 /// Every one that claims about this scene may hold, for completion: T, V, …, Q_theta, p_theta.
-std::vector<std::string> book_letters(const NameSpaces& names);
+std::vector<std::string> book_letters(const Scene& scene, const NameSpaces& names);
 
 }  // namespace alembert
