@@ -79,7 +79,9 @@ bool declares_a_letter(const Scene& scene) {
 /// Every step of a derivation that gives a quantity, as a claim.
 std::string steps_as_claims(const Derivation& shown) {
     std::string claims;
-    const auto add = [&](const std::string& left, const Phrase& right) { claims += left + " = " + text(right) + "\n"; };
+    const auto add = [&](const std::string& left, const Phrase& right) {
+        claims += left + " = " + text(right) + "\n";
+    };
     const auto part = [](const Statement& s) { return "(" + called(s.of) + ")"; };
     for (const Statement& s : shown.energies) add(s.letter + part(s), s.value);
     if (shown.lagrangian) {
@@ -155,7 +157,8 @@ deltaW = F*(l1*cos(theta1)*delta_theta2 + l2*cos(theta2)*delta_theta1)
     check_verdicts(result, {Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved,
                             Verdict::proved, Verdict::refuted});
     for (const std::size_t whole : {0, 3}) CHECK(result.claims[whole].reason.find("whole") != std::string::npos);
-    for (const std::size_t loads : {1, 4, 5}) CHECK(result.claims[loads].reason.find("loads") != std::string::npos);
+    for (const std::size_t loads : {1, 4, 5})
+        CHECK(result.claims[loads].reason.find("loads") != std::string::npos);
     REQUIRE(result.claims[2].likely);
     CHECK(result.claims[2].likely->kind == "swapped_trig");
     CHECK_FALSE(result.claims[6].counterexample.empty());
@@ -183,8 +186,8 @@ TEST_CASE("claims: slips in quantities are named as in equations of motion, and 
     };
     CHECK(slip("pendulum", "T = m*l^2*theta'^2") == "factor");
     CHECK(slip("pendulum", "V = m*g*l*cos(theta)") == "sign");
-    CHECK(slip("double_pendulum",
-               "p_theta1 = (m1+m2)*l1^2*theta1' - m2*l1*l2*theta2'*cos(theta1-theta2)") == "sign");
+    CHECK(slip("double_pendulum", "p_theta1 = (m1+m2)*l1^2*theta1' - m2*l1*l2*theta2'*cos(theta1-theta2)") ==
+          "sign");
     CHECK(slip("double_pendulum", "T = (m1+m2)*l1^2*theta1'^2/2 + m2*l2^2*theta2'^2/2") == "missing_term");
     CHECK(slip("double_pendulum", "diff(T, theta1) = m2*l1*l2*theta1'*theta2'*sin(theta1-theta2)") == "sign");
     CHECK(slip("cart_pole", "Q_x = F + b*x'") == "sign");
@@ -316,8 +319,8 @@ TEST_CASE("claims: what no letter can hold is told") {
     CHECK(message("diff(theta*g, t) = 0").find("does not depend on t") != std::string::npos);
 }
 
-// ∂X/∂y by central differences of X at states in double precision: with steps of 1e-4 their error is 1e-8 of the third
-// derivative.
+// ∂X/∂y by central differences of X at states in double precision: with steps of 1e-4 their error is 1e-8 of the
+// third derivative.
 TEST_CASE("claims: partial derivatives of the letters agree with differences") {
     constexpr unsigned seed = 20261126;
     std::mt19937_64 random(seed);

@@ -185,7 +185,7 @@ private:
         const std::optional<int> derivative = free_derivative();
         if (!derivative) return {};
         Program p;
-        const ex own = *derivative == 0         ? form_.residual
+        const ex own = *derivative == 0        ? form_.residual
                        : asked_.up_to_constant ? m_.time_derivative({form_.residual})[0]
                                                : form_.derivatives[static_cast<std::size_t>(*derivative - 1)];
         const int residual = claims_.lower(p, {own})[0];

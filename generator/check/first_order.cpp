@@ -97,10 +97,11 @@ private:
         }
         if (result.verdict == Verdict::refuted) result.difference = in_print(constant + quadratic);
         if (result.up_to)
-            result.reason = result.up_to->kind == UpTo::Kind::constant
-                                ? say("right to second order and up to a constant")
-                                : say("right to second order and up to a time derivative, which changes no equation "
-                                      "of motion");
+            result.reason =
+                result.up_to->kind == UpTo::Kind::constant
+                    ? say("right to second order and up to a constant")
+                    : say("right to second order and up to a time derivative, which changes no equation "
+                          "of motion");
     }
 
     /// Whether this part of a Lagrangian changes no equation of motion.
@@ -154,7 +155,8 @@ private:
                 scale = (own / near_.at(near_.rows()[i].diff(m_.qddot[i]))).normal();
                 for (const GiNaC::symbol& acceleration : m_.qddot)
                     sum += near_.at(near_.rows()[i].diff(acceleration)) * acceleration;
-                for (const Small& small : near_.small()) sum += near_.at(near_.rows()[i].diff(small.variable)) * deviation(small);
+                for (const Small& small : near_.small())
+                    sum += near_.at(near_.rows()[i].diff(small.variable)) * deviation(small);
             } else {
                 const std::vector<ex>& row = reduced_[static_cast<std::size_t>(i)];
                 sum = m_.qddot[i];

@@ -28,9 +28,10 @@ public:
           e_(routh(m_)),
           formulas_(point.scene, m_, point.sheets),
           near_((m_.z->adopt(*e_.z), m_), e_, values(point.near)) {
-        reason_ = m_.redundant.empty() && m_.unilateral.empty()
-                      ? near_.obstacle()
-                      : say("vibrations are decided without contacts and without constraints that follow from others");
+        reason_ =
+            m_.redundant.empty() && m_.unilateral.empty()
+                ? near_.obstacle()
+                : say("vibrations are decided without contacts and without constraints that follow from others");
         if (reason_.empty()) make();
     }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Equilibria, frequencies and modes of small vibrations as claims: for all values of the parameters, in exact symbols.
+/// Equilibria, frequencies and modes of small vibrations as claims: for all values of the parameters, in exact
+/// symbols.
 ///
 ///     check_equilibrium({scene, mechanism, {{"theta", 0}}})
 ///     check_frequency({scene, mechanism, {{"theta", 0}}}, square)      // square: ω² as an expression, g/l
@@ -40,8 +41,8 @@ struct CheckedFrequency : CheckedClaim {
 /// `square`: ω², in parameters. Throws SceneMistake for what cannot be read.
 CheckedFrequency check_frequency(const AtPoint& point, const Expression& square);
 
-/// Whether these amplitudes, with 0 for coordinates that are not among them, are a mode: that of the frequency, or if
-/// none is given that of any.
+/// Whether these amplitudes, with 0 for coordinates that are not among them, are a mode: that of the frequency, or
+/// if none is given that of any.
 CheckedClaim check_mode(const AtPoint& point, const std::vector<std::pair<std::string, Expression>>& amplitudes,
                         const std::optional<Expression>& square = {});
 

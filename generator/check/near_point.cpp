@@ -121,8 +121,8 @@ std::string NearPoint::place_dependent() {
     for (const Mechanism::Constraint& c : m_.constraints)
         for (std::size_t i = 0; c.position && i < m_.q.size(); ++i)
             if (!base_.contains(m_.q[i]) && m_.z->depends(*c.position, {m_.q[i]}))
-                return say("say too near which {} it holds: constraint '{}' ties it to others",
-                           m_.q[i].get_name(), c.name);
+                return say("say too near which {} it holds: constraint '{}' ties it to others", m_.q[i].get_name(),
+                           c.name);
     return "";
 }
 
@@ -146,7 +146,8 @@ std::optional<ex> NearPoint::root_near(const ex& f, const GiNaC::symbol& x, doub
     return best;
 }
 
-std::optional<std::vector<std::size_t>> NearPoint::reduce(std::vector<std::vector<ex>>& rows, std::size_t columns) const {
+std::optional<std::vector<std::size_t>> NearPoint::reduce(std::vector<std::vector<ex>>& rows,
+                                                          std::size_t columns) const {
     std::vector<std::size_t> pivots;
     for (std::size_t column = 0; column < columns && pivots.size() < rows.size(); ++column) {
         std::size_t chosen = rows.size();

@@ -7,8 +7,8 @@
 ///     if (near.obstacle().empty())
 ///         near.slopes_of(near.rows()[0])        // of an equation by q'', λ and each small deviation
 ///
-/// Rates that are not named, and inputs, are near 0; coordinates that are not named and that no constraint gives there
-/// may have any value.
+/// Rates that are not named, and inputs, are near 0; coordinates that are not named and that no constraint gives
+/// there may have any value.
 
 #include <optional>
 #include <string>
@@ -27,8 +27,8 @@ public:
         GiNaC::ex value;  ///< the value from which the variable differs little
     };
 
-    /// `near`: coordinates, and rates as "x'", with their values in parameters. `mechanism` and `equations` must outlive
-    /// this.
+    /// `near`: coordinates, and rates as "x'", with their values in parameters. `mechanism` and `equations` must
+    /// outlive this.
     NearPoint(const Mechanism& mechanism, const Equations& equations,
               const std::vector<std::pair<std::string, GiNaC::ex>>& near);
 

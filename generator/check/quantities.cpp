@@ -134,7 +134,11 @@ std::string words_of_identity() {
 }
 
 LetterClaim::LetterClaim(Comparison& now, std::size_t k, ExactStates& states)
-    : now_(now), k_(k), states_(states), spoken_(letters_in(now.scene.claims[k], now.claims)), c_(now.verdicts[k]) {}
+    : now_(now),
+      k_(k),
+      states_(states),
+      spoken_(letters_in(now.scene.claims[k], now.claims)),
+      c_(now.verdicts[k]) {}
 
 LetterClaim::~LetterClaim() = default;
 

@@ -6,8 +6,8 @@
 ///
 ///     V = m*g*l*(1 - cos(theta))     right up to a constant, and so is an energy
 ///     L = …                          right up to the time derivative of a function of coordinates and time
-///     Q_theta = …                    right if it is the whole generalized force, or that of the loads that are not in V
-///     deltaW = …                     right for the virtual displacements that the constraints allow
+///     Q_theta = …                    right if it is the whole generalized force, or that of the loads that are
+///     not in V deltaW = …                     right for the virtual displacements that the constraints allow
 
 #include <memory>
 #include <string>
@@ -41,8 +41,8 @@ private:
     std::optional<ExactStates> states_;
 };
 
-/// A claim that may speak of letters. `settle`, then, if that is false, the comparison of the sides as they stand, then
-/// `tell`.
+/// A claim that may speak of letters. `settle`, then, if that is false, the comparison of the sides as they stand,
+/// then `tell`.
 class LetterClaim {
 public:
     /// `states`: those at which it is compared.
@@ -51,8 +51,8 @@ public:
     LetterClaim(const LetterClaim&) = delete;
     LetterClaim& operator=(const LetterClaim&) = delete;
 
-    /// Decides a claim that is right though its sides are not equal as they were read; returns whether it did. A claim
-    /// that is wrong is left in the reading that is nearer.
+    /// Decides a claim that is right though its sides are not equal as they were read; returns whether it did. A
+    /// claim that is wrong is left in the reading that is nearer.
     bool settle();
     /// Adds to the verdict how the letters were read, and of a wrong claim what the quantity is.
     void tell();

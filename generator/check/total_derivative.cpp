@@ -18,14 +18,15 @@ constexpr std::size_t most_terms = 200;
 /// ∫ c(…)·x^n dx, or with a factor sin(k x + b) or cos(k x + b); nothing for anything else.
 std::optional<ex> integrated_term(const ex& term, const GiNaC::symbol& x) {
     if (!term.has(x)) return term * x;
-    GiNaC::exvector factors = GiNaC::is_a<GiNaC::mul>(term) ? GiNaC::exvector(term.begin(), term.end())
-                                                            : GiNaC::exvector{term};
+    GiNaC::exvector factors =
+        GiNaC::is_a<GiNaC::mul>(term) ? GiNaC::exvector(term.begin(), term.end()) : GiNaC::exvector{term};
     ex constant = 1, turn = 0;
     int power = 0;
     for (const ex& factor : factors) {
         const bool is_power = GiNaC::is_a<GiNaC::power>(factor) && factor.op(0).is_equal(x) &&
                               factor.op(1).info(GiNaC::info_flags::nonnegint);
-        const bool turns = GiNaC::is_the_function<GiNaC::sin_SERIAL>(factor) || GiNaC::is_the_function<GiNaC::cos_SERIAL>(factor);
+        const bool turns =
+            GiNaC::is_the_function<GiNaC::sin_SERIAL>(factor) || GiNaC::is_the_function<GiNaC::cos_SERIAL>(factor);
         if (!factor.has(x))
             constant *= factor;
         else if (factor.is_equal(x))

@@ -21,8 +21,8 @@ struct OtherBranch {
     std::vector<std::pair<std::string, std::string>> counterexample{};  ///< a state there, if the claim is refuted
 };
 
-/// A potential or an energy is right up to a constant, a Lagrangian up to the total time derivative of a function F of
-/// coordinates and time: what is claimed is the quantity plus this constant, or plus F'.
+/// A potential or an energy is right up to a constant, a Lagrangian up to the total time derivative of a function
+/// F of coordinates and time: what is claimed is the quantity plus this constant, or plus F'.
 struct UpTo {
     enum class Kind { constant, derivative } kind = Kind::constant;
     std::string text{};  ///< the constant, or F; empty if it was not found in a short form

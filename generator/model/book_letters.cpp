@@ -58,7 +58,8 @@ std::vector<std::string> names_of(const Origin& origin) {
     return {};
 }
 
-/// The values of the parts of that name; nothing if there are none. The names that there are, are added to `known`.
+/// The values of the parts of that name; nothing if there are none. The names that there are, are added to
+/// `known`.
 class Chosen {
 public:
     explicit Chosen(std::string name) : name_(std::move(name)) {}

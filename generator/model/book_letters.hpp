@@ -3,7 +3,8 @@
 
 /// What the letters of the textbook mean in claims (scene/book_letters.hpp has which of them there are):
 ///
-///     T, V        kinetic and potential energy; with a given Lagrangian its part of second degree in the rates, and −L
+///     T, V        kinetic and potential energy; with a given Lagrangian its part of second degree in the rates,
+///     and −L
 ///                 at rest
 ///     L, E        T − V, or the given Lagrangian; T + V, with a given Lagrangian q'·∂L/∂q' − L
 ///     H           Σ p q' − L. diff(H, q) and diff(H, p_q) hold the momenta: −∂L/∂q and q'
@@ -11,9 +12,11 @@
 ///     deltaW      Σ Q_q delta_q, the virtual work of virtual displacements delta_q
 ///     T(M1)       of one particle or body; T(translation_B) and T(rotation_B) are the two parts of a body
 ///     V(spring_1) of one part of V: gravity, gravity_M1 or M1, spring_1, springs, energy
-///     Q_q(force_1)     of one part of V, one load (force_1, torque_1, damper_1, dissipation, friction_NAME, a point's or
+///     Q_q(force_1)     of one part of V, one load (force_1, torque_1, damper_1, dissipation, friction_NAME, a
+///     point's or
 ///                      body's name) or one constraint, by its name
-///     inertia(B, P)    the moment of inertia of a body or particle about the axis of N's z through the point P; with a
+///     inertia(B, P)    the moment of inertia of a body or particle about the axis of N's z through the point P;
+///     with a
 ///                      vector u that about the axis along u, with two of them the element u·I v of the tensor
 
 #include <string>

@@ -7,7 +7,7 @@
 ///     const ex residual = formulas.value(claim.lhs) - formulas.value(claim.rhs);
 ///
 /// Expressions may contain the names of the scene, multipliers, the momenta p_<coordinate> (∂L/∂q', Zhang & Qin
-/// §1.7), the letters of model/book_letters.hpp and names that `know` adds. SceneMistake is thrown for any other name.
+/// §1.7), the letters of model/book_letters.hpp and names that `know` adds. SceneMistake is thrown for others.
 
 #include "model/book_letters.hpp"
 #include "model/places.hpp"

@@ -47,7 +47,8 @@ Mechanism with_own(const Mechanism& mechanism, const OwnQuantities& own) {
         result.given_lagrangian.reset();
     }
     if (own.kinetic) result.kinetic = {{{.kind = Origin::Kind::given_kinetic}, result.z->name(*own.kinetic)}};
-    if (own.potential) result.potential = {{{.kind = Origin::Kind::given_potential}, result.z->name(*own.potential)}};
+    if (own.potential)
+        result.potential = {{{.kind = Origin::Kind::given_potential}, result.z->name(*own.potential)}};
     if (own.lagrangian) result.given_lagrangian = result.z->name(*own.lagrangian);
     if (!own.forces.empty()) state_forces(result, own);
     return result;

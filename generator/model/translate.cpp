@@ -101,7 +101,8 @@ ex Translator::partial(const Tree& tree) {
         for (int i = 0; i < times; ++i)
             value = is_free ? mechanism_.z->push_forward({value}, {{GiNaC::ex_to<GiNaC::symbol>(variable), 1}})[0]
                             : by_argument(value, *by);
-        if (is_free && variable.is_equal(mechanism_.t) && value.is_zero() && !offered_.contains(tree.args[0]->text))
+        if (is_free && variable.is_equal(mechanism_.t) && value.is_zero() &&
+            !offered_.contains(tree.args[0]->text))
             throw SceneMistake{
                 {current_->place(tree.offset),
                  say("this does not depend on t by itself; a derivative in the course of the motion is "

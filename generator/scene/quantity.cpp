@@ -390,7 +390,8 @@ std::string Quantities::advice_on(const std::string& word) const {
 void Quantities::meet_book_letter(Context& context, const Tree& tree, int raised) {
     const bool is_virtual = !after_prefix(tree.text, "delta").empty();
     if (is_virtual && tree.primes > 0)
-        complain(context, tree, say("{} belongs to a virtual displacement: it has no derivative", in_quotes(tree.text)));
+        complain(context, tree,
+                 say("{} belongs to a virtual displacement: it has no derivative", in_quotes(tree.text)));
     meet(context, tree, {.order = tree.text == "V" || is_virtual ? 0 : 1}, raised + tree.primes);
 }
 
@@ -400,14 +401,15 @@ void Quantities::meet_book_call(Context& context, const Tree& tree) {
     const std::size_t names = is_inertia ? 2 : 1, most = is_inertia ? 4 : 1;
     if (tree.args.size() < names || tree.args.size() > most)
         return complain(context, tree,
-                        is_inertia ? say("expected inertia(B, P), inertia(B, P, u) or inertia(B, P, u, v): a body, a "
-                                         "point, and the axes that it is along")
-                                   : say("expected one name of a part of the mechanism: {}(M1)", tree.text));
+                        is_inertia
+                            ? say("expected inertia(B, P), inertia(B, P, u) or inertia(B, P, u, v): a body, a "
+                                  "point, and the axes that it is along")
+                            : say("expected one name of a part of the mechanism: {}(M1)", tree.text));
     for (std::size_t k = 0; k < tree.args.size(); ++k) {
         const Tree& arg = *tree.args[k];
         if (k < names && (arg.kind != Kind::name || arg.primes > 0))
-            complain(context, arg, say("expected the name of a part of the mechanism; for a product write {}*(…)",
-                                       tree.text));
+            complain(context, arg,
+                     say("expected the name of a part of the mechanism; for a product write {}*(…)", tree.text));
         else if (k == 0 && is_inertia)
             check_place(arg.text, context.expression.place(arg.offset),
                         NameSpaces::find(names_.frames, arg.text) != nullptr ? "frame" : "point");

@@ -24,8 +24,8 @@ struct Legal {
     std::string if_changing = {};  ///< what to do instead if the time or a coordinate is refused
     const std::unordered_set<std::string>* more = nullptr;  ///< further names, those of claims
     bool multipliers = false;  ///< whether the multipliers of the scene's constraints are legal
-    /// Whether momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, whether known or not, and the letters
-    /// of the textbook (scene/book_letters.hpp).
+    /// Whether momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, whether known or not, and the
+    /// letters of the textbook (scene/book_letters.hpp).
     bool claim = false;
 };
 
