@@ -65,7 +65,15 @@ std::vector<std::size_t> partners(const std::vector<WrittenToken>& tokens) {
 /// The expressions between commas.
 std::vector<MathPtr> MathParser::listed(std::size_t begin, std::size_t end) {
     std::vector<MathPtr> list;
-    for (const Range& range : argument_ranges(begin, end)) list.push_back(within(range.begin, range.end));
+    for (const Range& range : argument_ranges(begin, end)) {
+        const bool is_dots = range.end == range.begin + 1 && kind(range.begin) == Kind::dots;  // L(q_1, …, q_n)
+        const bool is_value = range.end > range.begin + 2 && kind(range.begin) == Kind::letter &&
+                              kind(range.begin + 1) == Kind::relation && token(range.begin + 1).text == "=";  // x(t=0)
+        if (is_dots)
+            list.push_back(node({.kind = Math::Kind::letter, .letter = {.base = "dots"}}, range.begin));
+        else
+            list.push_back(within(is_value ? range.begin + 2 : range.begin, range.end));
+    }
     return list;
 }
 
@@ -155,8 +163,9 @@ MathPtr MathParser::environment() {
     std::vector<std::vector<MathPtr>> rows{{}};
     std::size_t from = begin + 1;
     const auto add_cell = [&](std::size_t end) {
-        if (from < end || rows.back().size() > 0 || tokens_[end].kind == Kind::ampersand)
-            rows.back().push_back(within(from, end));
+        const bool is_empty = from >= end;  // an empty cell is 0
+        if (!is_empty || rows.back().size() > 0 || tokens_[end].kind == Kind::ampersand)
+            rows.back().push_back(is_empty ? node({.kind = Math::Kind::number, .text = "0"}, begin) : within(from, end));
         from = end + 1;
     };
     for (std::size_t i = begin + 1; i < close; ++i) {

@@ -49,15 +49,17 @@ void list_structure(CommandTable& table) {
     list_tokens(table, TokenKind::command,
                 "sqrt dot ddot dddot ddddot vec hat bar tilde mathbf mathcal mathbb mathfrak mathscr underline "
                 "underbrace overbrace overset underset stackrel sum prod int oint iint over atop "
-                "dd dv pdv SI num qty lim det max min sup inf binom boxed textcolor colorbox mathcolor cancelto "
+                "dd dv pdv SI num qty norm abs lim det max min sup inf binom boxed textcolor colorbox mathcolor cancelto "
                 "operatornamewithlimits mathop mathrel mathbin mathord bra ket");
     list_tokens(table, TokenKind::command, "frac dfrac tfrac cfrac sfrac nicefrac flatfrac", "frac");
     list_tokens(table, TokenKind::command, "odv derivative diff", "dv");
     list_tokens(table, TokenKind::command, "pderivative partialderivative pd", "pdv");
-    list_tokens(table, TokenKind::command, "widehat", "hat");
+    list_tokens(table, TokenKind::command, "widehat vu", "hat");
+    list_tokens(table, TokenKind::command, "odif odd", "dd");
+    list_tokens(table, TokenKind::letter, "fdif variation var", "delta");
     list_tokens(table, TokenKind::command, "widetilde", "tilde");
     list_tokens(table, TokenKind::command, "overline", "bar");
-    list_tokens(table, TokenKind::command, "overrightarrow overrightharpoon vectorarrow vv va", "vec");
+    list_tokens(table, TokenKind::command, "overrightarrow overrightharpoon vectorarrow vv va vva", "vec");
     list_tokens(table, TokenKind::command, "boldsymbol bm pmb bf vb mathbfit symbf vectorbold", "mathbf");
     list_tokens(table, TokenKind::command, "cal", "mathcal");
     list_tokens(table, TokenKind::command, "SIrange si unit", "unit");
@@ -71,10 +73,10 @@ void list_signs(CommandTable& table) {
     list_tokens(table, TokenKind::primes, "prime", "'");
     list_tokens(table, TokenKind::relation, "eq", "=");
     list_tokens(table, TokenKind::relation, "approx simeq sim doteq cong approxeq thickapprox", "~");
-    list_tokens(table, TokenKind::relation, "equiv triangleq coloneqq coloneq vcentcolon eqdef defeq", ":");
+    list_tokens(table, TokenKind::relation, "equiv triangleq coloneqq coloneq vcentcolon eqdef defeq eqqcolon eqcolon Coloneqq", ":");
     list_tokens(table, TokenKind::relation,
                 "propto le leq leqslant ge geq geqslant ll gg lt gt ne neq in notin subset lesssim gtrsim perp "
-                "parallel mapsto not asymp",
+                "parallel mapsto not asymp succ succeq prec preceq subseteq supset",
                 "<");
     list_tokens(table, TokenKind::arrow,
                 "implies Rightarrow Longrightarrow iff Leftrightarrow Longleftrightarrow therefore because to "
@@ -91,8 +93,12 @@ void list_signs(CommandTable& table) {
     list_tokens(table, TokenKind::open, "lbrack", "[");
     list_tokens(table, TokenKind::close, "rbrack", "]");
     list_tokens(table, TokenKind::open, "lparen", "(");
+    list_tokens(table, TokenKind::open, "llbracket lfloor lceil", "[");
+    list_tokens(table, TokenKind::close, "rrbracket rfloor rceil", "]");
     list_tokens(table, TokenKind::close, "rparen", ")");
     list_tokens(table, TokenKind::stray, "pm mp");
+    list_tokens(table, TokenKind::text, "forall", "for all");
+    list_tokens(table, TokenKind::semicolon, "colon");
 }
 
 void list_dropped(CommandTable& table) {
@@ -100,7 +106,7 @@ void list_dropped(CommandTable& table) {
                   "displaystyle textstyle scriptstyle scriptscriptstyle limits nolimits nonumber notag strut mathstrut "
                   "allowbreak noindent hline centering big Big bigg Bigg bigl Bigl biggl Biggl bigr Bigr biggr Biggr "
                   "bigm Bigm biggm Biggm rm it sf tt normalfont small large Large footnotesize cancel bcancel xcancel "
-                  "mathit mathnormal mathsf symit ensuremath smash mathinner thinspace medspace "
+                  "qed Box square blacksquare pqty bqty Bqty pab bab mathit mathnormal mathsf symit ensuremath smash mathinner thinspace medspace "
                   "thickspace negthinspace negmedspace negthickspace space nobreakspace qedhere qed par newline "
                   "nobreak protect mathsfit upright relax normalsize Aboxed",
                   CommandEffect::nothing);
@@ -161,7 +167,7 @@ constexpr std::array spelled_signs = std::to_array<SpelledSign>({
     {U'＝', "="},           {U'（', "("},         {U'）', ")"},          {U'，', ","},         {U'；', ";"},
     {U'。', "."},           {U'［', "["},         {U'］', "]"},          {U'′', "'"},         {U'″', "''"},
     {U'‴', "'''"},         {U'’', "'"},         {U'ʹ', "'"},          {U'∂', "\\partial "}, {U'√', "\\sqrt "},
-    {U'∑', "\\sum "},      {U'Σ', "\\Sigma "},  {U'∫', "\\int "},     {U'≈', "\\approx "}, {U'≃', "\\approx "},
+    {U'∑', "\\sum "},      {U'Σ', "\\sum "},  {U'∫', "\\int "},     {U'≈', "\\approx "}, {U'≃', "\\approx "},
     {U'≅', "\\approx "},   {U'∼', "\\sim "},    {U'≡', "\\equiv "},   {U'≔', "\\equiv "},  {U'≜', "\\equiv "},
     {U'≐', "\\approx "},   {U'∝', "\\propto "}, {U'≤', "\\le "},      {U'≥', "\\ge "},     {U'≪', "\\ll "},
     {U'≫', "\\gg "},       {U'≠', "\\ne "},     {U'⇒', "\\implies "}, {U'⟹', "\\implies "}, {U'→', "\\to "},

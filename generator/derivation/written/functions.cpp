@@ -97,6 +97,7 @@ MathPtr MathParser::command() {
     if (std::find(std::begin(accents), std::end(accents), name) != std::end(accents)) return accented();
     if (name == "underbrace" || name == "overbrace") return labelled_brace();
     if (name == "sum" || name == "int" || name == "prod" || name == "oint" || name == "iint") return big_operator();
+    if (name == "abs" || name == "norm") return absolute_command();
     if (name == "dv" || name == "pdv" || name == "dd") return derivative_command();
     static constexpr std::string_view calls[] = {"diff", "Diff", "Rational", "Pow", "Subscript", "simplify", "expand"};
     if (std::find(std::begin(calls), std::end(calls), name) != std::end(calls)) return algebra_call();
@@ -128,6 +129,14 @@ MathPtr MathParser::root() {
     const MathPtr one = node({.kind = Math::Kind::number, .text = "1"}, begin);
     const MathPtr exponent = node({.kind = Math::Kind::quotient, .args = {one, degree}}, begin);
     return node({.kind = Math::Kind::power, .args = {inside, exponent}}, begin);
+}
+
+/// \abs{x}, \norm{v}
+MathPtr MathParser::absolute_command() {
+    const std::size_t begin = at_++;
+    if (at_ >= end_) unexpected(say("the argument of {}", tokens_[begin].text));
+    MathPtr inside = is(Kind::open) ? bracket() : exponent();
+    return node({.kind = Math::Kind::call, .text = "abs", .args = {inside}}, begin);
 }
 
 /// \underbrace{x}_{words}: the words are no part of it.
@@ -181,7 +190,7 @@ MathPtr MathParser::derivative_command() {
     std::vector<MathPtr> parts;
     while (is(Kind::begin_group) && parts.size() < (name == "dd" ? 1U : 3U)) {
         const std::size_t close = closing(at_);
-        parts.push_back(within(at_ + 1, close));
+        if (close > at_ + 1) parts.push_back(within(at_ + 1, close));
         at_ = close + 1;
     }
     if (parts.empty() && name == "dd" && is(Kind::letter)) parts.push_back(primary());

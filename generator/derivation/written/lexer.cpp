@@ -140,7 +140,7 @@ bool WrittenLexer::doubled_sign(std::size_t begin) {
         {"<=>", Kind::arrow, "iff"}, {"...", Kind::dots, ""},     {"**", Kind::power, ""},    {":=", Kind::relation, ":"},
         {"==", Kind::relation, "="}, {"=>", Kind::arrow, "to"},   {"->", Kind::arrow, "to"},  {"<=", Kind::relation, "<"},
         {">=", Kind::relation, "<"}, {"!=", Kind::relation, "<"}, {"~=", Kind::relation, "~"}, {".*", Kind::times, ""},
-        {"./", Kind::divide, "/"},   {".^", Kind::power, ""},     {"||", Kind::bar, "||"},
+        {"./", Kind::divide, "/"},   {"//", Kind::divide, "/"},   {".^", Kind::power, ""},     {"||", Kind::bar, "||"},
     };
     for (const Pair& pair : pairs) {
         if (text_.compare(at_, pair.text.size(), pair.text) != 0) continue;
@@ -204,6 +204,7 @@ bool WrittenLexer::sign() {
         case ',':
             return is(Kind::comma);
         case ';':
+        case ':':
             return is(Kind::semicolon);
         case '.':
             if (text_.compare(at_, 5, "diff(") == 0) {  // theta.diff(t)
@@ -262,10 +263,23 @@ void WrittenLexer::character() {
     replace(marks(latex), begin);
 }
 
+/// sin and cos without a backslash: a mistake in LaTeX that is often made.
+bool WrittenLexer::bare_function() {
+    for (const std::string_view name : {"sin", "cos", "tan", "sinh", "cosh", "exp"}) {
+        if (text_.compare(at_, name.size(), name) != 0 || is_latin(byte(at_ + name.size()))) continue;
+        const std::size_t begin = at_;
+        at_ += name.size();
+        add(Kind::function, begin, name);
+        return true;
+    }
+    return false;
+}
+
 /// Latin letters: each for itself in LaTeX, together in plain text.
 void WrittenLexer::word() {
     const std::size_t begin = at_;
     if (!is_plain()) {
+        if (bare_function()) return;
         ++at_;
         const std::string letter = marks(std::string(1, text_[begin]));
         if (letter.size() > 1) return replace(letter, begin);

@@ -48,11 +48,13 @@ private:
     void scripts(char (*plain)(char32_t), std::string_view mark);
     std::string marks(std::string letter);
     void word();
+    bool bare_function();
     bool plain_word(std::size_t begin, const std::string& word);
     void delimiter(std::string_view which, std::size_t begin);
     void command();
     void named(const WrittenCommand& command, std::size_t begin);
     void upright(std::size_t begin);
+    bool is_siunitx() const;
     void quantity(std::size_t begin, std::string_view name);
     void environment(bool begins, std::size_t begin);
     void expand(const WrittenMacro& macro, std::string_view name, std::size_t begin);

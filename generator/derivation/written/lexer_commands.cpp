@@ -240,7 +240,11 @@ void WrittenLexer::named(const WrittenCommand& command, std::size_t begin) {
             return;
         case Effect::words: {
             const std::string words = plain_words(argument());
-            if (!words.empty()) add(Kind::text, begin, words);
+            if (words.size() == 1 && is_command_letter(words[0]) && words != "a") {  // \textbf{r}
+                add(Kind::letter, begin).letter = {.base = words, .accent = command.name == "textbf" ? "mathbf" : ""};
+            } else if (!words.empty()) {
+                add(Kind::text, begin, words);
+            }
             return;
         }
         case Effect::upright:
@@ -261,6 +265,8 @@ void WrittenLexer::named(const WrittenCommand& command, std::size_t begin) {
     const std::string_view text = command.text;
     if (command.kind == Kind::letter) {
         add(Kind::letter, begin).letter.base = text;
+    } else if (text == "qty" && !is_siunitx()) {
+        is_tight_ = true;  // brackets of the package physics
     } else if (text == "SI" || text == "qty" || text == "num" || text == "unit") {
         quantity(begin, text);
     } else if (text == "textcolor" || text == "colorbox" || text == "mathcolor" || text == "cancelto" ||
@@ -321,6 +327,20 @@ void WrittenLexer::upright(std::size_t begin) {
     } else {
         at_ = before;
     }
+}
+
+/// Whether \qty has two groups: that of siunitx, not that of physics.
+bool WrittenLexer::is_siunitx() const {
+    std::size_t k = at_;
+    while (k < text_.size() && (text_[k] == ' ' || text_[k] == '*')) ++k;
+    if (byte(k) == '[') {
+        k = text_.find(']', k);
+        if (k == std::string_view::npos) return false;
+        ++k;
+    }
+    if (byte(k) != '{') return false;
+    const std::size_t end = end_of_group(text_.substr(0, k + 60), k);
+    return end != std::string_view::npos && byte(end) == '{';
 }
 
 /// \SI{9.81}{\metre\per\second\squared}, \num{2.5}

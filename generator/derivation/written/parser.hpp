@@ -134,6 +134,7 @@ private:
     MathPtr bare_argument();
     MathPtr command();
     MathPtr root();
+    MathPtr absolute_command();
     MathPtr labelled_brace();
     MathPtr big_operator();
     MathPtr algebra_call();

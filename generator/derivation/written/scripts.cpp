@@ -159,6 +159,15 @@ std::optional<std::string> MathParser::raised_text(const Letter& letter, std::si
          first.letter.base == "bot"))
         return first.letter.base == "top" ? "T" : first.letter.base;
     if (is_number) return {};
+    bool are_marks = true;  // ^{*\top}
+    for (std::size_t i = begin; i < end; ++i)
+        are_marks &= token(i).kind == Kind::times || (token(i).kind == Kind::letter && token(i).letter.base == "top") ||
+                     (token(i).kind == Kind::letter && token(i).letter.base == "T");
+    if (are_marks) {
+        std::string marks;
+        for (std::size_t i = begin; i < end; ++i) marks += token(i).kind == Kind::times ? "*" : "T";
+        return marks;
+    }
     if (first.kind == Kind::open && count == 3 && token(end - 1).kind == Kind::close &&
         (token(begin + 1).kind == Kind::number || token(begin + 1).kind == Kind::letter))
         return flat_text(begin, end);

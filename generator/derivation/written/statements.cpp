@@ -35,7 +35,7 @@ Relation relation_of(const std::string& sign) {
 class ChainReader {
 public:
     explicit ChainReader(const std::vector<WrittenToken>& tokens)
-        : tokens_(tokens), partner_(partners(tokens)), numbers_of_equations_() {}
+        : tokens_(tokens), partner_(partners(tokens)) {}
 
     std::vector<Statement> statements() {
         split();
@@ -47,7 +47,6 @@ public:
 private:
     const std::vector<WrittenToken>& tokens_;
     const std::vector<std::size_t> partner_;
-    int numbers_of_equations_;
     std::vector<Part> parts_;
     std::vector<Statement> list_;
 
@@ -108,30 +107,40 @@ private:
     /// A space divides only what are two statements; the number of an equation and what is empty go.
     void join_parts() {
         std::vector<Part> joined;
+        PartKind divider = PartKind::end;  // before parts that are empty
         for (Part& part : parts_) {
+            if (part.before == PartKind::space && divider != PartKind::end) part.before = divider;
+            divider = PartKind::end;
             while (part.end > part.begin && is_punctuation(kind(part.end - 1))) --part.end;
             const bool is_space = part.before == PartKind::space;
             if (is_space && is_number_of_equation(part)) continue;
             const bool goes_on = is_space && !joined.empty() && !joined.back().is_condition &&
-                                 (part.relations.empty() || joined.back().relations.empty()) &&
+                                 (part.relations.empty() || joined.back().relations.empty() ||
+                                  kind(part.begin) == PartKind::relation || ends_with_relation(joined.back())) &&
                                  joined.back().begin < joined.back().end;
             if (goes_on && part.begin < part.end) {
                 joined.back().end = part.end;
                 joined.back().relations.insert(joined.back().relations.end(), part.relations.begin(), part.relations.end());
-                gap_ends_.push_back(part.begin - 1);
                 continue;
             }
-            if (part.begin >= part.end && part.words.empty() && !part.is_consequence) continue;
+            if (part.begin >= part.end && part.words.empty() && !part.is_consequence) {
+                if (part.before != PartKind::space) divider = part.before;
+                continue;
+            }
             joined.push_back(std::move(part));
         }
         parts_ = std::move(joined);
     }
 
+    bool ends_with_relation(const Part& part) const {
+        std::size_t end = part.end;
+        while (end > part.begin && kind(end - 1) == PartKind::space) --end;
+        return end > part.begin && kind(end - 1) == PartKind::relation;
+    }
+
     static bool is_punctuation(PartKind kind) {
         return kind == PartKind::period || kind == PartKind::comma || kind == PartKind::semicolon || kind == PartKind::space;
     }
-
-    std::vector<std::size_t> gap_ends_;  // spaces inside of statements
 
     void read(const Part& part) {
         if (part.begin >= part.end) {  // words alone, or an arrow before what comes next
@@ -150,9 +159,11 @@ private:
             if (is_condition && !list_.empty()) {
                 for (const auto& [begin, end] : sides(part))
                     if (begin < end) list_.back().conditions.push_back(side(begin, end, false));
+                was_condition_ = true;
                 return;
             }
             if (is_index_range(part)) return;
+            was_condition_ = false;
             if (fill_from_call(part, statement) || fill_piecewise(part, statement)) return;
             fill(part, statement);
         } catch (const NotUnderstood& why) {
@@ -193,6 +204,8 @@ private:
 
     /// i = 1, 2, …, n: no claim. What follows the comma has no relation.
     bool is_index_range(const Part& part) {
+        if (was_condition_ && part.before == PartKind::comma && part.relations.empty() && part.end == part.begin + 1)
+            return true;
         const bool is_list_item = part.before == PartKind::comma && part.relations.empty() && !list_.empty() &&
                                   !list_.back().sides.empty() && list_.back().relations.size() == 1 &&
                                   part.end == part.begin + 1 &&
@@ -217,7 +230,7 @@ private:
         return true;
     }
 
-    bool was_index_range_ = false;
+    bool was_index_range_ = false, was_condition_ = false;
 
     /// Reads the tokens of one side, without the spaces in it.
     MathPtr side(std::size_t begin, std::size_t end, bool has_differentials) {
