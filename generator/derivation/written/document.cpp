@@ -30,6 +30,20 @@ bool is_skipped_environment(std::string_view name) {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+/// A sign with which a display ends or begins that goes on in, or from, another.
+bool is_joining_sign(const WrittenToken& token) {
+    using Kind = WrittenToken::Kind;
+    return token.kind == Kind::plus || token.kind == Kind::minus || token.kind == Kind::times || token.kind == Kind::relation;
+}
+
+/// $=$ or $\\Rightarrow$ among words.
+bool is_sign_alone(const std::vector<WrittenToken>& tokens) {
+    using Kind = WrittenToken::Kind;
+    return tokens.size() == 1 && (is_joining_sign(tokens[0]) || tokens[0].kind == Kind::arrow || tokens[0].kind == Kind::divide ||
+                                  tokens[0].kind == Kind::partial || tokens[0].kind == Kind::dots || tokens[0].kind == Kind::comma ||
+                                  tokens[0].kind == Kind::period);
+}
+
 bool is_letter_of_command(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '@';
 }
@@ -75,6 +89,7 @@ std::vector<Statement> DocumentReader::statements() {
         }
     }
     scan(begin, end, markup_);
+    end_waiting();
     return std::move(list_);
 }
 
@@ -167,7 +182,23 @@ void DocumentReader::refuse(std::size_t begin, std::size_t end, std::string reas
     add({statement}, false);
 }
 
+/// The statements of the display that was kept for the next one to go on with it.
+void DocumentReader::end_waiting() {
+    if (waiting_.empty()) return;
+    std::vector<WrittenToken> tokens = std::move(waiting_);
+    waiting_.clear();
+    std::string words = std::move(words_);
+    const bool is_first_order = is_first_order_;
+    words_ = std::move(waiting_words_);
+    waiting_words_.clear();
+    is_first_order_ = waiting_first_order_;
+    add(statements_of(std::move(tokens), waiting_joins_rows_), true);
+    words_ = std::move(words);
+    is_first_order_ = is_first_order;
+}
+
 void DocumentReader::add(std::vector<Statement> found, bool is_displayed) {
+    end_waiting();
     for (Statement& one : found) {
         if (list_.size() >= most_statements)
             throw BeyondLimit{one.offset, say("the derivation has more than {} statements", most_statements)};
@@ -196,8 +227,28 @@ void DocumentReader::add(std::vector<Statement> found, bool is_displayed) {
 }
 
 void DocumentReader::formula(std::size_t begin, std::size_t end, Notation notation, bool is_displayed, bool joins_rows) {
+    if (notation == Notation::latex && end > begin + 1 && text_[begin] == '`' && text_[end - 1] == '`') ++begin, --end;  // $`…`$
     std::vector<WrittenToken> tokens = tokens_of(slice(begin, end), begin, notation, context_);
-    if (!tokens.empty()) add(statements_of(std::move(tokens), joins_rows), is_displayed);
+    if (tokens.empty()) return;
+    if (is_sign_alone(tokens)) return say_words(slice(begin, end));
+    if (!is_displayed) return add(statements_of(std::move(tokens), joins_rows), false);
+    const bool goes_on = !waiting_.empty() && words_.find_first_not_of(" .,") == std::string::npos &&
+                         (is_joining_sign(waiting_.back()) || is_joining_sign(tokens.front()));
+    if (goes_on) {
+        WrittenToken row = tokens.front();
+        row.kind = WrittenToken::Kind::row;
+        row.text.clear();
+        waiting_.push_back(std::move(row));
+        waiting_.insert(waiting_.end(), std::make_move_iterator(tokens.begin()), std::make_move_iterator(tokens.end()));
+        words_.clear();
+        return;
+    }
+    end_waiting();
+    waiting_ = std::move(tokens);
+    waiting_joins_rows_ = joins_rows;
+    waiting_words_ = std::move(words_);
+    waiting_first_order_ = is_first_order_;
+    words_.clear();
 }
 
 void DocumentReader::dollar() {
@@ -236,7 +287,7 @@ bool DocumentReader::enclosed(std::string_view open, std::string_view close, boo
     const std::string key(close);
     const bool is_known_unclosed = std::find(unclosed_.begin(), unclosed_.end(), key) != unclosed_.end();
     std::size_t end = is_known_unclosed ? std::string::npos : text_.find(close, begin);
-    while (end != std::string::npos && end < end_ && end > begin && text_[end - 1] == '\\') end = text_.find(close, end + 1);  // \\[
+    while (close.size() == 2 && end != std::string::npos && end < end_ && end > begin && text_[end - 1] == '\\') end = text_.find(close, end + 1);  // \\[
     if (end == std::string::npos || end >= end_) {
         if (!is_known_unclosed) unclosed_.push_back(key);
         refuse(at_, begin, say("a formula is opened here by {} and not closed", open));
@@ -249,7 +300,11 @@ bool DocumentReader::enclosed(std::string_view open, std::string_view close, boo
 }
 
 void DocumentReader::backslash(Markup markup) {
-    if (starts_with("\\[")) {
+    if (markup == Markup::markdown && starts_with("\\\\[")) {  // where Markdown takes a backslash away
+        enclosed("\\\\[", "\\\\]", true);
+    } else if (markup == Markup::markdown && starts_with("\\\\(")) {
+        enclosed("\\\\(", "\\\\)", false);
+    } else if (starts_with("\\[")) {
         enclosed("\\[", "\\]", true);
     } else if (starts_with("\\(")) {
         enclosed("\\(", "\\)", false);

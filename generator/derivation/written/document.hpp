@@ -32,6 +32,9 @@ private:
     bool is_line_start_ = true;
     std::size_t no_dollar_before_ = 0;  // up to here a $ has no partner
     std::vector<std::string> unclosed_;
+    std::vector<WrittenToken> waiting_;  // a display that may go on in the next one
+    std::string waiting_words_;
+    bool waiting_first_order_ = false, waiting_joins_rows_ = false;
 
     bool starts_with(std::string_view what) const { return text_.compare(at_, what.size(), what) == 0; }
     std::size_t line_end(std::size_t from) const;
@@ -51,6 +54,7 @@ private:
     void command_among_words();
     void formula(std::size_t begin, std::size_t end, Notation notation, bool is_displayed, bool joins_rows = false);
     void add(std::vector<Statement> found, bool is_displayed);
+    void end_waiting();
     void refuse(std::size_t begin, std::size_t end, std::string reason);
     std::size_t end_of_environment(const std::string& name, std::size_t from) const;
 
@@ -59,6 +63,7 @@ private:
     bool fence();
     bool code();
     bool bare_display();
+    bool restructured_math(std::size_t end);
     bool plain_line(std::size_t begin, std::size_t end);
     bool bare_parentheses();
     std::vector<Statement> plain_statements(std::size_t begin, std::size_t end);

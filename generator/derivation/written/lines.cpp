@@ -54,10 +54,47 @@ std::size_t marker_length(std::string_view line) {
     return k;
 }
 
+/// A line of a picture of characters, or a rule.
+bool is_drawing(std::string_view line) {
+    if (line.find("===") != std::string_view::npos || line.find("---") != std::string_view::npos || line.find("___") != std::string_view::npos) return true;
+    const std::string_view bare = trimmed(line);
+    return bare.starts_with('|') || bare.find_first_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ\xCE\xCF\xE1\xF0") == std::string_view::npos;
+}
+
 bool is_program(std::string_view language) {
     static constexpr std::string_view names[] = {"python", "py", "c", "cpp", "c++", "bash", "sh", "json", "toml", "yaml", "javascript", "js",
-                                                 "julia", "html", "css", "rust", "java", "console", "shell", "diff", "xml"};
+                                                 "julia", "html", "css", "rust", "java", "console", "shell", "diff", "xml", "ascii", "mermaid", "dot", "csv"};
     return std::find(std::begin(names), std::end(names), language) != std::end(names);
+}
+
+/// Where the formula of a line ends, before the number of an equation, (1.24), or a remark in parentheses or after #.
+std::size_t end_of_formula(std::string_view line) {
+    std::size_t end = line.size();
+    const auto without_blanks = [&] {
+        while (end > 0 && (line[end - 1] == ' ' || line[end - 1] == '\r' || line[end - 1] == '\t')) --end;
+    };
+    const std::size_t remark = line.find(" # ");
+    if (remark != std::string_view::npos) end = remark;
+    without_blanks();
+    if (end == 0 || line[end - 1] != ')') return end;
+    std::size_t open = end;
+    for (int depth = 0; open > 0;) {
+        --open;
+        depth += line[open] == ')' ? 1 : line[open] == '(' ? -1 : 0;
+        if (depth == 0) break;
+    }
+    const std::string_view inside = line.substr(open + 1, end - open - 2);
+    if (open < 2 || line[open - 1] != ' ' || inside.empty()) return end;
+    const bool is_number = inside.find('.') != std::string_view::npos && inside.find_first_not_of("0123456789.") == std::string_view::npos;
+    const bool is_far = line[open - 2] == ' ' && inside.find_first_of("=+^*/") == std::string_view::npos;
+    const bool has_words = inside.find(' ') != std::string_view::npos && inside.find_first_of("=+^*/-0123456789") == std::string_view::npos &&
+                           is_prose(inside.substr(0, inside.find(' ')));
+    if (!is_number && !is_far && !has_words) return end;
+    const std::size_t whole = end;
+    end = open;
+    without_blanks();
+    if (end == 0 || std::string_view("=+-*/^(").find(line[end - 1]) != std::string_view::npos) return whole;
+    return end;
 }
 
 bool binds(const WrittenToken& token) {
@@ -77,6 +114,7 @@ bool DocumentReader::line(Markup markup) {
         if (bare.starts_with("```") || bare.starts_with("~~~")) return fence();
         if (bare == "[" && bare_display()) return true;
     }
+    if (text.find(".. math::") != std::string_view::npos) return restructured_math(end);
     if (markup == Markup::tex && has_marks_) return false;
     if (text.find('$') != std::string_view::npos || text.find("\\(") != std::string_view::npos ||
         text.find("\\[") != std::string_view::npos || text.find("\\begin") != std::string_view::npos ||
@@ -130,12 +168,45 @@ bool DocumentReader::fence() {
     return true;
 }
 
+/// `.. math::` of reStructuredText: what stands after it on the line, and the indented lines below.
+bool DocumentReader::restructured_math(std::size_t end) {
+    const std::size_t begin = text_.find(".. math::", at_) + std::string_view(".. math::").size();
+    std::size_t last = end;
+    for (std::size_t from = end; from < end_;) {
+        const std::size_t next = line_end(from + 1);
+        const std::string_view line = slice(std::min(from + 1, end_), next);
+        const bool is_blank = trimmed(line).empty();
+        if (!is_blank && line[0] != ' ' && line[0] != '\t') break;
+        if (!is_blank && !trimmed(line).starts_with(':')) last = next;
+        from = next;
+    }
+    std::size_t from = begin;
+    while (trimmed(slice(from, line_end(from))).empty() && from < last) from = std::min(line_end(from) + 1, last);
+    if (trimmed(slice(from, line_end(from))).starts_with(':')) from = line_end(from);  // :label:
+    at_ = last;
+    formula(from, last, Notation::latex, true);
+    return true;
+}
+
 /// `T = ½ m v²` within words.
 bool DocumentReader::code() {
-    const std::size_t close = text_.find('`', at_ + 1);
-    if (close == std::string::npos || close >= line_end(at_) || close == at_ + 1) return false;
-    const std::size_t begin = at_ + 1;
-    at_ = close + 1;
+    std::size_t width = 1;
+    while (at_ + width < end_ && text_[at_ + width] == '`') ++width;
+    const std::string_view mark = slice(at_, at_ + width);
+    const std::size_t close = text_.find(mark, at_ + width);
+    if (close == std::string::npos || close >= line_end(at_)) {
+        say_words(mark);
+        at_ += width;
+        return true;
+    }
+    const std::size_t begin = at_ + width;
+    const bool is_formula = words_.ends_with(":math:");
+    at_ = close + width;
+    if (is_formula) {
+        words_.resize(words_.size() - std::string_view(":math:").size());
+        formula(begin, close, Notation::latex, false);
+        return true;
+    }
     if (!has_relation_sign(slice(begin, close))) {
         say_words(slice(begin, close));
         return true;
@@ -222,6 +293,7 @@ std::vector<Statement> DocumentReader::plain_statements(std::size_t begin, std::
 /// A line with a sign such as =, and the lines that go on with it. False if it holds no statement.
 bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
     const std::size_t from = begin + marker_length(slice(begin, end));
+    if (is_drawing(slice(from, end))) return false;
     std::size_t after = end;
     while (after < end_) {  // lines that begin with = or +, or follow a sign
         const std::size_t next = line_end(after + 1);
@@ -231,8 +303,7 @@ bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
         if (line.empty() || !(line[0] == '=' || (line[0] == '+' && line.substr(0, 2) != "+ [") || line.starts_with("≈") || (ends_with_sign && before.back() != '-'))) break;
         after = next;
     }
-    std::size_t stop = after;
-    while (stop > from && (text_[stop - 1] == ' ' || text_[stop - 1] == '\r')) --stop;
+    std::size_t stop = end_of_formula(slice(from, after)) + from;
     if (stop - from > 4 && text_.compare(stop - 2, 2, "**") == 0) stop -= 2;
     std::vector<Statement> found = plain_statements(from, stop);
     bool has_statement = false, has_failure = false;
