@@ -2,6 +2,7 @@
 #include "derivation/written/document.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include "base/language/say.hpp"
 #include "derivation/written/commands.hpp"
@@ -51,7 +52,7 @@ bool is_letter_of_command(char c) {
 }  // namespace
 
 bool has_marks_of_latex(std::string_view text) {
-    if (text.find("\\[") != std::string_view::npos || text.find("\\(") != std::string_view::npos ||
+    if (has_display(text) || text.find("\\(") != std::string_view::npos ||
         text.find("\\frac") != std::string_view::npos || text.find("$$") != std::string_view::npos)
         return true;
     for (std::size_t at = text.find("\\begin{"); at != std::string_view::npos; at = text.find("\\begin{", at + 1)) {
@@ -95,6 +96,7 @@ std::vector<Statement> DocumentReader::statements() {
 
 void DocumentReader::scan(std::size_t begin, std::size_t end, Markup markup) {
     const std::size_t at = at_, last = end_;
+    known_paragraph_end_ = 0;
     at_ = begin;
     end_ = end;
     is_line_start_ = true;
@@ -108,7 +110,15 @@ std::size_t DocumentReader::line_end(std::size_t from) const {
 }
 
 /// The next blank line.
-std::size_t DocumentReader::paragraph_end(std::size_t from) const {
+std::size_t DocumentReader::paragraph_end(std::size_t from) {
+    if (from < known_paragraph_begin_ || from >= known_paragraph_end_) {
+        known_paragraph_begin_ = from;
+        known_paragraph_end_ = blank_line_after(from);
+    }
+    return known_paragraph_end_;
+}
+
+std::size_t DocumentReader::blank_line_after(std::size_t from) const {
     for (std::size_t k = text_.find('\n', from); k != std::string::npos && k < end_; k = text_.find('\n', k + 1)) {
         std::size_t after = k + 1;
         while (after < end_ && (text_[after] == ' ' || text_[after] == '\t' || text_[after] == '\r')) ++after;
@@ -257,19 +267,29 @@ void DocumentReader::dollar() {
     const std::size_t width = is_displayed ? 2 : 1;
     const std::size_t limit = is_displayed ? end_ : paragraph_end(at_);
     std::size_t close = std::string::npos;
+    // In Markdown a $ within a word is none, and blanks stand inside of both or of neither.
+    const bool is_strict = markup_ == Markup::markdown && !is_displayed;
+    const auto is_blank = [&](std::size_t k) { return k >= end_ || text_[k] == ' ' || text_[k] == '\n' || text_[k] == '\t'; };
+    const bool is_within_word = is_strict && begin > 0 && std::isalnum(static_cast<unsigned char>(text_[begin - 1]));
+    if (is_within_word) {
+        at_ = begin + 1;
+        return say_words("$");
+    }
     if (begin >= no_dollar_before_)
         for (std::size_t k = begin + width; k < limit; ++k) {
             if (text_[k] == '\\') {
                 ++k;
             } else if (text_[k] == '$') {
                 if (is_displayed && text_.compare(k, 2, "$$") != 0) continue;
+                if (is_strict && is_blank(begin + 1) != is_blank(k - 1)) continue;
                 close = k;
                 break;
             }
         }
     if (close == std::string::npos) {
         no_dollar_before_ = std::max(no_dollar_before_, limit);
-        if (is_displayed || markup_ == Markup::tex) {
+        const std::string_view rest = slice(begin, std::min(line_end(begin), begin + 200));
+        if (is_displayed || markup_ == Markup::tex || rest.find_first_of("=\\^") != std::string_view::npos) {
             refuse(begin, begin + width, say("a formula is opened here by {} and not closed", is_displayed ? "$$" : "$"));
         } else {
             say_words("$");
@@ -300,7 +320,11 @@ bool DocumentReader::enclosed(std::string_view open, std::string_view close, boo
 }
 
 void DocumentReader::backslash(Markup markup) {
-    if (markup == Markup::markdown && starts_with("\\\\[")) {  // where Markdown takes a backslash away
+    if (named_character_length(std::string_view(text_).substr(at_, 60)) > 0) {  // \[Theta] of Mathematica
+        const std::size_t length = named_character_length(std::string_view(text_).substr(at_, 60));
+        say_words(slice(at_, std::min(at_ + length, end_)));
+        at_ = std::min(at_ + length, end_);
+    } else if (markup == Markup::markdown && starts_with("\\\\[")) {  // where Markdown takes a backslash away
         enclosed("\\\\[", "\\\\]", true);
     } else if (markup == Markup::markdown && starts_with("\\\\(")) {
         enclosed("\\\\(", "\\\\)", false);

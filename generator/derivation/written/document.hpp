@@ -30,6 +30,7 @@ private:
     bool is_first_order_ = false;
     bool starts_paragraph_ = false;
     bool is_line_start_ = true;
+    std::size_t known_paragraph_begin_ = 0, known_paragraph_end_ = 0;
     std::size_t no_dollar_before_ = 0;  // up to here a $ has no partner
     std::vector<std::string> unclosed_;
     std::vector<WrittenToken> waiting_;  // a display that may go on in the next one
@@ -38,7 +39,8 @@ private:
 
     bool starts_with(std::string_view what) const { return text_.compare(at_, what.size(), what) == 0; }
     std::size_t line_end(std::size_t from) const;
-    std::size_t paragraph_end(std::size_t from) const;
+    std::size_t paragraph_end(std::size_t from);
+    std::size_t blank_line_after(std::size_t from) const;
     std::string_view slice(std::size_t begin, std::size_t end) const {
         return std::string_view(text_).substr(begin, end - begin);
     }
@@ -66,8 +68,16 @@ private:
     bool restructured_math(std::size_t end);
     bool plain_line(std::size_t begin, std::size_t end);
     bool bare_parentheses();
-    std::vector<Statement> plain_statements(std::size_t begin, std::size_t end);
+    std::vector<WrittenToken> latex_tokens(std::size_t begin, std::size_t end);
+    std::vector<WrittenToken> plain_tokens(std::size_t begin, std::size_t end);
+    static void add_word(std::vector<WrittenToken>& tokens, const std::string& word, std::size_t offset);
 };
+
+/// The length of a character of Mathematica that text begins with, \[Theta]; 0 if it begins with none.
+std::size_t named_character_length(std::string_view text);
+
+/// Whether text has \[ that opens a display.
+bool has_display(std::string_view text);
 
 /// Whether text has $…$, \[, \(, a mathematical environment or \frac.
 bool has_marks_of_latex(std::string_view text);

@@ -11,6 +11,8 @@ namespace alembert {
 
 namespace {
 
+constexpr int most_replaced_within = 40;
+
 bool is_latin(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
@@ -64,7 +66,10 @@ WrittenToken& WrittenLexer::add(Kind kind, std::size_t begin, std::string_view t
 
 /// Reads `latex` in place of what stands from `begin` to here.
 void WrittenLexer::replace(const std::string& latex, std::size_t begin, Notation notation) {
+    if (replaced_ >= most_replaced_within)
+        throw BeyondLimit{place(begin), say("the formula is nested more than {} levels deep", most_replaced_within)};
     WrittenLexer inner(latex, place(begin), notation, context_, list_);
+    inner.replaced_ = replaced_ + 1;
     inner.is_fixed_ = true;
     inner.fixed_length_ = is_fixed_ ? fixed_length_ : at_ - begin;
     inner.expansion_ = expansion_;
@@ -318,6 +323,10 @@ bool WrittenLexer::plain_word(std::size_t begin, const std::string& word) {
     if (byte(at_) == '.' && is_latin(byte(at_ + 1)) &&
         std::find(std::begin(modules), std::end(modules), word) != std::end(modules)) {
         ++at_;
+        return true;
+    }
+    if (word == "D" && byte(at_) == '[') {
+        add(Kind::command, begin, "diff");
         return true;
     }
     if (has_bracket && std::find(std::begin(calls), std::end(calls), word) != std::end(calls)) {

@@ -25,6 +25,7 @@ private:
     TokenContext& context_;
     std::vector<WrittenToken>& list_;
     std::size_t at_ = 0;
+    int replaced_ = 0;            // how many replacements stand in each other
     int expansion_ = 0;           // how many macros stand in each other
     bool is_fixed_ = false;       // all tokens have the place of what was replaced
     std::size_t fixed_length_ = 0;

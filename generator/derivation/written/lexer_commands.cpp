@@ -349,9 +349,9 @@ void WrittenLexer::quantity(std::size_t begin, std::string_view name) {
     if (name != "unit") {
         std::string number(argument());
         std::erase(number, ',');
-        if (const std::size_t e = number.find_first_of("eE"); e != std::string::npos)
-            number = number.substr(0, e) + "\\cdot10^{" + number.substr(e + 1) + "}";
-        replace("{" + number + "}", begin);
+        if (const std::size_t e = number.find_first_of("eE"); e != std::string::npos && name == "num")
+            number = "{" + number.substr(0, e) + "\\cdot10^{" + number.substr(e + 1) + "}}";
+        replace(number, begin);
     }
     if (name == "num") return;
     const std::string unit = plain_unit(argument());

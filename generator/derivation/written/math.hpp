@@ -57,6 +57,7 @@ struct Math {
     std::vector<MathPtr> args{};
     std::size_t offset = 0;
     std::size_t length = 0;
+    int levels = 1;  ///< of nodes in each other, itself counted; at most 300
 };
 
 }  // namespace alembert

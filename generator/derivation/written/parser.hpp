@@ -77,6 +77,7 @@ private:
     [[noreturn]] void unexpected(const std::string& expected) const;
     std::size_t closing(std::size_t i) const;
     MathPtr within(std::size_t begin, std::size_t end);
+    void count_levels(Math& math) const;
     MathPtr node(Math math, std::size_t begin) const;
     MathPtr placed(Math math, const Math& first, const Math& last) const;
 

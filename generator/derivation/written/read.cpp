@@ -16,6 +16,23 @@ namespace alembert {
 namespace {
 
 constexpr std::size_t largest_derivation = 1024 * 1024;
+constexpr std::size_t characters_apart = 1024;  // bytes between the marks of Written::characters
+
+bool begins_character(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
+}
+
+/// Notes where lines begin and how many characters stand before marks, so that places are found at once.
+void note_places(Written& written) {
+    written.lines = {0};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < written.text.size(); ++i) {
+        if (i % characters_apart == 0) written.characters.push_back(count);
+        count += begins_character(written.text[i]);
+        if (written.text[i] == '\n') written.lines.push_back(i + 1);
+    }
+    if (written.text.size() % characters_apart == 0) written.characters.push_back(count);
+}
 
 [[noreturn]] void fail_at(const std::string& text, const std::string& file, std::size_t offset, std::string message) {
     Scene where;
@@ -42,15 +59,19 @@ void check_encoding(const std::string& text, const std::string& file) {
 }  // namespace
 
 int Written::line(std::size_t offset) const {
-    return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n'));
+    const auto after = std::upper_bound(lines.begin(), lines.end(), std::min(offset, text.size()));
+    return std::max(1, static_cast<int>(after - lines.begin()));
 }
 
 int Written::column(std::size_t offset) const {
-    const std::size_t end = std::min(offset, text.size());
-    const std::size_t line_break = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
-    int column = 1;
-    for (std::size_t i = line_break == std::string::npos ? 0 : line_break + 1; i < end; ++column) decode(text, i);
-    return column;
+    const auto characters_before = [&](std::size_t end) {
+        const std::size_t mark = end / characters_apart;
+        std::size_t count = mark < characters.size() ? characters[mark] : 0;
+        for (std::size_t i = mark * characters_apart; i < end; ++i) count += begins_character(text[i]);
+        return count;
+    };
+    const std::size_t begin = lines.empty() ? 0 : lines[static_cast<std::size_t>(line(offset)) - 1];
+    return 1 + static_cast<int>(characters_before(std::min(offset, text.size())) - characters_before(begin));
 }
 
 bool is_derivation(const std::string& text, const std::string& file) {
@@ -66,6 +87,7 @@ Written read_derivation(std::string text, std::string file) {
     }
     check_encoding(text, file);
     Written written{.file = std::move(file), .text = std::move(text), .statements = {}};
+    note_places(written);
     try {
         DocumentReader reader(written.text, is_tex(written.text, written.file) ? Markup::tex : Markup::markdown);
         written.statements = reader.statements();

@@ -47,6 +47,8 @@ struct Written {
     std::string file;  ///< the name as given, for messages
     std::string text;
     std::vector<Statement> statements;
+    std::vector<std::size_t> lines{};       ///< where each line begins
+    std::vector<std::size_t> characters{};  ///< how many characters stand before each 1024th byte
     int line(std::size_t offset) const;    ///< from 1
     int column(std::size_t offset) const;  ///< from 1, in characters
 };

@@ -29,6 +29,16 @@ bool may_start_system(const std::vector<WrittenToken>& tokens, std::size_t i) {
            before == RowKind::arrow || before == RowKind::begin_group;
 }
 
+/// Whether nothing but words and separators stands around a bracket.
+bool stands_alone(const std::vector<WrittenToken>& tokens, std::size_t open, std::size_t close) {
+    const auto separates = [](RowKind kind) {
+        return kind == RowKind::text || kind == RowKind::comma || kind == RowKind::semicolon || kind == RowKind::row ||
+               kind == RowKind::space || kind == RowKind::arrow || kind == RowKind::period || kind == RowKind::end;
+    };
+    return separates(open == 0 ? RowKind::end : tokens[open - 1].kind) &&
+           separates(close + 1 < tokens.size() ? tokens[close + 1].kind : RowKind::end);
+}
+
 /// Marks for each bracket whether a relation or the end of a row stands directly in it.
 std::vector<char> holds_relation(const std::vector<WrittenToken>& tokens, const std::vector<std::size_t>& partner) {
     std::vector<char> holds(tokens.size(), 0);
@@ -66,11 +76,17 @@ std::vector<WrittenToken> without_frames(std::vector<WrittenToken> tokens) {
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         const RowKind before = i == 0 ? RowKind::row : tokens[i - 1].kind;
         const bool has_partner = partner[i] != no_partner;
-        if (tokens[i].kind == RowKind::begin_group && has_partner && holds[i] && before != RowKind::index &&
+        const RowKind after_empty = i + 2 < tokens.size() ? tokens[i + 2].kind : RowKind::end;
+        if (tokens[i].kind == RowKind::begin_group && partner[i] == i + 1 && before != RowKind::index && before != RowKind::power &&
+            before != RowKind::command && before != RowKind::end_group && after_empty != RowKind::power && after_empty != RowKind::index) {
+            dropped[i] = dropped[i + 1] = 1;  // &{}- c
+        } else if (tokens[i].kind == RowKind::begin_group && has_partner && holds[i] && before != RowKind::index &&
             before != RowKind::power && before != RowKind::command && before != RowKind::end_group) {
             dropped[i] = dropped[partner[i]] = 1;
         } else if (is_framing(tokens[i]) && has_partner && holds[i] && may_start_system(tokens, i)) {
             tokens[i].kind = tokens[partner[i]].kind = RowKind::row;  // a system of equations
+        } else if (tokens[i].kind == RowKind::open && has_partner && holds[i] && stands_alone(tokens, i, partner[i])) {
+            dropped[i] = dropped[partner[i]] = 1;  // {x' = y, y' = -x}
         } else if (tokens[i].kind == RowKind::open && i + 1 < tokens.size()) {
             const WrittenToken& next = tokens[i + 1];
             const bool is_brace = (next.kind == RowKind::row && next.text == "begin") || is_framing(next);

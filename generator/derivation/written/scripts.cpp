@@ -68,9 +68,13 @@ std::string MathParser::flat_text(std::size_t begin, std::size_t end) {
             case Kind::letter: {
                 static constexpr std::string_view dotted[] = {"", "_dot", "_ddot", "_dddot", "_ddddot"};
                 if (!text.empty() && what.letter.base.size() > 1 && text.back() != ',' && text.back() != '_') text += ' ';
+                if (what.upright && !what.text.empty()) {
+                    text += what.text;
+                    break;
+                }
                 text += what.letter.base + after + std::string(dotted[std::min(what.dots, 4)]);
                 if (!what.letter.index.empty())
-                    text += (what.upright || what.letter.base.size() > 1 ? "" : "_") + what.letter.index;
+                    text += "_" + what.letter.index;
                 after.clear();
                 break;
             }

@@ -215,7 +215,7 @@ private:
             was_index_range_ = false;
             return false;
         }
-        if (!was_index_range_ && list_.back().sides[0]->kind == Math::Kind::letter && list_.back().relations.size() == 1) {
+        if (!was_index_range_ && list_.back().sides[0] && list_.back().sides[0]->kind == Math::Kind::letter && list_.back().relations.size() == 1) {
             std::vector<MathPtr> condition = std::move(list_.back().sides);
             const Statement range = list_.back();
             if (list_.size() > 1) {
