@@ -20,29 +20,33 @@ constexpr std::size_t most_statements = 10000;
 
 bool is_formula_environment(std::string_view name) {
     if (name.ends_with('*')) name.remove_suffix(1);
-    static constexpr std::string_view names[] = {"equation", "align",  "gather", "multline", "eqnarray",    "alignat", "flalign",
-                                                 "math",     "displaymath", "aligned", "split", "dmath", "cases",   "array",
-                                                 "gathered", "empheq", "dgroup", "IEEEeqnarray", "pmatrix", "bmatrix"};
+    static constexpr std::string_view names[] = {"equation", "align",   "gather",       "multline",    "eqnarray",
+                                                 "alignat",  "flalign", "math",         "displaymath", "aligned",
+                                                 "split",    "dmath",   "cases",        "array",       "gathered",
+                                                 "empheq",   "dgroup",  "IEEEeqnarray", "pmatrix",     "bmatrix"};
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
 bool is_skipped_environment(std::string_view name) {
-    static constexpr std::string_view names[] = {"verbatim", "lstlisting", "comment", "tikzpicture", "minted", "thebibliography", "circuitikz", "pspicture"};
+    static constexpr std::string_view names[] = {"verbatim", "lstlisting",      "comment",    "tikzpicture",
+                                                 "minted",   "thebibliography", "circuitikz", "pspicture"};
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
 /// A sign with which a display ends or begins that goes on in, or from, another.
 bool is_joining_sign(const WrittenToken& token) {
     using Kind = WrittenToken::Kind;
-    return token.kind == Kind::plus || token.kind == Kind::minus || token.kind == Kind::times || token.kind == Kind::relation;
+    return token.kind == Kind::plus || token.kind == Kind::minus || token.kind == Kind::times ||
+           token.kind == Kind::relation;
 }
 
 /// $=$ or $\\Rightarrow$ among words.
 bool is_sign_alone(const std::vector<WrittenToken>& tokens) {
     using Kind = WrittenToken::Kind;
-    return tokens.size() == 1 && (is_joining_sign(tokens[0]) || tokens[0].kind == Kind::arrow || tokens[0].kind == Kind::divide ||
-                                  tokens[0].kind == Kind::partial || tokens[0].kind == Kind::dots || tokens[0].kind == Kind::comma ||
-                                  tokens[0].kind == Kind::period);
+    return tokens.size() == 1 &&
+           (is_joining_sign(tokens[0]) || tokens[0].kind == Kind::arrow || tokens[0].kind == Kind::divide ||
+            tokens[0].kind == Kind::partial || tokens[0].kind == Kind::dots || tokens[0].kind == Kind::comma ||
+            tokens[0].kind == Kind::period);
 }
 
 bool is_letter_of_command(char c) {
@@ -55,14 +59,17 @@ bool has_marks_of_latex(std::string_view text) {
     if (has_display(text) || text.find("\\(") != std::string_view::npos ||
         text.find("\\frac") != std::string_view::npos || text.find("$$") != std::string_view::npos)
         return true;
-    for (std::size_t at = text.find("\\begin{"); at != std::string_view::npos; at = text.find("\\begin{", at + 1)) {
+    for (std::size_t at = text.find("\\begin{"); at != std::string_view::npos;
+         at = text.find("\\begin{", at + 1)) {
         const std::size_t close = text.find('}', at);
-        if (close != std::string_view::npos && is_formula_environment(text.substr(at + 7, close - at - 7))) return true;
+        if (close != std::string_view::npos && is_formula_environment(text.substr(at + 7, close - at - 7)))
+            return true;
     }
     // $…$ within a line, and no price
     for (std::size_t at = text.find('$'); at != std::string_view::npos; at = text.find('$', at + 1)) {
         const std::size_t close = text.find_first_of("$\n", at + 1);
-        if (close != std::string_view::npos && text[close] == '$' && close > at + 1 && text[at + 1] != ' ' && text[close - 1] != ' ')
+        if (close != std::string_view::npos && text[close] == '$' && close > at + 1 && text[at + 1] != ' ' &&
+            text[close - 1] != ' ')
             return true;
     }
     return false;
@@ -71,7 +78,7 @@ bool has_marks_of_latex(std::string_view text) {
 DocumentReader::DocumentReader(const std::string& text, Markup markup)
     : text_(text), markup_(markup), has_marks_(has_marks_of_latex(text)) {}
 
-std::vector<Statement> DocumentReader::statements() {
+std::vector<WrittenStatement> DocumentReader::statements() {
     std::size_t begin = 0, end = text_.size();
     if (markup_ == Markup::tex) {
         const std::size_t body = text_.find("\\begin{document}");
@@ -177,7 +184,8 @@ void DocumentReader::say_words(std::string_view text) {
     }
     const std::size_t from = words_.size() > 60 ? words_.size() - 60 : 0;
     words_ += added;
-    if (has_letters && !is_first_order_) is_first_order_ = speaks_of_first_order(std::string_view(words_).substr(from));
+    if (has_letters && !is_first_order_)
+        is_first_order_ = speaks_of_first_order(std::string_view(words_).substr(from));
 }
 
 void DocumentReader::end_paragraph() {
@@ -185,7 +193,7 @@ void DocumentReader::end_paragraph() {
 }
 
 void DocumentReader::refuse(std::size_t begin, std::size_t end, std::string reason) {
-    Statement statement;
+    WrittenStatement statement;
     statement.reason = std::move(reason);
     statement.offset = begin;
     statement.length = end - begin;
@@ -207,9 +215,9 @@ void DocumentReader::end_waiting() {
     is_first_order_ = is_first_order;
 }
 
-void DocumentReader::add(std::vector<Statement> found, bool is_displayed) {
+void DocumentReader::add(std::vector<WrittenStatement> found, bool is_displayed) {
     end_waiting();
-    for (Statement& one : found) {
+    for (WrittenStatement& one : found) {
         if (list_.size() >= most_statements)
             throw BeyondLimit{one.offset, say("the derivation has more than {} statements", most_statements)};
         while (!words_.empty() && words_.back() == ' ') words_.pop_back();
@@ -236,8 +244,10 @@ void DocumentReader::add(std::vector<Statement> found, bool is_displayed) {
     }
 }
 
-void DocumentReader::formula(std::size_t begin, std::size_t end, Notation notation, bool is_displayed, bool joins_rows) {
-    if (notation == Notation::latex && end > begin + 1 && text_[begin] == '`' && text_[end - 1] == '`') ++begin, --end;  // $`…`$
+void DocumentReader::formula(std::size_t begin, std::size_t end, WrittenNotation notation, bool is_displayed,
+                             bool joins_rows) {
+    if (notation == WrittenNotation::latex && end > begin + 1 && text_[begin] == '`' && text_[end - 1] == '`')
+        ++begin, --end;  // $`…`$
     std::vector<WrittenToken> tokens = tokens_of(slice(begin, end), begin, notation, context_);
     if (tokens.empty()) return;
     if (is_sign_alone(tokens)) return say_words(slice(begin, end));
@@ -249,7 +259,8 @@ void DocumentReader::formula(std::size_t begin, std::size_t end, Notation notati
         row.kind = WrittenToken::Kind::row;
         row.text.clear();
         waiting_.push_back(std::move(row));
-        waiting_.insert(waiting_.end(), std::make_move_iterator(tokens.begin()), std::make_move_iterator(tokens.end()));
+        waiting_.insert(waiting_.end(), std::make_move_iterator(tokens.begin()),
+                        std::make_move_iterator(tokens.end()));
         words_.clear();
         return;
     }
@@ -269,8 +280,11 @@ void DocumentReader::dollar() {
     std::size_t close = std::string::npos;
     // In Markdown a $ within a word is none, and blanks stand inside of both or of neither.
     const bool is_strict = markup_ == Markup::markdown && !is_displayed;
-    const auto is_blank = [&](std::size_t k) { return k >= end_ || text_[k] == ' ' || text_[k] == '\n' || text_[k] == '\t'; };
-    const bool is_within_word = is_strict && begin > 0 && std::isalnum(static_cast<unsigned char>(text_[begin - 1]));
+    const auto is_blank = [&](std::size_t k) {
+        return k >= end_ || text_[k] == ' ' || text_[k] == '\n' || text_[k] == '\t';
+    };
+    const bool is_within_word =
+        is_strict && begin > 0 && std::isalnum(static_cast<unsigned char>(text_[begin - 1]));
     if (is_within_word) {
         at_ = begin + 1;
         return say_words("$");
@@ -290,7 +304,8 @@ void DocumentReader::dollar() {
         no_dollar_before_ = std::max(no_dollar_before_, limit);
         const std::string_view rest = slice(begin, std::min(line_end(begin), begin + 200));
         if (is_displayed || markup_ == Markup::tex || rest.find_first_of("=\\^") != std::string_view::npos) {
-            refuse(begin, begin + width, say("a formula is opened here by {} and not closed", is_displayed ? "$$" : "$"));
+            refuse(begin, begin + width,
+                   say("a formula is opened here by {} and not closed", is_displayed ? "$$" : "$"));
         } else {
             say_words("$");
         }
@@ -298,7 +313,7 @@ void DocumentReader::dollar() {
         return;
     }
     at_ = close + width;
-    formula(begin + width, close, Notation::latex, is_displayed);
+    formula(begin + width, close, WrittenNotation::latex, is_displayed);
 }
 
 /// \[ … \] and \( … \)
@@ -307,7 +322,8 @@ bool DocumentReader::enclosed(std::string_view open, std::string_view close, boo
     const std::string key(close);
     const bool is_known_unclosed = std::find(unclosed_.begin(), unclosed_.end(), key) != unclosed_.end();
     std::size_t end = is_known_unclosed ? std::string::npos : text_.find(close, begin);
-    while (close.size() == 2 && end != std::string::npos && end < end_ && end > begin && text_[end - 1] == '\\') end = text_.find(close, end + 1);  // \\[
+    while (close.size() == 2 && end != std::string::npos && end < end_ && end > begin && text_[end - 1] == '\\')
+        end = text_.find(close, end + 1);  // \\[
     if (end == std::string::npos || end >= end_) {
         if (!is_known_unclosed) unclosed_.push_back(key);
         refuse(at_, begin, say("a formula is opened here by {} and not closed", open));
@@ -315,7 +331,7 @@ bool DocumentReader::enclosed(std::string_view open, std::string_view close, boo
         return true;
     }
     at_ = end + close.size();
-    formula(begin, end, Notation::latex, is_displayed);
+    formula(begin, end, WrittenNotation::latex, is_displayed);
     return true;
 }
 
@@ -372,8 +388,9 @@ void DocumentReader::environment() {
     if (is_formula) {
         const bool is_matter_of_rows = name.starts_with("multline");
         const bool keeps_frame = name == "cases" || name == "array" || name.ends_with("matrix");
-        if (name.starts_with("alignat") && at_ < end && text_[at_] == '{') at_ = std::min(text_.find('}', at_) + 1, end);
-        formula(keeps_frame ? begin : at_, keeps_frame ? after : end, Notation::latex, true, is_matter_of_rows);
+        if (name.starts_with("alignat") && at_ < end && text_[at_] == '{')
+            at_ = std::min(text_.find('}', at_) + 1, end);
+        formula(keeps_frame ? begin : at_, keeps_frame ? after : end, WrittenNotation::latex, true, is_matter_of_rows);
     }
     at_ = after;
 }
@@ -392,26 +409,48 @@ void DocumentReader::command_among_words() {
         at_ = begin;
         if (take_in_macro(std::string_view(text_).substr(0, end_), at_, context_)) return;
         at_ = begin + 1 + name.size();
-        refuse(begin, at_, say("a macro of this form is not taken in; expected \\newcommand{{\\name}}[n]{{…}} or the formulas "
-                               "written out"));
+        refuse(begin, at_,
+               say("a macro of this form is not taken in; expected \\newcommand{{\\name}}[n]{{…}} or the formulas "
+                   "written out"));
         return;
     }
     if (known != nullptr && known->effect == WrittenCommand::Effect::refused && name != "usepackage" &&
-        name != "includegraphics" && name != "setlength" && name != "else" && name != "fi" && name != "show" && name != "message") {
+        name != "includegraphics" && name != "setlength" && name != "else" && name != "fi" && name != "show" &&
+        name != "message") {
         refuse(begin, at_,
-               say("{} is refused: nothing is executed, and no other file is read; expected formulas written out", in_quotes("\\" + std::string(name))));
+               say("{} is refused: nothing is executed, and no other file is read; expected formulas written out",
+                   in_quotes("\\" + std::string(name))));
         if (name.ends_with("def")) {  // its body is no formula of the document
             const std::size_t brace = std::min(text_.find_first_of("{\n", at_), end_);
-            const std::size_t close = brace < end_ && text_[brace] == '{'
-                                          ? end_of_group(std::string_view(text_).substr(0, std::min(end_, brace + 1000)), brace)
-                                          : std::string_view::npos;
+            const std::size_t close =
+                brace < end_ && text_[brace] == '{'
+                    ? end_of_group(std::string_view(text_).substr(0, std::min(end_, brace + 1000)), brace)
+                    : std::string_view::npos;
             at_ = close == std::string_view::npos ? brace : close;
         }
         return;
     }
-    static constexpr std::string_view silent[] = {"label", "ref", "eqref", "cite", "usepackage", "documentclass", "includegraphics",
-                                                  "vspace", "hspace", "bibliographystyle", "bibliography", "setlength", "end", "color",
-                                                  "pagestyle", "geometry", "setcounter", "addtocounter", "numberwithin", "hypersetup", "theoremstyle"};
+    static constexpr std::string_view silent[] = {"label",
+                                                  "ref",
+                                                  "eqref",
+                                                  "cite",
+                                                  "usepackage",
+                                                  "documentclass",
+                                                  "includegraphics",
+                                                  "vspace",
+                                                  "hspace",
+                                                  "bibliographystyle",
+                                                  "bibliography",
+                                                  "setlength",
+                                                  "end",
+                                                  "color",
+                                                  "pagestyle",
+                                                  "geometry",
+                                                  "setcounter",
+                                                  "addtocounter",
+                                                  "numberwithin",
+                                                  "hypersetup",
+                                                  "theoremstyle"};
     if (std::find(std::begin(silent), std::end(silent), name) == std::end(silent)) {
         say_words(" ");
         return;

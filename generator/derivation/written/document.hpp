@@ -17,14 +17,14 @@ public:
     DocumentReader(const std::string& text, Markup markup);
 
     /// Throws BeyondLimit.
-    std::vector<Statement> statements();
+    std::vector<WrittenStatement> statements();
 
 private:
     const std::string& text_;
     const Markup markup_;
     const bool has_marks_;  // $ and the like: lines without them are words first
     TokenContext context_;
-    std::vector<Statement> list_;
+    std::vector<WrittenStatement> list_;
     std::size_t at_ = 0, end_ = 0;
     std::string words_;
     bool is_first_order_ = false;
@@ -54,8 +54,9 @@ private:
     void backslash(Markup markup);
     void environment();
     void command_among_words();
-    void formula(std::size_t begin, std::size_t end, Notation notation, bool is_displayed, bool joins_rows = false);
-    void add(std::vector<Statement> found, bool is_displayed);
+    void formula(std::size_t begin, std::size_t end, WrittenNotation notation, bool is_displayed,
+                 bool joins_rows = false);
+    void add(std::vector<WrittenStatement> found, bool is_displayed);
     void end_waiting();
     void refuse(std::size_t begin, std::size_t end, std::string reason);
     std::size_t end_of_environment(const std::string& name, std::size_t from) const;

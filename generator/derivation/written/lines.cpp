@@ -32,8 +32,10 @@ bool has_dollar(std::string_view text) {
 }
 
 std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && std::string_view(" \t\r\n").find(text.front()) != std::string_view::npos) text.remove_prefix(1);
-    while (!text.empty() && std::string_view(" \t\r\n").find(text.back()) != std::string_view::npos) text.remove_suffix(1);
+    while (!text.empty() && std::string_view(" \t\r\n").find(text.front()) != std::string_view::npos)
+        text.remove_prefix(1);
+    while (!text.empty() && std::string_view(" \t\r\n").find(text.back()) != std::string_view::npos)
+        text.remove_suffix(1);
     return text;
 }
 
@@ -56,7 +58,8 @@ std::size_t marker_length(std::string_view line) {
     if (k + 1 < line.size() && (line[k] == '-' || line[k] == '*' || line[k] == '+') && line[k + 1] == ' ') k += 2;
     std::size_t digits = k;
     while (digits < line.size() && line[digits] >= '0' && line[digits] <= '9') ++digits;
-    if (digits > k && digits - k < 4 && digits + 1 < line.size() && (line[digits] == '.' || line[digits] == ')') && line[digits + 1] == ' ')
+    if (digits > k && digits - k < 4 && digits + 1 < line.size() && (line[digits] == '.' || line[digits] == ')') &&
+        line[digits + 1] == ' ')
         k = digits + 2;
     blanks();
     const std::size_t bold = line.substr(k, 2) == "**" ? line.find("**", k + 2) : std::string_view::npos;
@@ -69,18 +72,25 @@ std::size_t marker_length(std::string_view line) {
 
 /// A line of a picture of characters, or a rule.
 bool is_drawing(std::string_view line) {
-    if (line.find("===") != std::string_view::npos || line.find("---") != std::string_view::npos || line.find("___") != std::string_view::npos) return true;
+    if (line.find("===") != std::string_view::npos || line.find("---") != std::string_view::npos ||
+        line.find("___") != std::string_view::npos)
+        return true;
     const std::string_view bare = trimmed(line);
-    return bare.starts_with('|') || bare.find_first_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ\xCE\xCF\xE1\xF0") == std::string_view::npos;
+    return bare.starts_with('|') ||
+           bare.find_first_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ\xCE\xCF\xE1\xF0") ==
+               std::string_view::npos;
 }
 
 bool is_program(std::string_view language) {
-    static constexpr std::string_view names[] = {"python", "py", "c", "cpp", "c++", "bash", "sh", "json", "toml", "yaml", "javascript", "js",
-                                                 "julia", "html", "css", "rust", "java", "console", "shell", "diff", "xml", "ascii", "mermaid", "dot", "csv"};
+    static constexpr std::string_view names[] = {
+        "python", "py",         "c",   "cpp",   "c++",     "bash", "sh",   "json", "toml",
+        "yaml",   "javascript", "js",  "julia", "html",    "css",  "rust", "java", "console",
+        "shell",  "diff",       "xml", "ascii", "mermaid", "dot",  "csv"};
     return std::find(std::begin(names), std::end(names), language) != std::end(names);
 }
 
-/// Where the formula of a line ends, before the number of an equation, (1.24), or a remark in parentheses or after #.
+/// Where the formula of a line ends, before the number of an equation, (1.24), or a remark in parentheses or after
+/// #.
 std::size_t end_of_formula(std::string_view line) {
     std::size_t end = line.size();
     const auto without_blanks = [&] {
@@ -98,9 +108,11 @@ std::size_t end_of_formula(std::string_view line) {
     }
     const std::string_view inside = line.substr(open + 1, end - open - 2);
     if (open < 2 || line[open - 1] != ' ' || inside.empty()) return end;
-    const bool is_number = inside.find('.') != std::string_view::npos && inside.find_first_not_of("0123456789.") == std::string_view::npos;
+    const bool is_number = inside.find('.') != std::string_view::npos &&
+                           inside.find_first_not_of("0123456789.") == std::string_view::npos;
     const bool is_far = line[open - 2] == ' ' && inside.find_first_of("=+^*/") == std::string_view::npos;
-    const bool has_words = inside.find(' ') != std::string_view::npos && inside.find_first_of("=+^*/-0123456789") == std::string_view::npos &&
+    const bool has_words = inside.find(' ') != std::string_view::npos &&
+                           inside.find_first_of("=+^*/-0123456789") == std::string_view::npos &&
                            is_prose(inside.substr(0, inside.find(' ')));
     if (!is_number && !is_far && !has_words) return end;
     const std::size_t whole = end;
@@ -112,8 +124,8 @@ std::size_t end_of_formula(std::string_view line) {
 
 bool binds(const WrittenToken& token) {
     const LineKind kind = token.kind;
-    return kind == LineKind::plus || kind == LineKind::times || kind == LineKind::divide || kind == LineKind::power ||
-           kind == LineKind::relation || kind == LineKind::minus;
+    return kind == LineKind::plus || kind == LineKind::times || kind == LineKind::divide ||
+           kind == LineKind::power || kind == LineKind::relation || kind == LineKind::minus;
 }
 
 }  // namespace
@@ -141,9 +153,9 @@ bool DocumentReader::line(Markup markup) {
     }
     if (text.find(".. math::") != std::string_view::npos) return restructured_math(end);
     if (markup == Markup::tex && has_marks_) return false;
-    if (has_dollar(text) || text.find("\\(") != std::string_view::npos ||
-        has_display(text) || text.find("\\begin") != std::string_view::npos ||
-        text.find('`') != std::string_view::npos || !has_relation_sign(text))
+    if (has_dollar(text) || text.find("\\(") != std::string_view::npos || has_display(text) ||
+        text.find("\\begin") != std::string_view::npos || text.find('`') != std::string_view::npos ||
+        !has_relation_sign(text))
         return false;
     return plain_line(at_, end);
 }
@@ -165,14 +177,17 @@ bool DocumentReader::fence() {
     const std::size_t after = close >= end_ ? end_ : line_end(close + 1);
     if (language == "math" || language == "katex") {
         at_ = after;
-        formula(begin, end, Notation::latex, true);
+        formula(begin, end, WrittenNotation::latex, true);
     } else if (language == "latex" || language == "tex") {
-        if (has_marks_of_latex(slice(begin, end)) && slice(begin, end).find_first_of("$[(b") != std::string_view::npos &&
-            (slice(begin, end).find("\\begin") != std::string_view::npos || slice(begin, end).find("\\[") != std::string_view::npos ||
-             slice(begin, end).find('$') != std::string_view::npos || slice(begin, end).find("\\(") != std::string_view::npos))
+        if (has_marks_of_latex(slice(begin, end)) &&
+            slice(begin, end).find_first_of("$[(b") != std::string_view::npos &&
+            (slice(begin, end).find("\\begin") != std::string_view::npos ||
+             slice(begin, end).find("\\[") != std::string_view::npos ||
+             slice(begin, end).find('$') != std::string_view::npos ||
+             slice(begin, end).find("\\(") != std::string_view::npos))
             scan(begin, end, Markup::tex);
         else
-            formula(begin, end, Notation::latex, true);
+            formula(begin, end, WrittenNotation::latex, true);
     } else if (!is_program(language)) {
         const std::size_t last = end_;
         end_ = end;
@@ -209,7 +224,7 @@ bool DocumentReader::restructured_math(std::size_t end) {
     while (trimmed(slice(from, line_end(from))).empty() && from < last) from = std::min(line_end(from) + 1, last);
     if (trimmed(slice(from, line_end(from))).starts_with(':')) from = line_end(from);  // :label:
     at_ = last;
-    formula(from, last, Notation::latex, true);
+    formula(from, last, WrittenNotation::latex, true);
     return true;
 }
 
@@ -229,18 +244,18 @@ bool DocumentReader::code() {
     at_ = close + width;
     if (is_formula) {
         words_.resize(words_.size() - std::string_view(":math:").size());
-        formula(begin, close, Notation::latex, false);
+        formula(begin, close, WrittenNotation::latex, false);
         return true;
     }
     if (!has_relation_sign(slice(begin, close))) {
         say_words(slice(begin, close));
         return true;
     }
-    std::vector<Statement> found;
+    std::vector<WrittenStatement> found;
     if (has_command(slice(begin, close)))
-        found = statements_of(tokens_of(slice(begin, close), begin, Notation::latex, context_), false);
+        found = statements_of(tokens_of(slice(begin, close), begin, WrittenNotation::latex, context_), false);
     else
-        found = statements_of(tokens_of(slice(begin, close), begin, Notation::plain, context_), false);
+        found = statements_of(tokens_of(slice(begin, close), begin, WrittenNotation::plain, context_), false);
     add(std::move(found), false);
     return true;
 }
@@ -253,7 +268,7 @@ bool DocumentReader::bare_display() {
         const std::size_t next = line_end(end + 1);
         if (trimmed(slice(std::min(end + 1, end_), next)) == "]") {
             at_ = next;
-            formula(begin, end, Notation::latex, true);
+            formula(begin, end, WrittenNotation::latex, true);
             return true;
         }
         end = next;
@@ -272,7 +287,7 @@ bool DocumentReader::bare_parentheses() {
         const std::size_t begin = at_ + 1;
         if (!has_command(slice(begin, k)) || slice(begin, k).find("\\(") != std::string_view::npos) return false;
         at_ = k + 1;
-        formula(begin, k, Notation::latex, false);
+        formula(begin, k, WrittenNotation::latex, false);
         return true;
     }
     return false;
@@ -283,7 +298,8 @@ std::vector<WrittenToken> DocumentReader::latex_tokens(std::size_t begin, std::s
     std::vector<WrittenToken> tokens;
     std::size_t from = begin;
     const auto take = [&](std::size_t to) {
-        for (WrittenToken& token : tokens_of(slice(from, to), from, Notation::latex, context_)) tokens.push_back(std::move(token));
+        for (WrittenToken& token : tokens_of(slice(from, to), from, WrittenNotation::latex, context_))
+            tokens.push_back(std::move(token));
     };
     int depth = 0;
     for (std::size_t k = begin; k < end;) {
@@ -321,15 +337,19 @@ void DocumentReader::add_word(std::vector<WrittenToken>& tokens, const std::stri
 /// A line of plain text, in which words of prose become one token for all that stand together.
 std::vector<WrittenToken> DocumentReader::plain_tokens(std::size_t begin, std::size_t end) {
     std::vector<WrittenToken> joined;
-    const std::vector<WrittenToken> tokens = tokens_of(slice(begin, end), begin, Notation::plain, context_);
-    const auto source = [&](std::size_t i) { return slice(tokens[i].offset, tokens[i].offset + tokens[i].length); };
+    const std::vector<WrittenToken> tokens = tokens_of(slice(begin, end), begin, WrittenNotation::plain, context_);
+    const auto source = [&](std::size_t i) {
+        return slice(tokens[i].offset, tokens[i].offset + tokens[i].length);
+    };
     const auto is_letter = [&](std::size_t i) { return i < tokens.size() && tokens[i].kind == LineKind::letter; };
     const auto is_bound = [&](std::size_t i) {
         return (i > 0 && binds(tokens[i - 1])) ||
                (i + 1 < tokens.size() && (binds(tokens[i + 1]) || tokens[i + 1].kind == LineKind::primes ||
                                           (tokens[i + 1].kind == LineKind::open && tokens[i + 1].tight)));
     };
-    const auto is_clear_prose = [&](std::size_t i) { return is_letter(i) && source(i).size() > 1 && is_prose(source(i)) && !is_bound(i); };
+    const auto is_clear_prose = [&](std::size_t i) {
+        return is_letter(i) && source(i).size() > 1 && is_prose(source(i)) && !is_bound(i);
+    };
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         bool is_word = is_clear_prose(i);
         const bool is_joined = !joined.empty() && joined.back().kind == LineKind::text;
@@ -339,10 +359,13 @@ std::vector<WrittenToken> DocumentReader::plain_tokens(std::size_t begin, std::s
             const bool has_vowel = word.find_first_of("aeiouy") != std::string_view::npos;
             const bool is_small = word.find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string_view::npos;
             const bool is_beside = is_joined || is_clear_prose(i + 1);
-            is_word = is_beside && is_small && has_vowel && (word.size() > 1 ? command_named(word) == nullptr : is_clear_prose(i + 1) && (is_joined || i == 0));
+            is_word = is_beside && is_small && has_vowel &&
+                      (word.size() > 1 ? command_named(word) == nullptr
+                                       : is_clear_prose(i + 1) && (is_joined || i == 0));
         }
         const LineKind kind = tokens[i].kind;
-        const bool is_mark = (kind == LineKind::stray && tokens[i].text != "$" && tokens[i].text != "pm" && tokens[i].text != "mp") ||
+        const bool is_mark = (kind == LineKind::stray && tokens[i].text != "$" && tokens[i].text != "pm" &&
+                              tokens[i].text != "mp") ||
                              (kind == LineKind::minus && is_joined && is_clear_prose(i + 1));
         if (is_word || is_mark)
             add_word(joined, std::string(source(i)), tokens[i].offset);
@@ -361,25 +384,30 @@ bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
         const std::size_t next = line_end(after + 1);
         const std::string_view line = trimmed(slice(std::min(after + 1, end_), next));
         const std::string_view before = trimmed(slice(from, after));
-        const bool ends_with_sign = !before.empty() && std::string_view("=+-*/").find(before.back()) != std::string_view::npos && !before.ends_with("**");
-        if (line.empty() || !(line[0] == '=' || (line[0] == '+' && line.substr(0, 2) != "+ [") || line.starts_with("≈") || (ends_with_sign && before.back() != '-'))) break;
+        const bool ends_with_sign = !before.empty() &&
+                                    std::string_view("=+-*/").find(before.back()) != std::string_view::npos &&
+                                    !before.ends_with("**");
+        if (line.empty() || !(line[0] == '=' || (line[0] == '+' && line.substr(0, 2) != "+ [") ||
+                              line.starts_with("≈") || (ends_with_sign && before.back() != '-')))
+            break;
         after = next;
     }
     std::size_t stop = end_of_formula(slice(from, after)) + from;
     if (stop - from > 4 && text_.compare(stop - 2, 2, "**") == 0) stop -= 2;
     const bool is_latex = has_command(slice(from, stop));
-    std::vector<Statement> found = statements_of(is_latex ? latex_tokens(from, stop) : plain_tokens(from, stop), false);
+    std::vector<WrittenStatement> found =
+        statements_of(is_latex ? latex_tokens(from, stop) : plain_tokens(from, stop), false);
     bool has_statement = false, has_failure = false;
-    for (const Statement& one : found) {
+    for (const WrittenStatement& one : found) {
         has_statement |= one.sides.size() > 1;
         has_failure |= one.sides.empty();
     }
     if (!has_statement && !(has_failure && !has_marks_)) return false;
     if (has_failure && has_marks_) return false;
     const bool is_alone = !found.empty() && found.size() == 1 && found[0].offset == from;
-    std::vector<Statement> kept;
+    std::vector<WrittenStatement> kept;
     std::string words;
-    for (Statement& one : found) {
+    for (WrittenStatement& one : found) {
         if (one.sides.size() == 1) {  // a letter among words
             words += one.words + " " + std::string(slice(one.offset, one.offset + one.length));
             continue;

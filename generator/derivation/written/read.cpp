@@ -34,7 +34,8 @@ void note_places(Written& written) {
     if (written.text.size() % characters_apart == 0) written.characters.push_back(count);
 }
 
-[[noreturn]] void fail_at(const std::string& text, const std::string& file, std::size_t offset, std::string message) {
+[[noreturn]] void fail_at(const std::string& text, const std::string& file, std::size_t offset,
+                          std::string message) {
     Scene where;
     where.file = file;
     where.text = text;
@@ -42,7 +43,8 @@ void note_places(Written& written) {
 }
 
 bool is_tex(const std::string& text, const std::string& file) {
-    return file.ends_with(".tex") || file.ends_with(".latex") || text.find("\\documentclass") != std::string::npos ||
+    return file.ends_with(".tex") || file.ends_with(".latex") ||
+           text.find("\\documentclass") != std::string::npos ||
            text.find("\\begin{document}") != std::string::npos;
 }
 
@@ -52,7 +54,8 @@ void check_encoding(const std::string& text, const std::string& file) {
         const std::size_t begin = i;
         if (decode(text, i) == invalid_character)
             fail_at(text, file, begin,
-                    say("the byte 0x{:02X} is not UTF-8 here; save the file as UTF-8", static_cast<unsigned char>(text[begin])));
+                    say("the byte 0x{:02X} is not UTF-8 here; save the file as UTF-8",
+                        static_cast<unsigned char>(text[begin])));
     }
 }
 
@@ -75,15 +78,16 @@ int Written::column(std::size_t offset) const {
 }
 
 bool is_derivation(const std::string& text, const std::string& file) {
-    return file.ends_with(".tex") || file.ends_with(".latex") || file.ends_with(".md") || file.ends_with(".markdown") ||
-           has_marks_of_latex(text);
+    return file.ends_with(".tex") || file.ends_with(".latex") || file.ends_with(".md") ||
+           file.ends_with(".markdown") || has_marks_of_latex(text);
 }
 
 Written read_derivation(std::string text, std::string file) {
     if (text.size() > largest_derivation) {
         Scene where;
         where.file = file;
-        fail(where, {{{}, say("the derivation has {} bytes; the limit is {} (1 MiB)", text.size(), largest_derivation)}});
+        fail(where,
+             {{{}, say("the derivation has {} bytes; the limit is {} (1 MiB)", text.size(), largest_derivation)}});
     }
     check_encoding(text, file);
     Written written{.file = std::move(file), .text = std::move(text), .statements = {}};
@@ -96,7 +100,8 @@ Written read_derivation(std::string text, std::string file) {
     }
     if (written.statements.empty())
         fail_at(written.text, written.file, 0,
-                say("no mathematics was found; expected formulas in $…$, \\[…\\] or align, or lines such as T = 1/2*m*v^2"));
+                say("no mathematics was found; expected formulas in $…$, \\[…\\] or align, or lines such as T = "
+                    "1/2*m*v^2"));
     return written;
 }
 
