@@ -28,6 +28,8 @@
 #include "present/report/inverse.hpp"
 #include "present/report/kinematics.hpp"
 #include "present/report/linearization.hpp"
+#include "present/report/marked.hpp"
+#include "present/report/marked_page.hpp"
 #include "present/report/scene_page.hpp"
 #include "present/report/stability.hpp"
 #include "present/report/stability_charts.hpp"
@@ -147,7 +149,21 @@ Answer drawn(const Value& value) {
     return answer;
 }
 
+Answer do_derivation(Scene scene, const Asked& asked) {
+    MarkOptions options{.by = asked.by()};
+    for (const std::string& given : asked.texts("letters")) {
+        const std::size_t equals = given.rfind('=');
+        options.letters[given.substr(0, equals)] = given.substr(equals + 1);
+    }
+    const std::string title = scene.title;
+    const Marked marked = mark(std::move(scene), read_derivation(asked.text("derivation"), asked.text("name")), options);
+    return {.json = as_json(marked),
+            .text = as_text(marked),
+            .files = {{"html", as_html(marked, {.title = title, .version = ALEMBERT_VERSION})}}};
+}
+
 Answer do_check(Scene scene, const Asked& asked) {
+    if (asked.has("derivation")) return do_derivation(std::move(scene), asked);
     if (asked.has("claims")) scene = with_claims(std::move(scene), asked.text("claims"), "claims");
     return shown(check(std::move(scene), asked.by()));
 }

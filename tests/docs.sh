@@ -219,6 +219,7 @@ fields derive scenes/textbook/chaplygin_sleigh_in_speeds.toml
 fields agree scenes/textbook/sled.toml
 fields audit scenes/textbook/sled.toml
 fields check scenes/textbook/double_pendulum.toml
+fields check scenes/textbook/central_force.toml tests/derivations/central_force_slip.tex
 fields eval scenes/gallery/four_bar_joints.toml --reactions
 fields kinematics scenes/gallery/four_bar_joints.toml --steps --jacobian
 fields equilibrium scenes/textbook/rotating_hoop.toml

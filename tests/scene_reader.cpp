@@ -271,4 +271,27 @@ x = "3*t"
     CHECK(scene.forces.empty());
 }
 
+TEST_CASE("reader: letters of derivations stand for names of the scene, and for no others") {
+    const std::string scene = "[parameters]\nl = 1\n[coordinates]\ntheta = 0\n[letters]\n";
+    const Scene good = parse_scene(scene + R"toml("\\ell" = "l"
+'\omega' = "θ'"
+K = "T"
+)toml",
+                                   "scene.toml");
+    REQUIRE(good.letters.size() == 3);
+    CHECK(good.letters[0].written.text == "\\ell");
+    CHECK(good.letters[0].name.text == "l");
+    CHECK(good.letters[1].written.text == "\\omega");
+    CHECK(good.letters[1].name.text == "theta'");
+    CHECK(good.letters[2].name.text == "T");
+    try {
+        parse_scene(scene + "q = \"length\"\n", "scene.toml");
+        FAIL("a name that the scene does not have was read");
+    } catch (const SceneError& mistake) {
+        REQUIRE(mistake.diagnostics.size() == 1);
+        CHECK(mistake.diagnostics[0].place.line == 6);
+        CHECK(mistake.diagnostics[0].message.find("'length'") != std::string::npos);
+    }
+}
+
 }  // namespace scene_reader

@@ -1,22 +1,37 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <unistd.h>
 
-#include "present/report/check.hpp"
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <sstream>
 
+#include "alembert/base/error.hpp"
+#include "base/archive/file_form.hpp"
 #include "base/language/say.hpp"
+#include "commands/grade.hpp"
+#include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/terminal.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
+#include "derivation/scene_from.hpp"
+#include "present/report/check.hpp"
+#include "present/report/marked.hpp"
+#include "present/report/marked_page.hpp"
 #include "scene/claims_file.hpp"
+#include "scene/text_file.hpp"
 
 namespace alembert {
 
 namespace {
 
 struct CheckOptions : SceneOptions {
-    std::string claims;     ///< a file; if empty, the claims of the scene
+    std::string claims;     ///< a file or a folder; if empty, the claims of the scene
     bool complete = false;  ///< whether the right claims must determine the motion
+    std::vector<std::string> letters;
+    std::string page, csv;
+    bool drafts = false;  ///< whether `scene` is a derivation from which a scene is drafted
 };
 
 int exit_code(const Checked& checked, bool must_be_complete) {
@@ -28,9 +43,58 @@ int exit_code(const Checked& checked, bool must_be_complete) {
     return open ? 2 : 0;
 }
 
-int run(const CheckOptions& options) {
-    Scene scene = scene_of(options.scene);
-    if (!options.claims.empty()) scene = with_claims(std::move(scene), options.claims);
+int exit_code(const Marked& marked, bool must_be_complete) {
+    if (marked.first_mistake) return 1;
+    const bool open = count_of(marked, LineStatus::undecided) + count_of(marked, LineStatus::not_understood) +
+                          count_of(marked, LineStatus::unfounded) >
+                      0;
+    return open || (must_be_complete && !marked.complete) ? 2 : 0;
+}
+
+int exit_code(const Gradebook& book) {
+    bool is_open = false, has_problem = false;
+    for (const GradedRow& row : book.rows) {
+        if (row.first_mistake) return 1;
+        is_open = is_open || row.open > 0;
+        has_problem = has_problem || !row.problem.empty();
+    }
+    return has_problem ? 3 : is_open ? 2 : 0;
+}
+
+MarkOptions mark_options(const CheckOptions& options) {
+    MarkOptions result{.by = options.by};
+    for (const std::string& given : options.letters) {
+        const std::size_t equals = given.rfind('=');
+        if (equals == 0 || equals == std::string::npos || equals + 1 == given.size())
+            throw ModelError(say("--letters {}: expected LETTER=NAME, as in --letters \"\\\\ell=l\"", given));
+        result.letters[given.substr(0, equals)] = given.substr(equals + 1);
+    }
+    return result;
+}
+
+/// A page of words is no file of claims: it has lines that are neither equations nor comments nor one of its words.
+bool has_prose(const std::string& text) {
+    std::size_t words = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        begin = end + 1;
+        const std::size_t first = line.find_first_not_of(" \t\r");
+        if (first == std::string::npos || line[first] == '#' || line.find('=') != std::string::npos) continue;
+        static constexpr const char* modes[] = {"unknowns", "constants", "rest",   "impact",   "motion",
+                                                "solution", "near",      "closed", "sticking", "where"};
+        const std::string word = line.substr(first, line.find_first_of(" \t\r", first) - first);
+        if (std::none_of(std::begin(modes), std::end(modes), [&](const char* mode) { return word == mode; })) ++words;
+    }
+    return words > 0;
+}
+
+bool is_read_as_derivation(const CheckOptions& options, const std::string& text) {
+    if (options.claims == "-" || !options.page.empty() || !options.csv.empty() || !options.letters.empty()) return true;
+    return is_derivation(text, options.claims) || (ending_of(options.claims) == ".txt" && has_prose(text));
+}
+
+int run_claims(Scene scene, const CheckOptions& options) {
     const CheckedScene checked = check(std::move(scene), options.by);
     warn(checked.warnings);
     if (options.json)
@@ -40,23 +104,111 @@ int run(const CheckOptions& options) {
     return exit_code(checked.checked, options.complete);
 }
 
+void write_book(const Gradebook& book, const CheckOptions& options, const Scene& scene) {
+    if (!options.csv.empty()) write_file(options.csv, as_csv(book), {options.scene});
+    if (!options.page.empty())
+        write_file(options.page, as_html(book, {.title = scene.title, .version = ALEMBERT_VERSION}), {options.scene});
+}
+
+int run_folder(const Scene& scene, const CheckOptions& options) {
+    const Gradebook book =
+        grade(scene, derivations_in(options.claims), mark_options(options), !options.page.empty());
+    write_book(book, options, scene);
+    if (options.json)
+        show(as_json(book));
+    else
+        show(as_text(book, ink_for(STDOUT_FILENO)));
+    return exit_code(book);
+}
+
+int run_derivation(const Scene& scene, const CheckOptions& options, std::string text) {
+    const std::string name = options.claims == "-" ? say("standard input") : options.claims;
+    const Marked marked = mark(scene, read_derivation(std::move(text), name), mark_options(options));
+    if (!options.page.empty())
+        write_file(options.page, as_html(marked, {.title = scene.title, .version = ALEMBERT_VERSION}),
+                   {options.scene, options.claims});
+    if (!options.csv.empty())
+        write_file(options.csv, as_csv(Gradebook{.rows = {graded(marked)}}), {options.scene, options.claims});
+    if (options.json)
+        show(as_json(marked));
+    else
+        show(as_text(marked, ink_for(STDOUT_FILENO), columns_of(STDOUT_FILENO).value_or(0)));
+    return exit_code(marked, options.complete);
+}
+
+std::string text_of_input() {
+    return {std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
+}
+
+/// The scene, and what its derivation is worth by it, in comments: the whole can be kept as a scene.
+int run_draft(const CheckOptions& options) {
+    if (!options.claims.empty())
+        throw ModelError(say("--scene-from drafts the scene from the derivation itself; name this file alone"));
+    std::string text = options.scene == "-" ? text_of_input() : text_of_file(options.scene);
+    Written written = read_derivation(std::move(text), options.scene);
+    const DraftedScene drafted = scene_from(written);
+    const Scene scene = parse_scene(drafted.text, say("the scene drafted from {}", options.scene));
+    const Marked marked = mark(scene, std::move(written), mark_options(options));
+    if (!options.page.empty())
+        write_file(options.page, as_html(marked, {.title = scene.title, .version = ALEMBERT_VERSION}), {options.scene});
+    if (options.json) {
+        Json json = as_json(marked);
+        json["scene"] = drafted.text;
+        json["assumed"] = drafted.assumed;
+        show(json);
+        return exit_code(marked, options.complete);
+    }
+    show(drafted.text + "\n");
+    std::istringstream report(as_text(marked, ink_for(STDOUT_FILENO), columns_of(STDOUT_FILENO).value_or(0)));
+    for (std::string line; std::getline(report, line);) show((line.empty() ? "#" : "# " + line) + "\n");
+    return exit_code(marked, options.complete);
+}
+
+int run(const CheckOptions& options) {
+    check_output(options.page, FileForm::page, {options.scene, options.claims});
+    check_output(options.csv, FileForm::csv, {options.scene, options.claims});
+    if (options.drafts) return run_draft(options);
+    Scene scene = scene_of(options.scene);
+    if (options.claims.empty()) {
+        if (!options.page.empty() || !options.csv.empty() || !options.letters.empty())
+            throw ModelError(say("--html, --csv and --letters are for a derivation; name its file"));
+        return run_claims(std::move(scene), options);
+    }
+    std::error_code error;
+    if (std::filesystem::is_directory(options.claims, error)) return run_folder(scene, options);
+    std::string text = options.claims == "-" ? text_of_input() : text_of_file(options.claims);
+    if (is_read_as_derivation(options, text)) return run_derivation(scene, options, std::move(text));
+    return run_claims(with_claims(std::move(scene), std::move(text), options.claims), options);
+}
+
 }  // namespace
 
 void add_check(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<CheckOptions>(app, chosen,
-                                 {.name = "check",
-                                  .about = say("holds a hand derivation against the derived equations"),
-                                  .example = "alembert check scenes/textbook/double_pendulum.toml"},
-                                 run, [](Verb& verb, CheckOptions& options) {
-                                     verb.add_option(
-                                             "claims", options.claims,
-                                             say("a file, one equation a line; default: the scene's [[claim]]s"))
-                                         .type_name(values::claims);
-                                     verb.add_flag("--complete", options.complete,
-                                                   say("the exit code is 2 also if the claims that hold do not "
-                                                       "determine the motion"));
-                                     add_by_option(verb, options.by);
-                                 });
+    add_scene_verb<CheckOptions>(
+        app, chosen,
+        {.name = "check",
+         .about = say("checks your equations, or a whole derivation, against the derived equations"),
+         .example = "alembert check scenes/textbook/double_pendulum.toml"},
+        run, [](Verb& verb, CheckOptions& options) {
+            verb.add_option("claims", options.claims,
+                            say("a file, one equation a line, or a derivation in LaTeX, Markdown or plain text, or a "
+                                "folder of these; - for standard input; default: the scene's [[claim]]s"))
+                .type_name(values::claims);
+            verb.add_flag("--complete", options.complete,
+                          say("the exit code is 2 also if the claims that hold do not "
+                              "determine the motion"));
+            verb.add_option("--letters", options.letters,
+                            say("for which name a letter of the derivation stands, as in \"\\\\ell=l\""))
+                .type_name(values::assignment);
+            verb.add_flag("--scene-from", options.drafts,
+                          say("SCENE is a derivation; a scene is drafted from its letters and energies, and its lines "
+                              "are held against them"));
+            verb.add_option("--html", options.page, say("the marked derivation, or derivations, as a page"))
+                .type_name(values::file);
+            verb.add_option("--csv", options.csv, say("a row for each derivation, as a table"))
+                .type_name(values::file);
+            add_by_option(verb, options.by);
+        });
 }
 
 }  // namespace alembert

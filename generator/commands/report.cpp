@@ -8,7 +8,9 @@
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
+#include "present/report/marked_page.hpp"
 #include "present/report/scene_page.hpp"
+#include "scene/text_file.hpp"
 
 namespace alembert {
 
@@ -19,6 +21,7 @@ struct ReportVerb : SceneOptions {
     RunOptions wishes{.budget = 3'000'000};
     bool moves = true, measures = false;
     std::string section;
+    std::string derivation;  ///< a file; empty for none
 };
 
 /// Writes a page that shows the mistake if the scene is no mechanism, and reports the mistake.
@@ -35,7 +38,7 @@ std::string usual_page(const std::string& scene) {
 int run(const ReportVerb& given) {
     ReportVerb verb = given;
     if (verb.output.empty()) verb.output = usual_page(verb.scene);
-    check_output(verb.output, FileForm::page, {verb.scene});
+    check_output(verb.output, FileForm::page, {verb.scene, verb.derivation});
     Progress progress;
     OverviewOptions options{.by = verb.by, .wishes = verb.wishes, .moves = verb.moves};
     options.section = verb.section;
@@ -51,7 +54,13 @@ int run(const ReportVerb& given) {
     }
     progress.wipe();
     warn(all->warnings);
-    write_file(verb.output, as_html(*all, {.version = ALEMBERT_VERSION, .by = verb.by}), {verb.scene});
+    std::string marked;
+    if (!verb.derivation.empty())
+        marked = marked_fragment(
+            mark(all->scene, read_derivation(text_of_file(verb.derivation), verb.derivation), {.by = verb.by}));
+    write_file(verb.output,
+               as_html(*all, {.version = ALEMBERT_VERSION, .by = verb.by, .derivation = std::move(marked)}),
+               {verb.scene, verb.derivation});
     if (verb.json)
         show(Json{{"file", verb.output}});
     else
@@ -78,6 +87,9 @@ void add_report(CLI::App& app, Chosen& chosen) {
                 .positive();
             verb.add_option("--poincare", options.section, say("section of Poincare, as in \"theta1 = 0\""))
                 .type_name(values::formula);
+            verb.add_option("--derivation", options.derivation,
+                            say("a derivation by hand, which the page shows line by line with its verdicts"))
+                .type_name(values::file);
             verb.add_flag("--bench", options.measures, say("also speed against error, of every method"));
             verb.add_flag("!--no-motion", options.moves, say("leaves the motion out"));
         });

@@ -41,10 +41,10 @@ struct MarkedLine {
     std::size_t statement = 0;           ///< in Written::statements
     std::size_t offset = 0, length = 0;  ///< of its two sides in the document
     int line = 0, column = 0;            ///< from 1
-    std::string source;                  ///< as written
-    std::string claim;                   ///< in the scene's language; empty if it was not understood
-    CheckedClaim checked;                ///< the verdict on the system itself
-    std::string term;                    ///< the wrong term, in the scene's language; empty if it is not known
+    std::string source{};                  ///< as written
+    std::string claim{};                   ///< in the scene's language; empty if it was not understood
+    CheckedClaim checked{};               ///< the verdict on the system itself
+    std::string term{};                    ///< the wrong term, in the scene's language; empty if it is not known
     std::size_t term_offset = 0, term_length = 0;  ///< of the wrong term in the document; length 0 if not known
     std::string right;        ///< the right line, in the scene's language; empty if it is not known
     std::string right_latex;  ///< the same in LaTeX
@@ -67,7 +67,11 @@ struct MarkOptions {
     std::map<std::string, std::string> letters = {};  ///< as written → in the scene, over what is found
 };
 
+class DerivedSystem;
+
 /// Throws SceneError for letters that name nothing, and what `derived` throws.
 Marked mark(Scene scene, Written written, const MarkOptions& options = {});
+/// The same for one of several derivations about a system.
+Marked mark(DerivedSystem& system, Written written, const MarkOptions& options = {});
 
 }  // namespace alembert

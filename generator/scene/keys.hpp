@@ -76,6 +76,7 @@ inline constexpr TableKeys table_keys[] = {
     {"simulation",
      TableKeys::Shape::one,
      {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "regularize", "period"}},
+    {"letters", TableKeys::Shape::one},
     {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at", "near", "where"}},
 };
 

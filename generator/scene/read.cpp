@@ -76,6 +76,7 @@ constexpr Section sections[] = {
     {"event", each<read_event>},
     {"polynomial", one<read_polynomial>},
     {"simulation", one<read_simulation>},
+    {"letters", one<read_letters>},
     {"claim", each<read_claim>},
 };
 

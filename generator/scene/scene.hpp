@@ -290,6 +290,11 @@ struct Claim {
     std::vector<std::pair<Name, Expression>> near = {};
 };
 
+/// A letter of hand derivations and the name that it stands for here: "\\ell" for l.
+struct WrittenLetter {
+    Name written, name;
+};
+
 struct Scene {
     // Defined in one file: inline, every file that holds one would compile the copies of all its parts.
     Scene();
@@ -334,6 +339,7 @@ struct Scene {
     std::optional<PolynomialRule> polynomial;
     Simulation simulation;
     std::vector<Claim> claims;
+    std::vector<WrittenLetter> letters;
     std::vector<Diagnostic> warnings;
     std::vector<std::string> allowed;  ///< kinds of warnings that are not told: `allow` of the scene
     /// Called with each warning of the reader and of all later stages as soon as it is found, so that it is not

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "base/language/say.hpp"
@@ -150,6 +151,26 @@ void read_functions(const Table& table, Scene& scene) {
                                      say("a function has one to {} arguments, as in V = [\"r\"]; {} has {}",
                                          most_arguments, in_quotes(entry.key), made.arguments.size()));
         scene.functions.push_back(std::move(made));
+    }
+}
+
+void read_letters(const Table& table, Scene& scene) {
+    const KnownNames& names = table.reading().names;
+    for (const Entry& entry : table.entries()) {
+        std::optional<Name> name =
+            read_name(table.reading(), *entry.node, labelled(say("the name for the letter"), entry.key));
+        if (!name) continue;
+        // Rates too: "\\omega" = "phi'". And what derivations call by these letters.
+        const std::size_t primes = std::min(name->text.find('\''), name->text.size());
+        const std::string stem = names.spelled(name->text.substr(0, primes));
+        const bool is_quantity = std::string_view("T V L E H t").find(stem) != std::string_view::npos;
+        if (!names.has(stem) && !(is_quantity && stem.size() == 1))
+            table.reading().complain(name->place,
+                                     say("the letter {} stands for {}, which the scene does not have; expected one "
+                                         "of its names, as in \"\\\\ell\" = \"l\"",
+                                         in_quotes(entry.key), in_quotes(name->text)));
+        name->text = stem + name->text.substr(primes);
+        scene.letters.push_back({{entry.key, entry.place}, *std::move(name)});
     }
 }
 

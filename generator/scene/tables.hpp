@@ -16,6 +16,7 @@ Coordinate read_coordinate(const Reading& reading, const Entry& entry);
 void read_speeds(const Table& table, Scene& scene);
 void read_definitions(const Table& table, Scene& scene);
 void read_functions(const Table& table, Scene& scene);
+void read_letters(const Table& table, Scene& scene);
 void read_energy(const Table& table, Scene& scene);
 void read_dissipation(const Table& table, Scene& scene);
 void read_forces(const Table& table, Scene& scene);

@@ -71,6 +71,44 @@ class Checked(Result):
     def verdicts(self) -> list[_Verdict]: ...
     def __bool__(self) -> bool: ...
 
+_Status = Literal["right", "right_near", "right_up_to_constant", "right_up_to_derivative", "definition", "mistake",
+                  "follows", "unfounded", "undecided", "not_understood", "not_about_scene"]
+
+class _LineAlways(TypedDict):
+    line: int
+    column: int
+    source: str
+    claim: str
+    status: _Status
+    verdict: _Verdict | None
+    method: Literal["proved", "sampled"] | None
+    term: str
+    likely: _Likely | None
+    right: str
+    follows_from: int | None
+    reason: str
+    counterexample: dict[str, str]
+
+class _Line(_LineAlways, total=False):
+    right_latex: str
+    residual: float
+    difference: str
+
+class Marked(Result):
+    file: str
+    lines: list[_Line]
+    first_mistake: int | None
+    missing: list[str]
+    complete: bool
+    letters: dict[str, str]
+    remarks: list[str]
+    @property
+    def statuses(self) -> list[_Status]: ...
+    @property
+    def html(self) -> str: ...
+    def save(self, path: _Path) -> None: ...
+    def __bool__(self) -> bool: ...
+
 class Agreed(Result):
     formalisms: list[str]
     verdict: Literal["proved", "refuted", "undecided"]
@@ -221,6 +259,7 @@ class Scene:
     def derive(self, by: str = ..., *, reactions: bool = ...) -> Derivation: ...
     def draw(self) -> Figure: ...
     def check(self, claims: str | Iterable[str] | None = ..., *, by: str = ...) -> Checked: ...
+    def mark(self, derivation: str, *, letters: Mapping[str, str] | None = ..., by: str = ...) -> Marked: ...
     def audit(self) -> Audited: ...
     def agree(self) -> Agreed: ...
     def eval(

@@ -153,6 +153,29 @@ class Checked(Result):
         return all(verdict == "proved" for verdict in self.verdicts)
 
 
+class Marked(Result):
+    """A derivation, line by line with a verdict."""
+
+    @property
+    def statuses(self):
+        """"right", "mistake", "follows" …, one for each equality in reading order."""
+        return [line["status"] for line in self.json["lines"]]
+
+    @property
+    def html(self):
+        """The marked derivation as a page."""
+        return self._files["html"].decode()
+
+    def save(self, path):
+        """Writes the page to an HTML file."""
+        _alembert.need_form(_os.fspath(path), "page")
+        write(path, self.html)
+
+    def __bool__(self):
+        """True if there is no mistake."""
+        return self.json["first_mistake"] is None
+
+
 class Agreed(Result):
     """Formalisms that were compared: `verdict`, and how it was found."""
 

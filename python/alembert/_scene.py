@@ -8,7 +8,7 @@ from collections.abc import Mapping as _Mapping
 from . import _alembert
 from ._motion import Run, Swept
 from ._results import (
-    Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Result, Sources, Stability, ask, axis, listed,
+    Agreed, Audited, Checked, Derivation, Drawn, Equilibria, Figure, Marked, Result, Sources, Stability, ask, axis, listed,
     numbers, options_text, points_of, samples_of, values_at, warn, write)  # yapf: disable
 from ._system import Robot, System
 from ._toml import to_toml
@@ -74,6 +74,12 @@ class Scene:
         if claims is not None and not isinstance(claims, str):
             claims = "\n".join(claims)
         return self._ask("check", Checked, claims=claims, by=by)
+
+    def mark(self, derivation, *, letters=None, by=""):
+        """A whole derivation, the text of a file in LaTeX, Markdown or plain text, line by line with a verdict.
+        `letters` says what its letters are called in the scene: {r"\\ell": "l"}."""
+        pairs = [f"{written}={name}" for written, name in (letters or {}).items()]
+        return self._ask("check", Marked, derivation=derivation, name="derivation", letters=pairs, by=by)
 
     def audit(self):
         """Constraints: kinds, ranks, which are redundant or integrable."""

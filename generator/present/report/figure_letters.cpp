@@ -43,7 +43,7 @@ double letters_in(const std::string& expression) {
     return count;
 }
 
-struct Ink {
+struct LetterInk {
     Vector2d at;
     double room;    ///< half the width of the stroke
     double weight;  ///< how much it disturbs a letter
@@ -55,8 +55,8 @@ double weight_of(const std::string& style) {
     return 1;
 }
 
-std::vector<Ink> ink_of(const FigureShapes& figure, const FigureScreen& screen) {
-    std::vector<Ink> ink;
+std::vector<LetterInk> ink_of(const FigureShapes& figure, const FigureScreen& screen) {
+    std::vector<LetterInk> ink;
     for (const FigureShape& shape : figure.shapes) {
         if (is_text(shape) || screen.is_hidden(shape)) continue;
         const double weight = weight_of(shape.style);
@@ -88,7 +88,7 @@ std::vector<Ink> ink_of(const FigureShapes& figure, const FigureScreen& screen) 
             if (is_closed && (k + 1 == line.size() || line[k + 1].begins)) draw(line[k].at, line[first].at);
         }
     }
-    std::erase_if(ink, [](const Ink& dot) { return !dot.at.allFinite(); });
+    std::erase_if(ink, [](const LetterInk& dot) { return !dot.at.allFinite(); });
     return ink;
 }
 
@@ -112,7 +112,7 @@ private:
     double cost(const Box& box, double way) const {
         double sum = 0.02 * way;
         for (const Box& other : taken_) sum += 12 * box.with(other).area() / box.area();
-        for (const Ink& dot : ink_)
+        for (const LetterInk& dot : ink_)
             if (box.holds(dot.at, dot.room)) sum += 0.25 * dot.weight;
         constexpr double edge = 4;
         const Box picture{Vector2d(edge, edge), Vector2d(f_.width - edge, f_.height - edge)};
@@ -145,7 +145,7 @@ private:
 
     FigureShapes& f_;
     const FigureScreen& screen_;
-    std::vector<Ink> ink_;
+    std::vector<LetterInk> ink_;
     std::vector<Box> taken_;
 };
 

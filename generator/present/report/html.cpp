@@ -34,7 +34,12 @@ std::vector<std::string> children(const std::string& mathml) {
 }
 
 bool is_sign(const std::string& element) {
-    return element == "<mo>+</mo>" || element == "<mo>&#x2212;</mo>" || element == "<mo>=</mo>";
+    return element == "<mo>+</mo>" || element == "<mo>&#x2212;</mo>";
+}
+
+bool is_relation(const std::string& element) {
+    return element == "<mo>=</mo>" || element == "<mo>&#x2248;</mo>" || element == "<mo>&#x2261;</mo>" ||
+           element == "<mo>&#x221D;</mo>";
 }
 
 }  // namespace
@@ -75,22 +80,24 @@ std::string inline_math(const Phrase& phrase) {
     return "<math>" + notation_of("mathml").phrase(phrase) + "</math>";
 }
 
-std::string equation(const std::string& left, const std::string& right) {
+std::string breakable(const std::vector<std::string>& rows) {
     std::string result = "<div class=\"equation\"><math displaystyle=\"true\"><mrow>";
-    std::vector<std::string> all = children(left);
-    all.push_back("<mo>=</mo>");
-    for (std::string& part : children(right)) all.push_back(std::move(part));
     bool after_sign = true;
-    for (const std::string& part : all) {
-        const bool sign = is_sign(part);
-        if (sign && !after_sign)
-            result += "</mrow></math> <math displaystyle=\"true\"><mrow>" + part.substr(0, 3) + " form=\"infix\"" +
-                      part.substr(3);
-        else
-            result += part;
-        after_sign = part == "<mo>=</mo>";
-    }
+    for (const std::string& row : rows)
+        for (const std::string& part : is_relation(row) ? std::vector{row} : children(row)) {
+            const bool relates = is_relation(part);
+            if ((is_sign(part) || relates) && !after_sign)
+                result += "</mrow></math> <math displaystyle=\"true\"><mrow>" + part.substr(0, 3) +
+                          " form=\"infix\"" + part.substr(3);
+            else
+                result += part;
+            after_sign = relates;
+        }
     return result + "</mrow></math></div>\n";
+}
+
+std::string equation(const std::string& left, const std::string& right) {
+    return breakable({left, "<mo>=</mo>", right});
 }
 
 }  // namespace alembert

@@ -15,7 +15,9 @@ std::string language_tag() {
     return say("en");
 }
 
-std::string head(const std::string& title, bool has_script) {
+}  // namespace
+
+std::string page_head(const std::string& title, bool has_script) {
     std::string page;
     put(page,
         "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -28,8 +30,6 @@ std::string head(const std::string& title, bool has_script) {
         has_script ? "; script-src 'sha256-" + sha256_base64(page_script) + "'" : "", html(title), page_style);
     return page;
 }
-
-}  // namespace
 
 std::string unit_text(std::string unit) {
     for (const auto& [typed, print] : {std::pair("^2", "²"), std::pair("^3", "³"), std::pair("*", "·")})
@@ -72,6 +72,11 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
     add_mechanism(parts, all);
     add_derivation(parts, all);
     add_claims(parts, all);
+    if (!options.derivation.empty()) {
+        parts.section("hand-derivation", say("Derivation by hand"));
+        parts.body += options.derivation;
+        parts.end();
+    }
     add_agreement(parts, all);
     add_constraints(parts, all);
     add_stability(parts, all);
@@ -83,7 +88,7 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
     add_commands(parts, all, options.by);
 
     const std::string title = all.scene.title.empty() ? all.mechanism.name : all.scene.title;
-    std::string page = head(title, true);
+    std::string page = page_head(title, true);
     put(page, "<a class=\"skip\" href=\"#main\">{}</a>\n<header>\n<h1>{}</h1>\n", say("To the content"),
         html(title));
     if (!all.scene.source.empty()) put(page, "<p class=\"source\">{}</p>\n", html(all.scene.source));
@@ -102,7 +107,7 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
 }
 
 std::string error_page(const std::string& file, const std::string& message) {
-    std::string page = head(say("There is a mistake in {}", file), false);
+    std::string page = page_head(say("There is a mistake in {}", file), false);
     put(page,
         "<header><h1>{}</h1></header>\n<main id=\"main\"><section>\n<p>{}</p>\n"
         "<pre class=\"problem\" role=\"alert\">{}</pre>\n<p>{}</p>\n</section></main>\n</body>\n</html>\n",
