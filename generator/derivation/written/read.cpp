@@ -8,7 +8,6 @@
 #include "derivation/written/document.hpp"
 #include "derivation/written/parser.hpp"
 #include "scene/scene.hpp"
-#include "scene/source.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -34,12 +33,11 @@ void note_places(Written& written) {
     if (written.text.size() % characters_apart == 0) written.characters.push_back(count);
 }
 
-[[noreturn]] void fail_at(const std::string& text, const std::string& file, std::size_t offset,
-                          std::string message) {
+[[noreturn]] void fail_at(const Written& written, std::size_t offset, std::string message) {
     Scene where;
-    where.file = file;
-    where.text = text;
-    fail(where, {{SourceText(text).place(offset), std::move(message)}});
+    where.file = written.file;
+    where.text = written.text;
+    fail(where, {{{written.line(offset), written.column(offset)}, std::move(message)}});
 }
 
 bool is_tex(const std::string& text, const std::string& file) {
@@ -49,13 +47,13 @@ bool is_tex(const std::string& text, const std::string& file) {
 }
 
 /// Where the text is no UTF-8, as a message.
-void check_encoding(const std::string& text, const std::string& file) {
-    for (std::size_t i = 0; i < text.size();) {
+void check_encoding(const Written& written) {
+    for (std::size_t i = 0; i < written.text.size();) {
         const std::size_t begin = i;
-        if (decode(text, i) == invalid_character)
-            fail_at(text, file, begin,
+        if (decode(written.text, i) == invalid_character)
+            fail_at(written, begin,
                     say("the byte 0x{:02X} is not UTF-8 here; save the file as UTF-8",
-                        static_cast<unsigned char>(text[begin])));
+                        static_cast<unsigned char>(written.text[begin])));
     }
 }
 
@@ -89,17 +87,17 @@ Written read_derivation(std::string text, std::string file) {
         fail(where,
              {{{}, say("the derivation has {} bytes; the limit is {} (1 MiB)", text.size(), largest_derivation)}});
     }
-    check_encoding(text, file);
     Written written{.file = std::move(file), .text = std::move(text), .statements = {}};
     note_places(written);
+    check_encoding(written);
     try {
         DocumentReader reader(written.text, is_tex(written.text, written.file) ? Markup::tex : Markup::markdown);
         written.statements = reader.statements();
     } catch (const BeyondLimit& limit) {
-        fail_at(written.text, written.file, limit.offset, limit.message);
+        fail_at(written, limit.offset, limit.message);
     }
     if (written.statements.empty())
-        fail_at(written.text, written.file, 0,
+        fail_at(written, 0,
                 say("no mathematics was found; expected formulas in $…$, \\[…\\] or align, or lines such as T = "
                     "1/2*m*v^2"));
     return written;
