@@ -160,6 +160,17 @@ void Marker::judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs) {
         judge_false(line, sides, row);
 }
 
+/// d/dt ∂L/∂q' = ∂L/∂q is right, and gives no equation of motion that is written out.
+bool Marker::repeats_law(const Sides& sides) const {
+    const auto is_law = [&](const std::string& name) {
+        const auto is = [&](MechanicalQuantity quantity) { return name == letters_.name_of(quantity); };
+        return name.starts_with("Q_") || is(MechanicalQuantity::kinetic) || is(MechanicalQuantity::potential) ||
+               is(MechanicalQuantity::lagrangian) || is(MechanicalQuantity::energy) || is(MechanicalQuantity::hamiltonian);
+    };
+    return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_law) ||
+           std::any_of(sides.right.names.begin(), sides.right.names.end(), is_law);
+}
+
 bool Marker::has_quantities(const Sides& sides) const {
     const auto is_own = [&](const std::string& name) { return known_.contains(name); };
     return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_own) ||
@@ -171,7 +182,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
     MotionRows& rows = system_.rows();
     const bool is_identity = rows.is_identity(row) == true;
     const MotionRow own = rows.row(own_residual(sides));
-    if (!is_identity && !has_quantities(sides)) notes_.back().equation = row;
+    if (!is_identity && !repeats_law(sides)) notes_.back().equation = row;
     const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
     const bool founded = is_identity ? !wrong || rows.is_identity(own) == true : own_.founds(own) || own_.founds(row);
     if (founded) return;

@@ -105,6 +105,7 @@ private:
     bool has_several_unknown(const Math& lhs, const Math& rhs) const;
     bool speaks_of_law_in_general(const Math& math) const;
     bool has_quantities(const Sides& sides) const;
+    bool repeats_law(const Sides& sides) const;
     std::optional<CheckedClaim> with_other_forces(const LineClaim& claim);
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
     void adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict);

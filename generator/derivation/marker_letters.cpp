@@ -94,7 +94,7 @@ void Marker::hear(const std::string& words) {
 
 /// "…, where M = m_1 + m_2": a letter that a later line introduces.
 bool Marker::introduce_ahead(const Letter& letter) {
-    if (!ahead_.insert(letter).second) return false;
+    if (ahead_.contains(letter)) return false;
     const bool of_motion = std::any_of(statement_->sides.begin(), statement_->sides.end(),
                                        [](const MathPtr& side) { return is_accelerated(*side); });
     const auto is_constant = [&](const Math& value) {
@@ -116,6 +116,7 @@ bool Marker::introduce_ahead(const Letter& letter) {
                 try {
                     MarkedLine there;
                     define(there, *lone.letter, value, lone.power);
+                    ahead_.insert(letter);
                     return true;
                 } catch (const NoMeaning&) {
                     continue;
