@@ -123,7 +123,9 @@ std::string letters_line(const Marked& marked) {
 
 std::string one_line(const std::string& source) {
     std::string result;
-    for (const char c : source) {
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        const char c = source[i];
+        if (c == '&' && (i == 0 || source[i - 1] != '\\')) continue;  // of LaTeX's columns
         const bool is_blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
         if (!is_blank) result += c;
         if (is_blank && !result.empty() && result.back() != ' ') result += ' ';
