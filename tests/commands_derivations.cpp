@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derivations on the command line: exit codes, JSON, pages and gradebooks. What each line of a derivation is worth is held by
-// tests/derivations.py.
+// Derivations on the command line: exit codes, JSON, pages and gradebooks. What each line of a derivation is worth
+// is held by tests/derivations.py.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -42,8 +42,7 @@ const std::string wrong = R"tex(
 )tex";
 
 Json marked(const std::string& file, const std::string& text) {
-    return Json::parse(
-        run({"check", temporary("pendulum.toml", pendulum), temporary(file, text), "--json"}).out);
+    return Json::parse(run({"check", temporary("pendulum.toml", pendulum), temporary(file, text), "--json"}).out);
 }
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
@@ -86,7 +85,8 @@ TEST_CASE("derivations: standard input is one, and a plain file of equations sti
     const Run piped = run_shell(R"(printf '%s' "$2" | "$ALEMBERT" check "$1" - --json)", {scene, wrong});
     CHECK(piped.exit == 1);
     CHECK(Json::parse(piped.out)["first_mistake"] == 1);
-    const std::string claims = temporary("claims.txt", "l*theta'' + g*sin(theta) = 0\n# a comment\nrest\nsin(theta) = 0\n");
+    const std::string claims =
+        temporary("claims.txt", "l*theta'' + g*sin(theta) = 0\n# a comment\nrest\nsin(theta) = 0\n");
     const Json plain = Json::parse(run({"check", scene, claims, "--json"}).out);
     CHECK(plain["claims"].size() == 2);
     const std::string words = temporary("words.txt", "The equation of motion is\nl θ̈ + g sin θ = 0\n");
@@ -99,7 +99,8 @@ TEST_CASE("derivations: letters are said by the scene and by the option, and a n
     const std::string scene = temporary("pendulum.toml", pendulum);
     const Run told = run({"check", scene, file, "--letters", "a=l", "--letters", "\\chi=theta", "--json"});
     CHECK(Json::parse(told.out)["lines"][0]["status"] == "right");
-    const std::string with = temporary("letters.toml", pendulum + "[letters]\na = \"l\"\n\"\\\\chi\" = \"theta\"\n");
+    const std::string with =
+        temporary("letters.toml", pendulum + "[letters]\na = \"l\"\n\"\\\\chi\" = \"theta\"\n");
     CHECK(Json::parse(run({"check", with, file, "--json"}).out)["lines"][0]["status"] == "right");
     const Run refused = run({"check", scene, file, "--letters", "a=length"});
     CHECK(refused.exit == 3);
@@ -107,7 +108,8 @@ TEST_CASE("derivations: letters are said by the scene and by the option, and a n
     CHECK(run({"check", scene, file, "--letters", "a"}).exit == 3);
 }
 
-TEST_CASE("derivations: the page has each line with its verdict, the wrong term marked, and no markup of its author") {
+TEST_CASE(
+    "derivations: the page has each line with its verdict, the wrong term marked, and no markup of its author") {
     const std::string page = temporary("page.html", "");
     const std::string text = wrong + "\nThis is <script>alert(1)</script> text: $m > 0$ and $T = V$\n";
     run({"check", temporary("pendulum.toml", pendulum), temporary("wrong.tex", text), "--html", page});
@@ -122,7 +124,8 @@ TEST_CASE("derivations: the page has each line with its verdict, the wrong term 
     CHECK(occurrences(html, "<mrow") == occurrences(html, "</mrow>"));
 }
 
-TEST_CASE("derivations: a folder gives a row for each, in the order of their names, also where one cannot be read") {
+TEST_CASE(
+    "derivations: a folder gives a row for each, in the order of their names, also where one cannot be read") {
     const std::string folder = temporary_folder("class");
     const auto put = [&folder](const std::string& name, const std::string& text) {
         std::ofstream(folder + "/" + name) << text;
@@ -132,8 +135,8 @@ TEST_CASE("derivations: a folder gives a row for each, in the order of their nam
     put("c, \"d\".md", "Nothing.\n");
     put("notes.toml", "x = 1\n");
     const std::string table = folder + "/grades.csv";
-    const Run graded =
-        run({"check", temporary("pendulum.toml", pendulum), folder, "--csv", table, "--json", "--html", folder + "/all.html"});
+    const Run graded = run({"check", temporary("pendulum.toml", pendulum), folder, "--csv", table, "--json",
+                            "--html", folder + "/all.html"});
     CHECK(graded.exit == 1);
     const Json json = Json::parse(graded.out);
     REQUIRE(json["derivations"].size() == 3);
