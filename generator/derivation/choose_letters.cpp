@@ -92,10 +92,6 @@ std::vector<Assignment> assignments(const std::vector<Letter>& letters, const st
     return result;
 }
 
-bool is_accelerated(const Math& math) {
-    return math.dots > 1 || std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return is_accelerated(*arg); });
-}
-
 /// Letters of mechanics that stand in an equation of motion as forces do: the tension T in m y'' = T − m g.
 std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) {
     std::set<Letter> result;
@@ -147,6 +143,7 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
     std::vector<std::string> parameters;
     for (const Parameter& p : scene.parameters) parameters.push_back(p.name.text);
     for (const Input& i : scene.inputs) parameters.push_back(i.name.text);
+    for (const GiNaC::symbol& multiplier : system.equations().lambda) parameters.push_back(multiplier.get_name());
     Assignment best;
     for (const auto& [letters, names] : {std::pair(open.moving, unused(result.letters.coordinates(), written, result.letters)),
                                          std::pair(open.constant, unused(parameters, written, result.letters))}) {

@@ -258,6 +258,11 @@ ClaimText claim_text(const Math& math, const ClaimWriting& writing) {
     return Writer(writing).write(math);
 }
 
+bool is_accelerated(const Math& math) {
+    return math.dots > 1 ||
+           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return is_accelerated(*arg); });
+}
+
 void collect_letters(const Math& math, std::map<Letter, int>& to) {
     if (math.kind == Math::Kind::letter || math.kind == Math::Kind::applied) {
         int& most = to[math.letter];

@@ -50,6 +50,9 @@ struct ClaimWriting {
 /// Throws NoMeaning.
 ClaimText claim_text(const Math& math, const ClaimWriting& writing);
 
+/// Whether an acceleration stands in it.
+bool is_accelerated(const Math& math);
+
 /// Every letter of the tree, with the most dots that it has anywhere.
 void collect_letters(const Math& math, std::map<Letter, int>& to);
 

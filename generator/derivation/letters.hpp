@@ -36,6 +36,8 @@ public:
 
     /// From now on the letter is this name, whatever it was.
     void bind(const Letter& letter, const std::string& name);
+    /// It is not bound any more.
+    void release(const Letter& letter) { bound_.erase(letter); }
     /// From now on it is none of mechanics' own letters: T is a tension here.
     void leave_open(const Letter& letter) { open_.insert(letter); }
     /// The name that claims have for it; nothing if it is not known. `as_quantity`: where it stands it can only be a

@@ -46,6 +46,7 @@ void Marker::run() {
     for (std::size_t s = 0; s < written_.statements.size(); ++s) {
         statement_ = &written_.statements[s];
         speaks_of_small_ = speaks_of_small_ || statement_->first_order;
+        hear(statement_->words);
         if (statement_->sides.empty()) {
             MarkedLine line{.status = LineStatus::not_understood, .statement = s};
             line.offset = statement_->offset;
@@ -75,12 +76,20 @@ void Marker::line(std::size_t s, std::size_t k) {
     try {
         judge(line, lhs, rhs, statement_->relations[k]);
     } catch (const NoMeaning& not_understood) {
-        line.status = LineStatus::not_understood;
-        line.reason = not_understood.reason;
+        const bool general = not_understood.unknown && !statement_->displayed && has_several_unknown(lhs, rhs);
+        line.status = general ? LineStatus::not_about_scene : LineStatus::not_understood;
+        line.reason = general ? say("a formula in letters that the scene does not have") : not_understood.reason;
     }
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
         take_in(s, k);
+}
+
+bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
+    std::map<Letter, int> all;
+    collect_letters(lhs, all);
+    collect_letters(rhs, all);
+    return std::count_if(all.begin(), all.end(), [&](const auto& item) { return !letters_.name_of(item.first); }) > 1;
 }
 
 void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
@@ -162,7 +171,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
     if (is_of_quantity(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
         holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
-        holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
+        holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
         return;
     line.status = LineStatus::mistake;
     if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();
@@ -273,6 +282,23 @@ bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residua
     for (const ex& row : system_.euler_lagrange(residual))
         if (rows.is_identity(rows.row(row)) != true) return false;
     line.status = LineStatus::right_up_to_derivative;
+    return true;
+}
+
+bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
+    if (!speaks_of_rest_) return false;
+    LineClaim claim = notes_.back().claim;
+    claim.at_rest = true;
+    if (has_quantities(sides)) return false;
+    try {
+        const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_);
+        if (verdicts[0].verdict != Verdict::proved && verdicts[0].verdict != Verdict::vacuous) return false;
+    } catch (const std::exception&) {
+        return false;
+    }
+    notes_.back().claim = claim;
+    line.status = LineStatus::right;
+    line.reason = say("of states of rest");
     return true;
 }
 

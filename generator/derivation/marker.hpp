@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "derivation/bindings.hpp"
 #include "derivation/claim_text.hpp"
 #include "derivation/first_order.hpp"
 #include "derivation/marked.hpp"
@@ -75,12 +76,15 @@ private:
     bool is_given_value(MarkedLine& line, const Sides& sides);
     bool is_assumption(MarkedLine& line, const Sides& sides) const;
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
+    bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool follows(MarkedLine& line, const Sides& sides);
 
     bool introduce(MarkedLine& line, const Math& lhs, const Math& rhs);
     bool is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text);
     bool bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    std::vector<Binding> bindings(const Letter& letter) const;
+    void hear(const std::string& words);
     bool bind_to_part(const Letter& letter);
     bool find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     bool determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
@@ -94,8 +98,10 @@ private:
     bool repeats_law(const Math& value) const;
     void take_in_as(const Math& what, const Math& value);
     void use_all_forces(bool all);
+    bool has_several_unknown(const Math& lhs, const Math& rhs) const;
     bool speaks_of_law_in_general(const Math& math) const;
     bool has_quantities(const Sides& sides) const;
+    std::optional<CheckedClaim> with_other_forces(const LineClaim& claim);
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
     void adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict);
 
@@ -107,6 +113,9 @@ private:
     std::map<std::string, GiNaC::ex> known_;  ///< names beside those of the scene, as they are in the system
     std::map<Letter, Components> vectors_;    ///< letters that are vectors, with the letters of their components
     std::vector<LineNotes> notes_;            ///< one for each line
+    std::set<Letter> roaming_;    ///< letters that were found for a body, as v_x is that of each body in turn
+    std::string spoken_;          ///< the body of which the words speak
+    bool speaks_of_rest_ = false;
     const WrittenStatement* statement_ = nullptr;
     std::optional<BaseState> near_;  ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;   ///< whether the derivation has begun to linearize

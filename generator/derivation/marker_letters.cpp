@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 
 #include "base/language/say.hpp"
@@ -83,11 +84,56 @@ std::string Marker::bind(const Letter& letter, const ex& truth) {
     letters_.bind(letter, name);
     known_[name] = system_.mechanism().z->name(truth);
     truth_.know(name, known_[name]);
+    own_.state(name, known_[name], {});
     return name;
 }
 
-/// T of one body, V of gravity: what the scene has a part for.
+/// Those of the body of which the words before the line speak, if they speak of one.
+std::vector<Binding> Marker::bindings(const Letter& letter) const {
+    std::vector<Binding> all = bindings_of(letter, system_.scene());
+    if (spoken_.empty()) return all;
+    std::vector<Binding> own;
+    for (Binding& binding : all)
+        if (binding.text.find("(" + spoken_ + ")") != std::string::npos) {
+            binding.named = true;
+            own.push_back(binding);
+        }
+    return own.empty() ? all : own;
+}
+
+/// The body or particle that stands in the words before a statement. Letters such as v_x that had been found for another one
+/// are open again then.
+void Marker::hear(const std::string& words) {
+    if (words.empty()) return;
+    std::string spoken;
+    const auto look_for = [&](const std::string& name) {
+        const auto is_part_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+        for (std::size_t at = words.find(name); at != std::string::npos; at = words.find(name, at + 1)) {
+            const std::size_t end = at + name.size();
+            const bool alone = name.size() > 1 || (at > 4 && (words.compare(at - 5, 5, "body ") == 0 ||
+                                                              (at > 8 && words.compare(at - 9, 9, "particle ") == 0)));
+            if (alone && (at == 0 || !is_part_of_word(words[at - 1])) && (end == words.size() || !is_part_of_word(words[end])))
+                spoken = name;
+        }
+    };
+    for (const Particle& p : system_.scene().particles) look_for(p.name.text);
+    for (const Body& b : system_.scene().bodies) look_for(b.name.text);
+    if (spoken != spoken_)
+        for (const Letter& letter : roaming_) letters_.release(letter);
+    if (spoken != spoken_) roaming_.clear();
+    spoken_ = spoken;
+    const auto says = [&](std::initializer_list<const char*> list) {
+        return std::any_of(list.begin(), list.end(), [&](const char* part) { return words.find(part) != std::string::npos; });
+    };
+    speaks_of_rest_ = says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡"});
+}
+
+/// T of one body, V of gravity: what the scene has a part for. In an equation of motion T_1 is a force.
 bool Marker::bind_to_part(const Letter& letter) {
+    const bool of_motion = std::any_of(statement_->sides.begin(), statement_->sides.end(),
+                                       [](const MathPtr& side) { return is_accelerated(*side); });
+    const bool starred = letter.raised == "*" || letter.base == "F" || letter.base == "E";
+    if (of_motion && !starred) return false;
     const std::optional<ex> part = part_named(letter, letters_, system_);
     if (!part) return false;
     const std::string name = bind(letter, *part);
@@ -97,7 +143,6 @@ bool Marker::bind_to_part(const Letter& letter) {
                               : of_force ? "Q_" + letters_.coordinate_of(letter.index)
                                          : "";
     if (!whole.empty()) own_.count_as_part(name, whole, *part);
-    own_.state(name, *part, {});
     return true;
 }
 
@@ -140,6 +185,7 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
     std::optional<ex> named;
     const auto tell = [&](const ex& truth, bool right) {
         const ex stated = own_.value(own.text);
+        roaming_.insert(letter.letter);
         const std::string name = bind(letter.letter, truth);
         own_.state(name, GiNaC::pow(stated, GiNaC::numeric(1, power)), right ? std::nullopt : std::optional(lines.size()));
         line.status = right ? LineStatus::right : LineStatus::mistake;
@@ -149,7 +195,7 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         notes_.back().right = text;
         return true;
     };
-    for (const Binding& binding : bindings_of(letter.letter, system_.scene())) {
+    for (const Binding& binding : bindings(letter.letter)) {
         const ex truth = truth_.value(binding.text);
         const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
         if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, true);
@@ -172,13 +218,13 @@ bool Marker::find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, co
         return true;
     }
     const Letters before = letters_;
-    for (const Binding& binding : bindings_of(letter, system_.scene())) {
+    for (const Binding& binding : bindings(letter)) {
         const std::string name = bind(letter, truth_.value(binding.text));
         try {
             const Sides sides = sides_of(lhs, rhs);
             const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
-            if (system_.rows().holds(row) == true) {
-                own_.state(name, known_[name], {});
+            if (system_.rows().holds(row) == true || (binding.named && !spoken_.empty())) {
+                roaming_.insert(letter);
                 judge_pair(line, lhs, rhs);
                 return true;
             }

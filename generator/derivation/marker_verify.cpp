@@ -49,12 +49,27 @@ void Marker::verify() {
         adopt(lines[asked[i]], notes, std::move(verdicts[i]));
         MarkedLine& line = lines[asked[i]];
         const bool unknown = !line.checked.likely || line.checked.likely->kind == "unknown";
-        if (line.status != LineStatus::mistake || !unknown || notes.own.empty()) continue;
+        if (line.status != LineStatus::mistake || !unknown) continue;
+        if (const auto other = with_other_forces(notes.claim)) {  // which forces Q means was not clear yet
+            adopt(line, notes, *other);
+            continue;
+        }
+        if (notes.own.empty()) continue;
         // A second slip is one against what the derivation itself had before.
         std::vector<CheckedClaim> own = verdicts_on({notes.claim}, notes.own, system_);
         if (!own[0].likely || own[0].likely->kind == "unknown") continue;
         adopt(line, notes, std::move(own[0]));
     }
+}
+
+/// The verdict on a claim about generalized forces where these are the others; nothing if it shows no slip.
+std::optional<CheckedClaim> Marker::with_other_forces(const LineClaim& claim) {
+    if (!claim.lhs.starts_with("Q_") && !claim.rhs.starts_with("Q_")) return std::nullopt;
+    use_all_forces(!all_forces_);
+    std::vector<CheckedClaim> verdicts = verdicts_on({claim}, known_, system_);
+    use_all_forces(!all_forces_);
+    const bool shows = verdicts[0].verdict == Verdict::refuted && verdicts[0].likely && verdicts[0].likely->kind != "unknown";
+    return shows ? std::optional(std::move(verdicts[0])) : std::nullopt;
 }
 
 void Marker::adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict) {

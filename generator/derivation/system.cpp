@@ -56,6 +56,7 @@ std::vector<CheckedClaim> DerivedSystem::check(const std::vector<LineClaim>& cla
         Claim claim;
         claim.equation = parse_equality(line.lhs + " = " + line.rhs, {}, mistakes);
         for (const std::string& name : line.constants) claim.constants.push_back({name, {}});
+        if (line.at_rest) claim.at = Claim::At::rest;
         for (const auto& [name, value] : line.near) {
             claim.at = Claim::At::near;
             claim.near.emplace_back(Name{name, {}}, parse_expression(value, {}, mistakes));

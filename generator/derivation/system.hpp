@@ -23,6 +23,7 @@ struct LineClaim {
     std::vector<std::string> constants = {};  ///< names that it claims to be constant
     /// Near this state it is to hold to first order; empty if it is to hold exactly.
     std::vector<std::pair<std::string, std::string>> near = {};
+    bool at_rest = false;  ///< whether it speaks of states of rest
 };
 
 class DerivedSystem {
