@@ -195,7 +195,7 @@ void DocumentReader::add(std::vector<WrittenStatement> found, bool is_displayed)
     }
 }
 
-void DocumentReader::formula(std::size_t begin, std::size_t end, Notation notation, bool is_displayed, bool joins_rows) {
+void DocumentReader::formula(std::size_t begin, std::size_t end, WrittenNotation notation, bool is_displayed, bool joins_rows) {
     std::vector<WrittenToken> tokens = tokens_of(slice(begin, end), begin, notation, context_);
     if (!tokens.empty()) add(statements_of(std::move(tokens), joins_rows), is_displayed);
 }
@@ -227,7 +227,7 @@ void DocumentReader::dollar() {
         return;
     }
     at_ = close + width;
-    formula(begin + width, close, Notation::latex, is_displayed);
+    formula(begin + width, close, WrittenNotation::latex, is_displayed);
 }
 
 /// \[ … \] and \( … \)
@@ -244,7 +244,7 @@ bool DocumentReader::enclosed(std::string_view open, std::string_view close, boo
         return true;
     }
     at_ = end + close.size();
-    formula(begin, end, Notation::latex, is_displayed);
+    formula(begin, end, WrittenNotation::latex, is_displayed);
     return true;
 }
 
@@ -294,7 +294,7 @@ void DocumentReader::environment() {
         const bool is_matter_of_rows = name.starts_with("multline");
         const bool keeps_frame = name == "cases" || name == "array" || name.ends_with("matrix");
         if (name.starts_with("alignat") && at_ < end && text_[at_] == '{') at_ = std::min(text_.find('}', at_) + 1, end);
-        formula(keeps_frame ? begin : at_, keeps_frame ? after : end, Notation::latex, true, is_matter_of_rows);
+        formula(keeps_frame ? begin : at_, keeps_frame ? after : end, WrittenNotation::latex, true, is_matter_of_rows);
     }
     at_ = after;
 }

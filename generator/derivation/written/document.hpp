@@ -49,7 +49,7 @@ private:
     void backslash(Markup markup);
     void environment();
     void command_among_words();
-    void formula(std::size_t begin, std::size_t end, Notation notation, bool is_displayed, bool joins_rows = false);
+    void formula(std::size_t begin, std::size_t end, WrittenNotation notation, bool is_displayed, bool joins_rows = false);
     void add(std::vector<WrittenStatement> found, bool is_displayed);
     void refuse(std::size_t begin, std::size_t end, std::string reason);
     std::size_t end_of_environment(const std::string& name, std::size_t from) const;

@@ -21,7 +21,7 @@ bool is_written_blank(char c) {
 
 }  // namespace
 
-WrittenLexer::WrittenLexer(std::string_view text, std::size_t offset, Notation notation, TokenContext& context,
+WrittenLexer::WrittenLexer(std::string_view text, std::size_t offset, WrittenNotation notation, TokenContext& context,
                            std::vector<WrittenToken>& list)
     : text_(text), offset_(offset), notation_(notation), context_(context), list_(list) {}
 
@@ -63,7 +63,7 @@ WrittenToken& WrittenLexer::add(Kind kind, std::size_t begin, std::string_view t
 }
 
 /// Reads `latex` in place of what stands from `begin` to here.
-void WrittenLexer::replace(const std::string& latex, std::size_t begin, Notation notation) {
+void WrittenLexer::replace(const std::string& latex, std::size_t begin, WrittenNotation notation) {
     WrittenLexer inner(latex, place(begin), notation, context_, list_);
     inner.is_fixed_ = true;
     inner.fixed_length_ = is_fixed_ ? fixed_length_ : at_ - begin;

@@ -14,14 +14,14 @@ public:
     using Kind = WrittenToken::Kind;
 
     /// The tokens have the places of their bytes, counted from `offset`.
-    WrittenLexer(std::string_view text, std::size_t offset, Notation notation, TokenContext& context,
+    WrittenLexer(std::string_view text, std::size_t offset, WrittenNotation notation, TokenContext& context,
                  std::vector<WrittenToken>& list);
     void run();
 
 private:
     std::string_view text_;
     std::size_t offset_;
-    Notation notation_;
+    WrittenNotation notation_;
     TokenContext& context_;
     std::vector<WrittenToken>& list_;
     std::size_t at_ = 0;
@@ -33,12 +33,12 @@ private:
 
     char byte(std::size_t i) const { return i < text_.size() ? text_[i] : '\0'; }
     bool has_digit(std::size_t i) const { return byte(i) >= '0' && byte(i) <= '9'; }
-    bool is_plain() const { return notation_ == Notation::plain; }
+    bool is_plain() const { return notation_ == WrittenNotation::plain; }
     std::size_t place(std::size_t i) const { return is_fixed_ ? offset_ : offset_ + i; }
 
     void next();
     WrittenToken& add(Kind kind, std::size_t begin, std::string_view text = {});
-    void replace(const std::string& latex, std::size_t begin, Notation notation = Notation::latex);
+    void replace(const std::string& latex, std::size_t begin, WrittenNotation notation = WrittenNotation::latex);
     bool skip_space();
     void number();
     void primes();

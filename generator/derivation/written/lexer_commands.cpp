@@ -446,7 +446,7 @@ bool take_in_macro(std::string_view text, std::size_t& at, TokenContext& context
     return true;
 }
 
-std::vector<WrittenToken> tokens_of(std::string_view text, std::size_t offset, Notation notation,
+std::vector<WrittenToken> tokens_of(std::string_view text, std::size_t offset, WrittenNotation notation,
                                     TokenContext& context) {
     std::vector<WrittenToken> list;
     WrittenLexer(text, offset, notation, context, list).run();

@@ -102,14 +102,14 @@ bool DocumentReader::fence() {
     const std::size_t after = close >= end_ ? end_ : line_end(close + 1);
     if (language == "math" || language == "katex") {
         at_ = after;
-        formula(begin, end, Notation::latex, true);
+        formula(begin, end, WrittenNotation::latex, true);
     } else if (language == "latex" || language == "tex") {
         if (has_marks_of_latex(slice(begin, end)) && slice(begin, end).find_first_of("$[(b") != std::string_view::npos &&
             (slice(begin, end).find("\\begin") != std::string_view::npos || slice(begin, end).find("\\[") != std::string_view::npos ||
              slice(begin, end).find('$') != std::string_view::npos || slice(begin, end).find("\\(") != std::string_view::npos))
             scan(begin, end, Markup::tex);
         else
-            formula(begin, end, Notation::latex, true);
+            formula(begin, end, WrittenNotation::latex, true);
     } else if (!is_program(language)) {
         const std::size_t last = end_;
         end_ = end;
@@ -142,9 +142,9 @@ bool DocumentReader::code() {
     }
     std::vector<WrittenStatement> found;
     if (has_command(slice(begin, close)))
-        found = statements_of(tokens_of(slice(begin, close), begin, Notation::latex, context_), false);
+        found = statements_of(tokens_of(slice(begin, close), begin, WrittenNotation::latex, context_), false);
     else
-        found = statements_of(tokens_of(slice(begin, close), begin, Notation::plain, context_), false);
+        found = statements_of(tokens_of(slice(begin, close), begin, WrittenNotation::plain, context_), false);
     add(std::move(found), false);
     return true;
 }
@@ -157,7 +157,7 @@ bool DocumentReader::bare_display() {
         const std::size_t next = line_end(end + 1);
         if (trimmed(slice(std::min(end + 1, end_), next)) == "]") {
             at_ = next;
-            formula(begin, end, Notation::latex, true);
+            formula(begin, end, WrittenNotation::latex, true);
             return true;
         }
         end = next;
@@ -176,7 +176,7 @@ bool DocumentReader::bare_parentheses() {
         const std::size_t begin = at_ + 1;
         if (!has_command(slice(begin, k)) || slice(begin, k).find("\\(") != std::string_view::npos) return false;
         at_ = k + 1;
-        formula(begin, k, Notation::latex, false);
+        formula(begin, k, WrittenNotation::latex, false);
         return true;
     }
     return false;
@@ -185,13 +185,13 @@ bool DocumentReader::bare_parentheses() {
 /// The tokens of a line, in which words of prose become one token for all that stand together.
 std::vector<WrittenStatement> DocumentReader::plain_statements(std::size_t begin, std::size_t end) {
     const std::string_view line = slice(begin, end);
-    const Notation notation = has_command(line) ? Notation::latex : Notation::plain;
+    const WrittenNotation notation = has_command(line) ? WrittenNotation::latex : WrittenNotation::plain;
     std::vector<WrittenToken> tokens = tokens_of(line, begin, notation, context_);
     std::vector<WrittenToken> joined;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         WrittenToken& token = tokens[i];
         bool is_word = false;
-        if (notation == Notation::plain && token.kind == LineKind::letter) {
+        if (notation == WrittenNotation::plain && token.kind == LineKind::letter) {
             const std::string_view word = slice(token.offset, token.offset + token.length);
             const bool binds_after = i + 1 < tokens.size() && (binds(tokens[i + 1]) || tokens[i + 1].kind == LineKind::primes ||
                                                                (tokens[i + 1].kind == LineKind::open && tokens[i + 1].tight));
@@ -200,7 +200,7 @@ std::vector<WrittenStatement> DocumentReader::plain_statements(std::size_t begin
             const bool stands_first = i == 0 || is_joined;
             is_word = is_prose(word) && !binds_after && !binds_before && (word.size() > 1 || (stands_first && i + 1 < tokens.size() && tokens[i + 1].kind == LineKind::letter && tokens[i + 1].length > 2));
         }
-        const bool is_mark = token.kind == LineKind::stray && notation == Notation::plain && token.text != "$" && token.text != "pm" && token.text != "mp";
+        const bool is_mark = token.kind == LineKind::stray && notation == WrittenNotation::plain && token.text != "$" && token.text != "pm" && token.text != "mp";
         if (!is_word && !is_mark) {
             joined.push_back(std::move(token));
             continue;

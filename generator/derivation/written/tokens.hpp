@@ -84,10 +84,10 @@ inline constexpr std::size_t most_written_tokens = 100000;
 inline constexpr int most_written_nesting = 100;
 
 /// Plain text has words, and line ends that count; LaTeX has single letters.
-enum class Notation { latex, plain };
+enum class WrittenNotation { latex, plain };
 
 /// The tokens of a piece of a document that begins at `offset` in it. Throws BeyondLimit.
-std::vector<WrittenToken> tokens_of(std::string_view text, std::size_t offset, Notation notation,
+std::vector<WrittenToken> tokens_of(std::string_view text, std::size_t offset, WrittenNotation notation,
                                     TokenContext& context);
 
 /// The letter and the dots of a word of plain text: "theta1_dot" is θ₁ with one dot.
