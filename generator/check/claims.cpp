@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "algebra/notation/text.hpp"
@@ -12,6 +13,7 @@
 #include "model/formalism/elements.hpp"
 #include "model/held_functions.hpp"
 #include "program/lower/lower.hpp"
+#include "scene/book_letters.hpp"
 
 namespace alembert {
 
@@ -36,6 +38,7 @@ Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& 
         for (const Name& name : claim.constants) open_name(name.text, true);
     }
     know_what_derive_prints(scene, by);
+    know_reactions(scene);
     for (int i = 0; i < m_.size(); ++i) {
         const std::string& q = m_.q[i].get_name();
         third_.push_back(m_.symbols->declare(q, SymbolInfo::Kind::coordinate, i, 3));
@@ -54,9 +57,16 @@ bool is_given_by_derive(const std::string& name) {
            name.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
-bool holds_one(const Tree& tree) {
-    return (tree.kind == Tree::Kind::name && is_given_by_derive(tree.text)) ||
-           std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& arg) { return holds_one(*arg); });
+bool holds_one(const Tree& tree, const std::function<bool(const std::string&)>& is_it) {
+    return (tree.kind == Tree::Kind::name && is_it(tree.text)) ||
+           std::any_of(tree.args.begin(), tree.args.end(),
+                       [&](const TreePtr& arg) { return holds_one(*arg, is_it); });
+}
+
+bool hold_one(const Scene& scene, const std::function<bool(const std::string&)>& is_it) {
+    return std::any_of(scene.claims.begin(), scene.claims.end(), [&](const Claim& claim) {
+        return holds_one(*claim.equation.lhs.tree, is_it) || holds_one(*claim.equation.rhs.tree, is_it);
+    });
 }
 
 }  // namespace
@@ -64,10 +74,7 @@ bool holds_one(const Tree& tree) {
 // The speeds that a formalism chooses, and the definitions that `derive` prints beyond the readable size, where a
 // claim speaks of them.
 void Claims::know_what_derive_prints(const Scene& scene, const std::string& by) {
-    if (std::none_of(scene.claims.begin(), scene.claims.end(), [](const Claim& claim) {
-            return holds_one(*claim.equation.lhs.tree) || holds_one(*claim.equation.rhs.tree);
-        }))
-        return;
+    if (!hold_one(scene, is_given_by_derive)) return;
     const Derivation shown = derive(scene, {.by = by}).shown;
     for (const auto* list : {&shown.speeds, &shown.definitions})
         for (const auto& [name, value] : *list) {
@@ -75,6 +82,25 @@ void Claims::know_what_derive_prints(const Scene& scene, const std::string& by) 
             const Expression expression = parse_expression(text(value), {}, mistakes);
             if (!mistakes.empty()) return;
             formulas_.know(text(name), m_.z->name(formulas_.value(expression)));
+        }
+}
+
+/// N_wheel, F_x_hinge: what `derive` shows of reactions, where a claim speaks of them.
+void Claims::know_reactions(const Scene& scene) {
+    if (scene.rolling.empty() && scene.joints.empty()) return;
+    std::vector<Diagnostic> mistakes;
+    const std::vector<std::string> letters = reaction_letters(scene, declare(scene, mistakes));
+    const auto is_reaction = [&](const std::string& name) {
+        return std::find(letters.begin(), letters.end(), name) != letters.end();
+    };
+    if (letters.empty() || !hold_one(scene, is_reaction)) return;
+    const DerivedScene derived = derive(scene, {.reactions = true});
+    for (const auto* list : {&derived.joint_loads, &derived.normal_reactions})
+        for (const Statement& s : *list) {
+            const std::string name = s.letter + "_" + s.of;
+            if (!is_reaction(name)) continue;
+            const Expression expression = parse_expression(text(s.value), {}, mistakes);
+            if (expression.tree) formulas_.know(name, m_.z->name(formulas_.value(expression)));
         }
 }
 
@@ -228,6 +254,9 @@ std::vector<int> Claims::lower(Program& program, const std::vector<ex>& list) co
     for (const Mechanism::Constraint* c : m_.undetermined())
         given.emplace_back(c->multiplier, program.variable({Variable::Kind::unknown, next_unknown++}));
     for (const Open& o : open_) given.emplace_back(o.symbol, program.variable(o.variable));
+    constexpr int beyond_all = 1 << 20;  // no state gives them: they are random in exact arithmetic
+    for (const auto& [coordinate, symbol] : displacements())
+        given.emplace_back(symbol, program.variable({Variable::Kind::unknown, beyond_all + coordinate}));
     for (const auto& [call, value] : held_functions(m_))
         given.emplace_back(call, lower_expressions(program, m_, {value})[0]);
     return lower_expressions(program, m_, list, given);

@@ -64,6 +64,15 @@ public:
     /// Lowers into `program`; symbols of multipliers and open names become its unknowns.
     std::vector<int> lower(Program& program, const std::vector<GiNaC::ex>& list) const;
 
+    /// Whether the name is a letter of the textbook here (model/book_letters.hpp).
+    bool is_letter(const std::string& name) const { return formulas_.is_letter(name); }
+    /// Whether Q_q and deltaW hold the forces of V in what is read from now on. At first they do.
+    void read_forces_as_whole(bool whole) { formulas_.letters().read_forces_as_whole(whole); }
+    /// The virtual displacements in what was read, each with the position of its coordinate.
+    const std::vector<std::pair<int, GiNaC::symbol>>& displacements() const {
+        return formulas_.letters().displacements();
+    }
+
     const std::vector<Open>& open() const { return open_; }
     const Mechanism& mechanism() const { return m_; }
     const Equations& equations() const { return e_; }
@@ -74,6 +83,7 @@ private:
     /// Which names the form leaves open; returns whether constants are among them.
     bool find_open(ClaimForm& form) const;
     void know_what_derive_prints(const Scene& scene, const std::string& by);
+    void know_reactions(const Scene& scene);
     void open_name(const std::string& name, bool constant);
     GiNaC::ex without_third_derivatives(const GiNaC::ex& residual, Place at) const;
 

@@ -10,6 +10,7 @@
 #include "analysis/exact/angle_sum.hpp"
 #include "base/language/say.hpp"
 #include "check/multiple.hpp"
+#include "check/quantities.hpp"
 #include "check/root_form.hpp"
 #include "check/speaks_of_scene.hpp"
 #include "check/vanishing.hpp"
@@ -186,12 +187,26 @@ bool settle_by_branch(Comparison& now, std::size_t k, ExactStates& states, const
 
 }  // namespace
 
+namespace {
+
+void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states);
+
+}  // namespace
+
+void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
+    LetterClaim claim(now, k, states);
+    if (!claim.settle()) settle_as_it_stands(now, k, states);
+    claim.tell();
+}
+
 std::string inequality(const GiNaC::ex& positive, const Mechanism& mechanism) {
     const auto f = fourier(positive, *mechanism.symbols);
     return (f ? text(readable(*f)) : say("a root of the claim")) + " > 0";
 }
 
-void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
+namespace {
+
+void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
     CheckedClaim& c = now.verdicts[k];
     Program p;
     const int root = now.claims.lower(p, {now.forms[k].residual})[0];
@@ -200,7 +215,9 @@ void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
     if (p.is_zero(root) || (!is_of_scene && is_identity(p, root))) {
         c.verdict = is_of_scene ? Verdict::proved : Verdict::vacuous;
         c.normal_form = true;
-        if (now.at != Claim::At::impact) c.reason = say("it holds identically and says nothing of the motion");
+        if (now.at != Claim::At::impact)
+            c.reason = speaks_of_letters(now, k) ? words_of_identity()
+                                                 : say("it holds identically and says nothing of the motion");
         return;
     }
     const std::optional<bool> zero = vanishes_at(states, p, root, c.failure);
@@ -264,5 +281,7 @@ void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
     if (!*zero || is_rubbed)
         explain(now, k, states);  // repairs are compared in the arithmetic that was wrong here
 }
+
+}  // namespace
 
 }  // namespace alembert

@@ -5,6 +5,7 @@
 
 #include "check/arithmetic_error.hpp"
 #include "check/diagnosis.hpp"
+#include "check/quantities.hpp"
 
 namespace alembert {
 
@@ -36,7 +37,12 @@ void refute(CheckedClaim& verdict, const Counterexample& shown) {
 
 namespace {
 
-Diagnosis diagnosis_of(Comparison& now, std::size_t claim, ExactStates& states) try {
+Diagnosis diagnosis_of(Comparison& now, std::size_t claim, ExactStates& given) try {
+    const bool up_to_constant =
+        now.at == Claim::At::motion && letters_in(now.scene.claims[claim], now.claims).constant;
+    std::optional<AnyStates> any;
+    if (up_to_constant) any.emplace(now.m, now.e, halvings_in(now, {claim}));
+    ExactStates& states = any && any->get() != nullptr ? *any->get() : given;
     return diagnose({.scene = now.scene,
                      .claims = now.claims,
                      .law = now.law,
@@ -45,7 +51,8 @@ Diagnosis diagnosis_of(Comparison& now, std::size_t claim, ExactStates& states) 
                      .claim = claim,
                      .in_motion = now.at == Claim::At::motion,
                      .at_impact = now.at == Claim::At::impact,
-                     .known = now.known},
+                     .known = now.known,
+                     .up_to_constant = any && any->get() != nullptr},
                     states);
 } catch (const std::exception&) {
     words_of_arithmetic_error();  // the claim is refuted, with a state to see it, even if nothing explains it

@@ -115,6 +115,7 @@ private:
 
     /// Which time derivative of the claim is free of what it leaves open; nothing if none is.
     std::optional<int> free_derivative() {
+        if (asked_.up_to_constant) return 1;
         if (form_.open.empty()) return 0;
         for (std::size_t k = 0; k < form_.derivatives.size(); ++k)
             if (!m_.z->depends(form_.derivatives[k], claims_.open_symbols())) return static_cast<int>(k) + 1;
@@ -184,8 +185,9 @@ private:
         const std::optional<int> derivative = free_derivative();
         if (!derivative) return {};
         Program p;
-        const ex own =
-            *derivative == 0 ? form_.residual : form_.derivatives[static_cast<std::size_t>(*derivative - 1)];
+        const ex own = *derivative == 0        ? form_.residual
+                       : asked_.up_to_constant ? m_.time_derivative({form_.residual})[0]
+                                               : form_.derivatives[static_cast<std::size_t>(*derivative - 1)];
         const int residual = claims_.lower(p, {own})[0];
         std::vector<std::string> texts;
         std::vector<int> nodes;
@@ -220,7 +222,12 @@ private:
     }
 
     /// An identity is no repair, unless it says something: how a vector of the scene is composed.
-    bool holds_quickly(const ClaimForm& form, bool may_be_identity) {
+    bool holds_quickly(const ClaimForm& given, bool may_be_identity) {
+        ClaimForm form = given;
+        if (asked_.up_to_constant) {
+            if (given.order > 1) return false;
+            form.residual = m_.time_derivative({given.residual})[0];
+        }
         if (!form.open.empty()) {
             // The claim is tested with the right claims of its group; if these do not determine the open names, it
             // is tested with all claims of the group.

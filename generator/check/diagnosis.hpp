@@ -36,6 +36,8 @@ struct WrongClaim {
     std::size_t claim;  ///< position of the wrong claim
     bool in_motion, at_impact;
     std::optional<EquationTerms>& known;  ///< of the law; made when it is first needed
+    bool up_to_constant =
+        false;  ///< whether it is right up to a constant; its states are then those of any motion
 };
 
 /// `states`: the states at which the claim was compared with the equations.

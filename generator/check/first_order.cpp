@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/first_order.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "algebra/notation/readable.hpp"
 #include "algebra/notation/text.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
+#include "check/near_point.hpp"
+#include "check/quantities.hpp"
+#include "check/total_derivative.hpp"
 #include "check/zero.hpp"
-#include "model/parameter_values.hpp"
-#include "program/lower/start.hpp"
 
 namespace alembert {
 
@@ -22,31 +18,20 @@ namespace {
 
 constexpr int most_coordinates = 5, most_unknowns = 8;  // with the multipliers
 
+std::vector<std::pair<std::string, ex>> values_near(const Claim& claim, Claims& read) {
+    std::vector<std::pair<std::string, ex>> result;
+    for (const auto& [name, value] : claim.near) result.emplace_back(name.text, read.read(value));
+    return result;
+}
+
 class FirstOrder {
 public:
     FirstOrder(const Claim& claim, Claims& read)
-        : m_(read.mechanism()), e_(read.equations()), residual_(m_.z->expand(read.read(claim).residual)) {
-        for (int i = 0; i < m_.size(); ++i) {
-            base_[m_.qdot[i]] = 0;
-            base_[m_.qddot[i]] = 0;
-            small_.push_back({m_.qdot[i], 0});
-        }
-        for (const Mechanism::Input& input : m_.inputs)
-            for (const GiNaC::symbol& derivative : input.derivative) {
-                base_[derivative] = 0;
-                small_.push_back({derivative, 0});
-            }
-        for (const auto& [name, value] : claim.near) {
-            const ex at = m_.z->expand(read.read(value));
-            for (int i = 0; i < m_.size(); ++i) {
-                if (name.text == m_.q[i].get_name()) small_.push_back({m_.q[i], at}), base_[m_.q[i]] = at;
-                if (name.text != m_.q[i].get_name() + "'") continue;
-                base_[m_.qdot[i]] = at;
-                for (Small& small : small_)
-                    if (small.variable == m_.qdot[i]) small.value = at;
-            }
-        }
-    }
+        : m_(read.mechanism()),
+          e_(read.equations()),
+          residual_(m_.z->expand(read.read(claim).residual)),
+          near_(m_, e_, values_near(claim, read)),
+          spoken_(letters_in(claim, read)) {}
 
     void settle(CheckedClaim& result) {
         const int size = m_.size() + static_cast<int>(e_.A.size());
@@ -58,9 +43,10 @@ public:
                     most_coordinates, most_unknowns);
             return;
         }
-        result.reason = obstacle();
+        result.reason = near_.obstacle();
         if (!result.reason.empty()) return;
-        std::vector<ZeroTest> tests{zero_test(at_base(residual_), m_)};
+        if (spoken_.constant || spoken_.derivative || spoken_.kinetic) return settle_energy(result);
+        std::vector<ZeroTest> tests{zero_test(near_.at(residual_), m_)};
         if (tests[0].zero == false) result.reason = say("it does not even hold at the point itself");
         const auto slopes = eliminated();
         if (!slopes) {
@@ -77,171 +63,52 @@ public:
     }
 
 private:
-    struct Small {
-        GiNaC::symbol variable;
-        ex value;  ///< the value from which the variable differs little
-    };
+    using Small = NearPoint::Small;
 
-    ex at_base(const ex& e) const { return e.subs(base_, GiNaC::subs_options::no_pattern); }
-
-    /// Fills in the point itself and the equations; the reason why that cannot be done, if it cannot.
-    std::string obstacle() {
-        if (std::string reason = place_dependent(); !reason.empty()) return reason;
-        for (std::size_t k = 0; k < e_.A.size(); ++k) {
-            const Mechanism::Constraint& c = m_.constraints[k];
-            GiNaC::exvector rate{c.drift}, acceleration{-e_.gamma[k]};
-            for (int i = 0; i < m_.size(); ++i) {
-                rate.push_back(e_.A[k][i] * m_.qdot[i]);
-                acceleration.push_back(e_.A[k][i] * m_.qddot[i]);
-            }
-            for (const ex& row : {GiNaC::ex(GiNaC::add(std::move(acceleration))),
-                                  GiNaC::ex(GiNaC::add(std::move(rate))), c.position.value_or(0)}) {
-                if (m_.z->tree_size(row) > longest_tested) return too_long();
-                bound_.push_back(m_.z->expand(row));
-                if (zero_test(at_base(bound_.back()), m_).zero != true)
-                    return say("what it is held near does not obey the constraint '{}'", c.name);
+    /// Energies are held to second order, because the linear equations follow from their quadratic parts.
+    void settle_energy(CheckedClaim& result) {
+        if (!e_.A.empty()) {
+            result.reason = say("energies near a state are decided where the coordinates are independent");
+            return;
+        }
+        const ex constant = near_.at(residual_);
+        ex quadratic = 0;
+        std::vector<ZeroTest> tests;
+        for (const Small& a : near_.small()) {
+            const ex slope = residual_.diff(a.variable);
+            tests.push_back(zero_test(near_.at(slope), m_));
+            quadratic += near_.at(slope) * deviation(a);
+            for (const Small& b : near_.small()) {
+                const ex second = near_.at(slope.diff(b.variable));
+                tests.push_back(zero_test(second, m_));
+                quadratic += second * deviation(a) * deviation(b) / 2;
             }
         }
-        for (int i = 0; i < m_.size(); ++i) {
-            GiNaC::exvector terms{-e_.forcing(i)};
-            for (int j = 0; j < m_.size(); ++j) terms.push_back(e_.M(i, j) * m_.qddot[j]);
-            for (std::size_t k = 0; k < e_.A.size(); ++k) terms.push_back(-e_.A[k][i] * e_.lambda[k]);
-            const ex row = GiNaC::add(std::move(terms));
-            if (m_.z->tree_size(row) > longest_tested) return too_long();
-            rows_.push_back(m_.z->expand(row));
+        const ZeroTest own = zero_test(constant, m_);
+        if (spoken_.kinetic) tests.push_back(own);
+        settle_by(tests, result);
+        if (result.verdict == Verdict::proved && own.zero != true)
+            result.up_to = UpTo{.kind = UpTo::Kind::constant};
+        if (result.verdict == Verdict::refuted && spoken_.derivative && is_void(quadratic)) {
+            result = CheckedClaim();
+            result.verdict = Verdict::proved;
+            result.normal_form = true;
+            result.up_to = UpTo{.kind = UpTo::Kind::derivative};
         }
-        if (!find_multipliers()) return say("the constraints leave their multipliers open there");
-        for (int i = 0; i < m_.size(); ++i)
-            if (zero_test(at_base(rows_[static_cast<std::size_t>(i)]), m_).zero != true)
-                return say(
-                    "what it is held near is no equilibrium and no steady motion: the equation of {} does "
-                    "not hold "
-                    "there",
-                    m_.q[i].get_name());
-        return "";
+        if (result.verdict == Verdict::refuted) result.difference = in_print(constant + quadratic);
+        if (result.up_to)
+            result.reason =
+                result.up_to->kind == UpTo::Kind::constant
+                    ? say("right to second order and up to a constant")
+                    : say("right to second order and up to a time derivative, which changes no equation "
+                          "of motion");
     }
 
-    static std::string too_long() {
-        return say("the equations of motion are too long for a first approximation in symbols");
-    }
-
-    /// Coordinates that a constraint gives at the point, though the claim does not name them: the root next to the
-    /// value at which the scene starts.
-    std::string place_dependent() {
-        const State<double> start = start_of(m_).state();
-        for (std::size_t left = m_.q.size(); left > 0; --left)
-            for (const Mechanism::Constraint& c : m_.constraints) {
-                if (!c.position || m_.z->tree_size(*c.position) > longest_tested) continue;
-                const ex f = at_base(m_.z->expand(*c.position));
-                std::vector<std::size_t> open;
-                for (std::size_t i = 0; i < m_.q.size(); ++i)
-                    if (!base_.contains(m_.q[i]) && f.has(m_.q[i])) open.push_back(i);
-                if (open.size() != 1) continue;
-                const std::size_t i = open[0];
-                const auto root = root_near(f, m_.q[i], start.q[i]);
-                if (!root)
-                    return say("say too near which {} it holds: constraint '{}' does not give it at once",
-                               m_.q[i].get_name(), c.name);
-                base_[m_.q[i]] = *root;
-                small_.push_back({m_.q[i], *root});
-            }
-        for (const Mechanism::Constraint& c : m_.constraints)
-            for (std::size_t i = 0; c.position && i < m_.q.size(); ++i)
-                if (!base_.contains(m_.q[i]) && m_.z->depends(*c.position, {m_.q[i]}))
-                    return say("say too near which {} it holds: constraint '{}' ties it to others",
-                               m_.q[i].get_name(), c.name);
-        return "";
-    }
-
-    std::optional<ex> root_near(const ex& f, const GiNaC::symbol& x, double start) const {
-        const ex numerator = f.normal().numer().expand();
-        constexpr int quadratic = 2;
-        if (!numerator.is_polynomial(x) || numerator.degree(x) > quadratic || numerator.degree(x) < 1)
-            return std::nullopt;
-        const ex a = numerator.coeff(x, 2), b = numerator.coeff(x, 1), c = numerator.coeff(x, 0);
-        if (a.is_zero()) return (-c / b).normal();
-        const ParameterValues values(m_);
-        ex best;
-        double distance = -1;
-        for (const int sign : {1, -1}) {
-            const ex root = ((sign * root_of_square((b * b - 4 * a * c).expand(), values) - b) / (2 * a)).normal();
-            const double away = std::abs(values.number(root) - start);
-            if (!(away < distance) && distance >= 0) continue;
-            best = root;
-            distance = away;
-        }
-        return best;
-    }
-
-    /// √e, written without a root if e is a square.
-    static ex root_of_square(const ex& e, const ParameterValues& values) {
-        const ex factors = GiNaC::factor(e);
-        ex result = 1;
-        const auto take = [&](const ex& factor) {
-            const bool is_square = GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).is_equal(2);
-            result *= is_square ? (values.number(factor.op(0)) < 0 ? -factor.op(0) : factor.op(0)) : sqrt(factor);
-        };
-        if (GiNaC::is_a<GiNaC::mul>(factors))
-            for (const ex& factor : factors) take(factor);
-        else
-            take(factors);
-        return result;
-    }
-
-    /// Reduced row echelon form over the first columns; the pivot's column for each row, or nothing where it could
-    /// not be decided whether an entry is zero.
-    std::optional<std::vector<std::size_t>> reduce(std::vector<std::vector<ex>>& rows, std::size_t columns) const {
-        std::vector<std::size_t> pivots;
-        for (std::size_t column = 0; column < columns && pivots.size() < rows.size(); ++column) {
-            std::size_t chosen = rows.size();
-            for (std::size_t r = pivots.size(); r < rows.size() && chosen == rows.size(); ++r) {
-                const auto zero = zero_test(rows[r][column], m_).zero;
-                if (!zero) return std::nullopt;
-                if (*zero) rows[r][column] = 0;
-                if (!*zero) chosen = r;
-            }
-            if (chosen == rows.size()) continue;
-            std::swap(rows[pivots.size()], rows[chosen]);
-            std::vector<ex>& pivot = rows[pivots.size()];
-            const ex lead = pivot[column];
-            for (ex& entry : pivot) entry = (entry / lead).normal();
-            for (std::size_t r = 0; r < rows.size(); ++r) {
-                const ex factor = rows[r][column];
-                if (r == pivots.size() || factor.is_zero()) continue;
-                for (std::size_t k = 0; k < rows[r].size(); ++k)
-                    rows[r][k] = (rows[r][k] - factor * pivot[k]).normal();
-            }
-            pivots.push_back(column);
-        }
-        return pivots;
-    }
-
-    /// The multipliers at the point.
-    bool find_multipliers() {
-        const std::size_t m = e_.lambda.size();
-        if (m == 0) return true;
-        GiNaC::exmap none;
-        for (const GiNaC::symbol& lambda : e_.lambda) none[lambda] = 0;
-        std::vector<std::vector<ex>> rows;
-        for (const ex& row : rows_) {
-            const ex here = at_base(row);
-            rows.emplace_back();
-            for (const GiNaC::symbol& lambda : e_.lambda) rows.back().push_back(here.diff(lambda));
-            rows.back().push_back(-here.subs(none, GiNaC::subs_options::no_pattern));
-        }
-        const auto pivots = reduce(rows, m);
-        if (!pivots || pivots->size() < m) return false;
-        for (std::size_t k = 0; k < m; ++k) base_[e_.lambda[k]] = rows[k][m];
+    /// Whether this part of a Lagrangian changes no equation of motion.
+    bool is_void(const ex& part) const {
+        for (const ex& equation : euler_operator(m_.z->name(part), m_))
+            if (zero_test(m_.z->expand(equation), m_).zero != true) return false;
         return true;
-    }
-
-    /// The derivatives at the point with respect to the accelerations, the multipliers and each small quantity.
-    std::vector<ex> slopes_of(const ex& e) const {
-        std::vector<ex> result;
-        for (const auto* list : {&m_.qddot, &e_.lambda})
-            for (const GiNaC::symbol& unknown : *list) result.push_back(at_base(e.diff(unknown)));
-        for (const Small& small : small_) result.push_back(at_base(e.diff(small.variable)));
-        return result;
     }
 
     /// What remains of the claim's derivatives with respect to each small quantity when the accelerations and
@@ -249,12 +116,12 @@ private:
     /// accelerations or multipliers open.
     std::optional<std::vector<ex>> eliminated() {
         reduced_.clear();
-        for (const auto* list : {&rows_, &bound_})
-            for (const ex& row : *list) reduced_.push_back(slopes_of(row));
+        for (const auto* list : {&near_.rows(), &near_.bound()})
+            for (const ex& row : *list) reduced_.push_back(near_.slopes_of(row));
         const std::size_t unknowns = m_.qddot.size() + e_.lambda.size();
-        const auto pivots = reduce(reduced_, unknowns + small_.size());
+        const auto pivots = near_.reduce(reduced_, unknowns + near_.small().size());
         if (!pivots || pivots->size() < unknowns || (*pivots)[unknowns - 1] != unknowns - 1) return std::nullopt;
-        std::vector<ex> claim = slopes_of(residual_);
+        std::vector<ex> claim = near_.slopes_of(residual_);
         for (std::size_t r = 0; r < pivots->size(); ++r) {
             const ex factor = claim[(*pivots)[r]];
             if (factor.is_zero()) continue;
@@ -273,7 +140,7 @@ private:
 
     std::string written(const std::vector<ex>& slopes) const {
         ex sum = 0;
-        for (std::size_t v = 0; v < slopes.size(); ++v) sum += slopes[v] * deviation(small_[v]);
+        for (std::size_t v = 0; v < slopes.size(); ++v) sum += slopes[v] * deviation(near_.small()[v]);
         return in_print(sum);
     }
 
@@ -281,19 +148,20 @@ private:
     /// scale is that of the claim.
     std::string nearest() const {
         for (int i = 0; i < m_.size(); ++i) {
-            const ex own = at_base(residual_.diff(m_.qddot[i]));
+            const ex own = near_.at(residual_.diff(m_.qddot[i]));
             if (own.is_zero()) continue;
             ex scale = own, sum = 0;
             if (e_.A.empty()) {
-                scale = (own / at_base(rows_[i].diff(m_.qddot[i]))).normal();
+                scale = (own / near_.at(near_.rows()[i].diff(m_.qddot[i]))).normal();
                 for (const GiNaC::symbol& acceleration : m_.qddot)
-                    sum += at_base(rows_[i].diff(acceleration)) * acceleration;
-                for (const Small& small : small_) sum += at_base(rows_[i].diff(small.variable)) * deviation(small);
+                    sum += near_.at(near_.rows()[i].diff(acceleration)) * acceleration;
+                for (const Small& small : near_.small())
+                    sum += near_.at(near_.rows()[i].diff(small.variable)) * deviation(small);
             } else {
                 const std::vector<ex>& row = reduced_[static_cast<std::size_t>(i)];
                 sum = m_.qddot[i];
-                for (std::size_t v = 0; v < small_.size(); ++v)
-                    sum += row[m_.qddot.size() + e_.lambda.size() + v] * deviation(small_[v]);
+                for (std::size_t v = 0; v < near_.small().size(); ++v)
+                    sum += row[m_.qddot.size() + e_.lambda.size() + v] * deviation(near_.small()[v]);
             }
             const auto f = fourier((scale * sum).expand(), *m_.symbols);
             if (!f) return "";
@@ -306,10 +174,8 @@ private:
     const Mechanism& m_;
     const Equations& e_;
     const ex residual_;
-    GiNaC::exmap base_;
-    std::vector<Small> small_;
-    std::vector<ex> rows_;                  ///< of the equations of motion
-    std::vector<ex> bound_;                 ///< of the constraints: accelerations, rates and position of each
+    NearPoint near_;
+    const SpokenLetters spoken_;
     std::vector<std::vector<ex>> reduced_;  ///< the linear equations of all of them, solved
 };
 

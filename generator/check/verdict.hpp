@@ -21,6 +21,13 @@ struct OtherBranch {
     std::vector<std::pair<std::string, std::string>> counterexample{};  ///< a state there, if the claim is refuted
 };
 
+/// A potential or an energy is right up to a constant, a Lagrangian up to the total time derivative of a function
+/// F of coordinates and time: what is claimed is the quantity plus this constant, or plus F'.
+struct UpTo {
+    enum class Kind { constant, derivative } kind = Kind::constant;
+    std::string text{};  ///< the constant, or F; empty if it was not found in a short form
+};
+
 struct CheckedClaim {
     Verdict verdict = Verdict::undecided;
     bool normal_form = false;  ///< proved by normal form
@@ -33,6 +40,7 @@ struct CheckedClaim {
     std::string difference;  ///< claim − nearest right equation, term by term
     std::string nearest;     ///< that right equation
     std::optional<Slip> likely;
+    std::optional<UpTo> up_to;  ///< of a claim that is proved
     std::optional<OtherBranch> other_branch;
     std::vector<std::string> where;  ///< the sheet or branch of roots on which the verdict holds: "r > 0"
 };

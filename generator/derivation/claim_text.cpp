@@ -215,7 +215,25 @@ private:
         inside(*math.args[1], Bond::atom);
     }
 
+    /// ∂v/∂u = Σ ∂v/∂q' ∂q'/∂u, the coordinates being held. Returns false if it is by no generalized speed.
+    bool partial_by_speed(const Math& math) {
+        if (how_.speeds == nullptr || math.args.size() != 2 || math.args[1]->kind != Kind::letter) return false;
+        const auto by = how_.letters.name_of(math.args[1]->letter);
+        const auto speed = by ? how_.speeds->find(*by) : how_.speeds->end();
+        if (speed == how_.speeds->end() || math.args[1]->dots > 0) return false;
+        out() += '(';
+        for (std::size_t k = 0; k < speed->second.size(); ++k) {
+            const auto& [rate, slope] = speed->second[k];
+            out() += k > 0 ? " + diff(" : "diff(";
+            term(*math.args[0]);
+            out() += "," + rate + ")*" + slope;
+        }
+        out() += ')';
+        return true;
+    }
+
     void partial(const Math& math) {
+        if (partial_by_speed(math)) return;
         out() += "diff(";
         const Math& of = *math.args[0];
         if (of.kind == Kind::letter || of.kind == Kind::applied)

@@ -101,6 +101,7 @@ std::string identifier_of(const Letter& letter) {
     std::string result = letter.base;
     if (!letter.accent.empty() && !is_one_of(letter.accent, {"mathrm", "mathit", "mathbf", "boldsymbol", "mathcal"}))
         result += "_" + letter.accent;
+    if (letter.raised == "*") result += "_star";
     for (const std::string* part : {&letter.index, &letter.raised}) {
         std::string word;
         for (const char c : *part)
@@ -131,6 +132,11 @@ Letters::Letters(const Scene& scene) {
         for (const Name& name : multipliers_of(r)) know(name.text, false);
     for (const UnilateralRule& u : scene.unilateral) know("lambda_" + u.name.text, false);
     taken_ = scene_names_;
+    for (const MechanicalQuantity quantity :
+         {MechanicalQuantity::kinetic, MechanicalQuantity::potential, MechanicalQuantity::lagrangian,
+          MechanicalQuantity::energy, MechanicalQuantity::hamiltonian})
+        taken_.insert(name_of(quantity));
+    for (const std::string& q : coordinates_) taken_.insert({"p_" + q, "Q_" + q});
     // A name that is written exactly so comes before one that another hand would write so.
     std::vector<std::vector<Letter>> all;
     std::size_t most = 0;

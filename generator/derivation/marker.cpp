@@ -40,6 +40,19 @@ Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
         known_[name] = value;
         truth_.know(name, value);
     }
+    const Mechanism& m = system_.mechanism();
+    for (std::size_t k = 0; k < m.speeds.size(); ++k) {
+        const std::vector<ex> slopes = system_.rates_by_speed(k);
+        const std::string speed = m.speeds[k].u.get_name();
+        for (std::size_t i = 0; i < slopes.size(); ++i) {
+            if (slopes[i].is_zero()) continue;
+            const std::string q = m.q[i].get_name(), name = letters_.free_name("d" + q + "_d" + speed);
+            known_[name] = slopes[i];
+            truth_.know(name, slopes[i]);
+            own_.state(name, slopes[i], {});
+            speeds_[speed].emplace_back(q + "'", name);
+        }
+    }
 }
 
 void Marker::run() {
@@ -101,6 +114,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     if (speaks_of_law_in_general(lhs) || speaks_of_law_in_general(rhs)) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("a law in general coordinates");
+        at_rest_of_rates_ = lhs.kind == Kind::letter && lhs.dots == 2 && rhs.kind == Kind::number;
         return;
     }
     if (is_virtual_work(lhs)) return judge_work(line, rhs);
@@ -109,6 +123,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     try {
         judge_pair(line, lhs, rhs);
     } catch (const NoMeaning& reason) {
+        if (reason.unknown && introduce_ahead(*reason.unknown)) return judge(line, lhs, rhs, relation);
         if (!reason.unknown || !find_meaning(line, lhs, rhs, *reason.unknown)) throw;
     }
 }
@@ -119,11 +134,11 @@ Marker::Sides Marker::sides_of(const Math& lhs, const Math& rhs) const {
 }
 
 ClaimWriting Marker::as_written() const {
-    return {.letters = letters_, .alone_is_quantity = notes_.back().alone_is_quantity};
+    return {.letters = letters_, .speeds = &speeds_, .alone_is_quantity = notes_.back().alone_is_quantity};
 }
 
 ClaimWriting Marker::as_derived() const {
-    return {.letters = letters_, .steps = &own_.steps(), .alone_is_quantity = notes_.back().alone_is_quantity};
+    return {.letters = letters_, .steps = &own_.steps(), .speeds = &speeds_, .alone_is_quantity = notes_.back().alone_is_quantity};
 }
 
 ex Marker::own_residual(const Sides& sides) {
@@ -286,6 +301,16 @@ bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residua
 }
 
 bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
+    if (at_rest_of_rates_) {
+        const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+        MotionRows& rows = system_.rows();
+        if (rows.is_identity(rows.row(system_.without_accelerations(residual))) == true) {
+            line.status = LineStatus::right;
+            line.reason = say("where the accelerations of the coordinates are zero");
+            notes_.back().claim = {};
+            return true;
+        }
+    }
     if (!speaks_of_rest_) return false;
     LineClaim claim = notes_.back().claim;
     claim.at_rest = true;

@@ -85,6 +85,7 @@ private:
     void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     std::vector<Binding> bindings(const Letter& letter) const;
     void hear(const std::string& words);
+    bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter);
     bool find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     bool determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
@@ -92,6 +93,7 @@ private:
 
     bool judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs);
     std::optional<Components> components(const Math& math) const;
+    bool is_column(MarkedLine& line, const Math& lhs, const Math& rhs) const;
     bool bind_vector(const Math& letter, const Components& value);
 
     void take_in(std::size_t statement, std::size_t side);
@@ -113,9 +115,11 @@ private:
     std::map<std::string, GiNaC::ex> known_;  ///< names beside those of the scene, as they are in the system
     std::map<Letter, Components> vectors_;    ///< letters that are vectors, with the letters of their components
     std::vector<LineNotes> notes_;            ///< one for each line
+    std::map<std::string, std::vector<std::pair<std::string, std::string>>> speeds_;  ///< as in ClaimWriting
+    std::set<Letter> ahead_;      ///< letters that a later line introduces, and that were used before it
     std::set<Letter> roaming_;    ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;          ///< the body of which the words speak
-    bool speaks_of_rest_ = false;
+    bool speaks_of_rest_ = false, at_rest_of_rates_ = false;
     const WrittenStatement* statement_ = nullptr;
     std::optional<BaseState> near_;  ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;   ///< whether the derivation has begun to linearize

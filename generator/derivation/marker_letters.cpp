@@ -104,7 +104,7 @@ std::vector<Binding> Marker::bindings(const Letter& letter) const {
 /// The body or particle that stands in the words before a statement. Letters such as v_x that had been found for another one
 /// are open again then.
 void Marker::hear(const std::string& words) {
-    if (words.empty()) return;
+    if (std::none_of(words.begin(), words.end(), [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; })) return;
     std::string spoken;
     const auto look_for = [&](const std::string& name) {
         const auto is_part_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
@@ -118,14 +118,39 @@ void Marker::hear(const std::string& words) {
     };
     for (const Particle& p : system_.scene().particles) look_for(p.name.text);
     for (const Body& b : system_.scene().bodies) look_for(b.name.text);
-    if (spoken != spoken_)
+    if (spoken.empty() && !statement_->displayed) spoken = spoken_;  // the sentence goes on
+    if (spoken != spoken_) {
         for (const Letter& letter : roaming_) letters_.release(letter);
-    if (spoken != spoken_) roaming_.clear();
+        roaming_.clear();
+    }
     spoken_ = spoken;
     const auto says = [&](std::initializer_list<const char*> list) {
         return std::any_of(list.begin(), list.end(), [&](const char* part) { return words.find(part) != std::string::npos; });
     };
+    at_rest_of_rates_ = false;
     speaks_of_rest_ = says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡"});
+}
+
+/// "…, where M = m_1 + m_2": a letter that a later line introduces.
+bool Marker::introduce_ahead(const Letter& letter) {
+    if (!ahead_.insert(letter).second) return false;
+    for (const WrittenStatement& statement : written_.statements) {
+        if (&statement <= statement_) continue;
+        for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
+            for (const bool turned : {false, true}) {
+                const Math &side = *statement.sides[turned ? k + 1 : k], &value = *statement.sides[turned ? k : k + 1];
+                const Lone lone = lone_letter(side);
+                if (lone.letter == nullptr || lone.letter->letter != letter) continue;
+                try {
+                    MarkedLine there;
+                    define(there, *lone.letter, value, lone.power);
+                    return true;
+                } catch (const NoMeaning&) {
+                    continue;
+                }
+            }
+    }
+    return false;
 }
 
 /// T of one body, V of gravity: what the scene has a part for. In an equation of motion T_1 is a force.
@@ -149,7 +174,14 @@ bool Marker::bind_to_part(const Letter& letter) {
 /// A letter alone on one side may be introduced here. Returns whether it was; then the line is judged.
 bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const Lone lone = lone_letter(lhs);
-    if (lone.letter == nullptr || letters_.name_of(lone.letter->letter)) return false;
+    if (lone.letter == nullptr) return false;
+    if (const auto name = letters_.name_of(lone.letter->letter)) {  // introduced here, and used before
+        if (!ahead_.contains(lone.letter->letter) || !known_.contains(*name)) return false;
+        ahead_.erase(lone.letter->letter);
+        judge_pair(line, lhs, rhs);
+        if (line.status == LineStatus::right) line.status = LineStatus::definition;
+        return true;
+    }
     if (bind_to_part(lone.letter->letter)) return false;
     const ClaimText text = claim_text(rhs, {.letters = letters_});
     if (lone.power == 1 && is_constant_of_motion(line, *lone.letter, text)) return true;
@@ -394,10 +426,19 @@ bool Marker::bind_vector(const Math& letter, const Components& value) {
     return chosen.has_value();
 }
 
+/// B_1 = (1, 0, 0, r): a column of more than three numbers is no vector of space, and says nothing that can be judged.
+bool Marker::is_column(MarkedLine& line, const Math& lhs, const Math& rhs) const {
+    const bool column = rhs.kind == Kind::vector || rhs.kind == Kind::matrix;
+    if (!column || lhs.kind != Kind::letter) return false;
+    line.status = LineStatus::definition;
+    line.claim.clear();
+    return true;
+}
+
 /// Lines between vectors: each component is judged, and the worst is told.
 bool Marker::judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs) {
     std::optional<Components> left = components(lhs), right = components(rhs);
-    if (!left && !right) return false;
+    if (!left && !right) return is_column(line, lhs, rhs);
     const Math& open = left ? rhs : lhs;
     bool is_defined = true;
     if (!left || !right) {

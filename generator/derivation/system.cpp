@@ -3,6 +3,7 @@
 
 #include "analysis/state/force_balance.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "model/formalism/routh.hpp"
 
 namespace alembert {
@@ -43,6 +44,35 @@ std::vector<ex> DerivedSystem::euler_lagrange(const ex& function) const {
     std::vector<ex> result;
     for (std::size_t i = 0; i < rates.size(); ++i) result.push_back(m_.z->name(rates[i] - slopes[i]));
     return result;
+}
+
+// The rows of the speeds and of the constraints, as far as they are independent in this order, are a square matrix.
+std::vector<ex> DerivedSystem::rates_by_speed(std::size_t speed) const {
+    constexpr std::size_t most = 7;
+    const std::size_t n = m_.q.size();
+    if (n > most || m_.speeds.size() + e_.A.size() < n) return {};
+    GiNaC::matrix rows(static_cast<unsigned>(n), static_cast<unsigned>(n)), unit(static_cast<unsigned>(n), 1);
+    for (std::size_t k = 0; k < n; ++k) {
+        const bool of_speed = k < m_.speeds.size();
+        const std::vector<ex>& row = of_speed ? m_.speeds[k].row : e_.A[k - m_.speeds.size()];
+        for (std::size_t i = 0; i < n; ++i)
+            rows(static_cast<unsigned>(k), static_cast<unsigned>(i)) = m_.z->expand(row[i]);
+        unit(static_cast<unsigned>(k), 0) = k == speed ? 1 : 0;
+    }
+    try {
+        const GiNaC::matrix inverse = rows.inverse();
+        std::vector<ex> result;
+        for (unsigned i = 0; i < n; ++i) result.push_back(m_.z->name(inverse.mul(unit)(i, 0)));
+        return result;
+    } catch (const std::exception&) {  // singular
+        return {};
+    }
+}
+
+ex DerivedSystem::without_accelerations(const ex& e) const {
+    GiNaC::exmap none;
+    for (const GiNaC::symbol& acceleration : m_.qddot) none[acceleration] = 0;
+    return substitute(*m_.z, {e}, none)[0];
 }
 
 std::vector<CheckedClaim> DerivedSystem::check(const std::vector<LineClaim>& claims,

@@ -46,6 +46,12 @@ public:
     /// d/dt ∂L/∂q'_i − ∂L/∂q_i of any function of the state.
     std::vector<GiNaC::ex> euler_lagrange(const GiNaC::ex& function) const;
 
+    /// ∂q'/∂u of the generalized speed at this place in Mechanism::speeds, along motions that the constraints allow; empty if
+    /// the speeds do not determine the rates.
+    std::vector<GiNaC::ex> rates_by_speed(std::size_t speed) const;
+    /// The expression without accelerations: at q'' = 0.
+    GiNaC::ex without_accelerations(const GiNaC::ex& e) const;
+
     /// The verdicts of the check, with slips; `known` are further names with their values.
     std::vector<CheckedClaim> check(const std::vector<LineClaim>& claims,
                                     const std::map<std::string, GiNaC::ex>& known) const;

@@ -5,6 +5,7 @@
 
 #include "algebra/symbolic/fourier.hpp"
 #include "algebra/symbolic/nonzero.hpp"
+#include "model/energies.hpp"
 
 namespace alembert {
 
@@ -66,6 +67,27 @@ Mechanism in_terms_of(const Energy& energy, const Mechanism& mechanism) {
     return result;
 }
 
+Energies energies_of(const Mechanism& m) {
+    if (!m.given_lagrangian || !m.kinetic.empty()) return {m.kinetic_energy(), m.potential_energy()};
+    Intermediates& z = *m.z;
+    const ex& L = *m.given_lagrangian;
+    const std::vector<ex> p = z.pull_back({{L, 1}}, m.qdot);
+    GiNaC::exvector twice;
+    for (int j = 0; j < m.size(); ++j)
+        for (int i = 0; const ex& entry : z.push_forward(p, {{m.qdot[j], 1}}))
+            twice.push_back(entry * m.qdot[i++] * m.qdot[j]);
+    Energies result{.kinetic = z.name(GiNaC::add(std::move(twice)) / 2), .potential = 0};
+    const std::optional<ex> still = at_rest(L, m);
+    if (still) {
+        result.potential = z.name(-*still);
+        return result;
+    }
+    GiNaC::exvector jacobi{-L};  // at rest there is no value; E − T is none of less meaning
+    for (int i = 0; i < m.size(); ++i) jacobi.push_back(p[i] * m.qdot[i]);
+    result.potential = z.name(GiNaC::add(std::move(jacobi)) - result.kinetic);
+    return result;
+}
+
 Energy energy_of(const Mechanism& mechanism) {
     const Mechanism m = with_own_intermediates(mechanism);
     Intermediates& z = *m.z;
@@ -81,18 +103,12 @@ Energy energy_of(const Mechanism& mechanism) {
     result.jacobi = z.name(pq - L);
 
     ex extra = 0;  // T₁ + 2T₀ = 2T − q'·∂T/∂q'
+    const Energies energies = energies_of(m);
+    result.kinetic = energies.kinetic;
+    result.potential = energies.potential;
     if (m.given_lagrangian) {
-        GiNaC::exvector twice;
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; const ex& entry : z.push_forward(p, {{m.qdot[j], 1}}))
-                twice.push_back(entry * m.qdot[i++] * m.qdot[j]);
-        result.kinetic = z.name(GiNaC::add(std::move(twice)) / 2);
         result.energy = result.jacobi;
-        const std::optional<ex> still = at_rest(L, m);
-        result.potential = z.name(still ? -*still : result.energy - result.kinetic);
     } else {
-        result.kinetic = m.kinetic_energy();
-        result.potential = m.potential_energy();
         result.energy = z.name(result.kinetic + result.potential);
         const bool bodies_alone =
             !m.kinetic.empty() && m.kinetic.back().origin.kind != Origin::Kind::given_kinetic;

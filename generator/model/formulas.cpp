@@ -11,7 +11,8 @@ Formulas::Formulas(const Scene& scene, const Mechanism& m, std::shared_ptr<RootS
                       .orientation = [this](const std::string& f) -> const Orientation& {
                           return places_.orientation(f);
                       }}),
-      places_(scene, m, translator_) {
+      places_(scene, m, translator_),
+      letters_(m, translator_, places_) {
     translator_.go_on(std::move(sheets));
     know("t", m.t);
     for (const Mechanism::Parameter& p : m.parameters) know(p.symbol.get_name(), p.symbol);
@@ -49,6 +50,7 @@ Formulas::Formulas(const Scene& scene, const Mechanism& m, std::shared_ptr<RootS
             !taken(m.definitions, [](const auto& item) { return item.name; }))
             know(name, p[i]);
     }
+    letters_.teach();
 }
 
 }  // namespace alembert

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "algebra/symbolic/distance.hpp"
@@ -61,6 +62,16 @@ ex Translator::scalar_of(const Tree& tree) {
                                            "with dot(…, ex(N)) or its length with norm(…)")}};
 }
 
+bool Translator::knows(const std::string& name) const {
+    const auto is_it = [&](const GiNaC::symbol& q) { return q.get_name() == name; };
+    return name == "t" || name == "pi" || values_.contains(name) || later_.contains(name) ||
+           functions_.contains(name) || std::any_of(mechanism_.q.begin(), mechanism_.q.end(), is_it);
+}
+
+ex Translator::scalar_named(const std::string& name) {
+    return scalar_of(Tree{.kind = Tree::Kind::name, .text = name});
+}
+
 Vector3 Translator::vector_of(const Tree& tree) {
     const Value value = evaluate(tree);
     if (const Vector3* vector = std::get_if<Vector3>(&value)) return *vector;
@@ -80,6 +91,8 @@ ex Translator::differentiated(ex value, int times, const Tree& tree) {
 
 /// diff(e, x, 2, y): the partial derivative, all other quantities of the scene being held.
 ex Translator::partial(const Tree& tree) {
+    if (partials_ && tree.args.size() == 2)
+        if (const auto known = partials_(*tree.args[0], *tree.args[1])) return *known;
     ex value = scalar_of(*tree.args[0]);
     for (const auto& [by, times] : derivative_steps(tree)) {
         const ex variable = mechanism_.z->name(scalar_of(*by));
@@ -88,7 +101,8 @@ ex Translator::partial(const Tree& tree) {
         for (int i = 0; i < times; ++i)
             value = is_free ? mechanism_.z->push_forward({value}, {{GiNaC::ex_to<GiNaC::symbol>(variable), 1}})[0]
                             : by_argument(value, *by);
-        if (is_free && variable.is_equal(mechanism_.t) && value.is_zero())
+        if (is_free && variable.is_equal(mechanism_.t) && value.is_zero() &&
+            !offered_.contains(tree.args[0]->text))
             throw SceneMistake{
                 {current_->place(tree.offset),
                  say("this does not depend on t by itself; a derivative in the course of the motion is "
@@ -223,6 +237,8 @@ Value Translator::call(const Tree& tree) {
     if (tree.text == "norm") return length(vector_of(*tree.args[0]));
     std::vector<ex> args;
     if (tree.text == "diff") return partial(tree);
+    if (calls_ && !functions_.contains(tree.text))
+        if (const auto value = calls_(tree)) return *value;
     for (const TreePtr& arg : tree.args) args.push_back(z.name(scalar_of(*arg)));
     if (const auto open = functions_.find(tree.text); open != functions_.end())
         return unspecified_value(

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <variant>
 
 #include "model/geometry.hpp"
@@ -29,9 +30,27 @@ public:
         : mechanism_(mechanism), queries_(std::move(queries)) {}
 
     /// Declares a name that stands for a value: a coordinate's symbol, a definition's value …
-    void know(const std::string& name, const Value& value) { values_[name] = value; }
+    void know(const std::string& name, const Value& value) {
+        forget(name);
+        values_[name] = value;
+    }
     /// Declares a name whose value is computed when it is first asked for (definitions, in any order).
     void know_later(const std::string& name, std::function<Value()> value) { later_[name] = std::move(value); }
+
+    bool knows(const std::string& name) const;
+    void forget(const std::string& name) { later_.erase(name), values_.erase(name), offered_.erase(name); }
+    /// `know_later` for a name that no scene declares: that it does not depend on t by itself may be said.
+    void offer(const std::string& name, std::function<Value()> value) {
+        know_later(name, std::move(value));
+        offered_.insert(name);
+    }
+    bool is_offered(const std::string& name) const { return offered_.contains(name); }
+    /// Declares calls that are no functions of the language: T(M1). Nothing for any other.
+    void know_calls(std::function<std::optional<Value>(const Tree& call)> calls) { calls_ = std::move(calls); }
+    /// Declares partial derivatives that hold something else than the rates. Nothing for any other.
+    void know_partials(std::function<std::optional<GiNaC::ex>(const Tree& of, const Tree& by)> partials) {
+        partials_ = std::move(partials);
+    }
 
     /// Declares a function of [functions].
     void know_function(const GiNaC::symbol& function) { functions_.emplace(function.get_name(), function); }
@@ -53,10 +72,15 @@ public:
     /// The same, of an expression that may be a vector. A number gets an intermediate symbol.
     Value value(const Expression& expression);
 
+    // For what `know_calls` gives, while an expression is being translated:
+    Vector3 vector_of(const Tree& tree);
+    GiNaC::ex scalar_of(const Tree& tree);
+    /// What a name stands for.
+    GiNaC::ex scalar_named(const std::string& name);
+    Place place_of(const Tree& tree) const { return current_->place(tree.offset); }
+
 private:
     Value evaluate(const Tree& tree);
-    GiNaC::ex scalar_of(const Tree& tree);
-    Vector3 vector_of(const Tree& tree);
     Value named(const Tree& tree);
     Value call(const Tree& tree);
     GiNaC::ex power(const GiNaC::ex& base, const GiNaC::ex& exponent);
@@ -71,7 +95,10 @@ private:
     GeometryQueries queries_;
     std::map<std::string, Value> values_;
     std::map<std::string, std::function<Value()>> later_;
+    std::set<std::string> offered_;
     std::map<std::string, GiNaC::symbol> functions_;
+    std::function<std::optional<Value>(const Tree& call)> calls_;
+    std::function<std::optional<GiNaC::ex>(const Tree& of, const Tree& by)> partials_;
     std::vector<GiNaC::symbol> without_derivative_;
     std::shared_ptr<RootSheets> sheets_;
     const Expression* current_ = nullptr;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
+#include "scene/book_letters.hpp"
 #include "scene/sticking.hpp"
 #include "scene/text.hpp"
 
@@ -99,6 +100,7 @@ void check_claim(const Claim& claim, const CheckedParts& of) {
                              described(declared->kind)));
             more.insert(name.text);
         }
+    for (std::string& reaction : reaction_letters(of.scene, of.names)) more.insert(std::move(reaction));
     if (claim.at == Claim::At::sticking) check_sticking(claim, of, more);
     if (claim.at == Claim::At::closed) check_closed(claim, of);
     check_near(claim, of);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/language/greek.hpp"
+#include "scene/book_letters.hpp"
 #include "scene/names.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
@@ -53,6 +54,8 @@ KnownNames::KnownNames(const Scene& scene) {
             add(name, declared.kind == Kind::coordinate || declared.kind == Kind::speed ||
                           declared.kind == Kind::input || declared.kind == Kind::definition);
     for (const Output& output : scene.outputs) add(output.name.text);
+    for (const std::string& letter : book_letters(scene, names))
+        if (letter.find('_') != std::string::npos) add(letter, true);  // Q_θ; T alone may be a unit
 }
 
 void KnownNames::add(const std::string& given, bool moves) {

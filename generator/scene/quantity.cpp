@@ -7,6 +7,7 @@
 
 #include "base/language/say.hpp"
 #include "scene/advice.hpp"
+#include "scene/book_letters.hpp"
 #include "scene/functions.hpp"
 #include "scene/text.hpp"
 
@@ -208,6 +209,10 @@ void Quantities::refuse_rate_by_diff(Context& context, const Tree& call) {
 Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, int raised) {
     const Function* const function = find_function(tree.text);
     if (!function) {
+        if (context.legal.claim && is_book_call(tree, names_)) {
+            meet_book_call(context, tree);
+            return Rank::number;
+        }
         if (tree.text != "(-)") meet_function(context, tree);
         for (const TreePtr& arg : tree.args) need_scalar(context, *arg, raised);
         return Rank::number;
@@ -284,7 +289,7 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
         return meet(context, tree, {.time = true}, raised);
     }
     const Declared* const declared = NameSpaces::find(names_.values, tree.text);
-    if (!declared) return meet_unknown(context, tree);
+    if (!declared) return meet_unknown(context, tree, raised);
     switch (declared->kind) {
         case Declared::Kind::parameter:
             return constant(say("is a parameter and does not change with time"));
@@ -381,7 +386,42 @@ std::string Quantities::advice_on(const std::string& word) const {
     return {};
 }
 
-void Quantities::meet_unknown(Context& context, const Tree& tree) {
+/// T, V, Q_theta … in a claim. A virtual displacement is no function of time.
+void Quantities::meet_book_letter(Context& context, const Tree& tree, int raised) {
+    const bool is_virtual = !after_prefix(tree.text, "delta").empty();
+    if (is_virtual && tree.primes > 0)
+        complain(context, tree,
+                 say("{} belongs to a virtual displacement: it has no derivative", in_quotes(tree.text)));
+    meet(context, tree, {.order = tree.text == "V" || is_virtual ? 0 : 1}, raised + tree.primes);
+}
+
+/// T(M1), Q_theta(force_1), inertia(B, P, u, v): names first, then vectors.
+void Quantities::meet_book_call(Context& context, const Tree& tree) {
+    const bool is_inertia = tree.text == book_inertia;
+    const std::size_t names = is_inertia ? 2 : 1, most = is_inertia ? 4 : 1;
+    if (tree.args.size() < names || tree.args.size() > most)
+        return complain(context, tree,
+                        is_inertia
+                            ? say("expected inertia(B, P), inertia(B, P, u) or inertia(B, P, u, v): a body, a "
+                                  "point, and the axes that it is along")
+                            : say("expected one name of a part of the mechanism: {}(M1)", tree.text));
+    for (std::size_t k = 0; k < tree.args.size(); ++k) {
+        const Tree& arg = *tree.args[k];
+        if (k < names && (arg.kind != Kind::name || arg.primes > 0))
+            complain(context, arg,
+                     say("expected the name of a part of the mechanism; for a product write {}*(…)", tree.text));
+        else if (k == 0 && is_inertia)
+            check_place(arg.text, context.expression.place(arg.offset),
+                        NameSpaces::find(names_.frames, arg.text) != nullptr ? "frame" : "point");
+        else if (k == 1 && is_inertia)
+            check_place(arg.text, context.expression.place(arg.offset), "point");
+        else if (k >= names && rank(context, arg, 0) == Rank::number)
+            complain(context, arg, say("a number stands where a vector is expected"));
+    }
+}
+
+void Quantities::meet_unknown(Context& context, const Tree& tree, int raised) {
+    if (context.legal.claim && is_book_letter(tree.text, names_)) return meet_book_letter(context, tree, raised);
     if (context.legal.claim &&
         (begins_with(tree.text, "p_") || begins_with(tree.text, "lambda") || is_given_by_derive(tree.text)))
         return;

@@ -24,7 +24,8 @@ struct Legal {
     std::string if_changing = {};  ///< what to do instead if the time or a coordinate is refused
     const std::unordered_set<std::string>* more = nullptr;  ///< further names, those of claims
     bool multipliers = false;  ///< whether the multipliers of the scene's constraints are legal
-    /// Whether momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, whether known or not.
+    /// Whether momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, whether known or not, and the
+    /// letters of the textbook (scene/book_letters.hpp).
     bool claim = false;
 };
 
@@ -99,7 +100,9 @@ private:
     Rank rank_of_call(Context& context, const Tree& tree, int raised);
     void meet_function(Context& context, const Tree& tree);
     void meet_name(Context& context, const Tree& tree, int raised);
-    void meet_unknown(Context& context, const Tree& tree);
+    void meet_unknown(Context& context, const Tree& tree, int raised);
+    void meet_book_letter(Context& context, const Tree& tree, int raised);
+    void meet_book_call(Context& context, const Tree& tree);
     void meet(Context& context, const Tree& tree, Contents found, int raised);
     std::string advice_on(const std::string& word) const;
     void check_place(const std::string& name, Place place, const std::string& kind);

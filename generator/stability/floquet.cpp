@@ -40,23 +40,23 @@ void check_period(const Variation<Quad>& f, const std::vector<Quad>& start, Quad
     }
 }
 
-enum class Place { inside, circle, outside, unclear };
+enum class OnCircle { inside, circle, outside, unclear };
 
 /// The place of each multiplier; with `mirrored`, the set of multipliers is its own mirror image in the circle.
-std::vector<Place> places(const std::vector<RootOf>& roots, bool mirrored) {
-    std::vector<Place> result;
+std::vector<OnCircle> places(const std::vector<RootOf>& roots, bool mirrored) {
+    std::vector<OnCircle> result;
     for (const RootOf& root : roots) {
         const double size = std::abs(root.value);
-        Place place = size + root.radius < 1   ? Place::inside
-                      : size - root.radius > 1 ? Place::outside
-                                               : Place::unclear;
-        if (place == Place::unclear && mirrored && root.multiplicity == 1) {
+        OnCircle place = size + root.radius < 1   ? OnCircle::inside
+                         : size - root.radius > 1 ? OnCircle::outside
+                                                  : OnCircle::unclear;
+        if (place == OnCircle::unclear && mirrored && root.multiplicity == 1) {
             const std::complex<double> image = 1.0 / std::conj(root.value);
             const double reach = 4 * (root.radius + std::abs(image - root.value)) + 1e-12;
             const auto near = std::count_if(roots.begin(), roots.end(), [&](const RootOf& other) {
                 return std::abs(other.value - root.value) <= reach + other.radius;
             });
-            if (near == 1) place = Place::circle;
+            if (near == 1) place = OnCircle::circle;
         }
         result.push_back(place);
     }
@@ -65,32 +65,33 @@ std::vector<Place> places(const std::vector<RootOf>& roots, bool mirrored) {
 
 Decision judged(const FloquetResult& found, const std::vector<RootOf>& roots, bool autonomous, bool linear,
                 bool mirrored) {
-    std::vector<Place> at = places(roots, mirrored);
+    std::vector<OnCircle> at = places(roots, mirrored);
     if (autonomous) {  // the one along the motion
         std::size_t own = 0;
         for (std::size_t k = 0; k < roots.size(); ++k)
             if (std::abs(roots[k].value - 1.0) < std::abs(roots[own].value - 1.0)) own = k;
-        at[own] = Place::inside;
+        at[own] = OnCircle::inside;
     }
-    const auto has = [&](Place place) { return std::find(at.begin(), at.end(), place) != at.end(); };
+    const auto has = [&](OnCircle place) { return std::find(at.begin(), at.end(), place) != at.end(); };
     const std::string of = say("the largest multiplier over the period {:.10g} has the size {:.12g}", found.period,
                                std::abs(found.multipliers.front()));
     const std::string orbit =
         autonomous ? say("; the one along the motion is 1 and not counted: the orbit is stable") : "";
-    if (has(Place::outside))
+    if (has(OnCircle::outside))
         return {StabilityVerdict::unstable, StabilityTheorem::floquet, say("{}, beyond 1", of)};
-    if (!has(Place::circle) && !has(Place::unclear))
+    if (!has(OnCircle::circle) && !has(OnCircle::unclear))
         return {StabilityVerdict::asymptotically_stable, StabilityTheorem::floquet,
                 autonomous ? say("all multipliers but one are smaller than 1") + orbit : say("{}, below 1", of)};
-    if (linear && !has(Place::unclear))
+    if (linear && !has(OnCircle::unclear))
         return {StabilityVerdict::stable, StabilityTheorem::floquet,
                 say("all multipliers are simple and on the unit circle: the equations are linear and have a "
                     "Hamiltonian, so "
                     "that none can leave it")};
-    return {StabilityVerdict::undecided, StabilityTheorem::none,
-            say("critical: no multiplier is surely beyond the unit circle, and some are on it{}; the first "
-                "approximation over a period says nothing about {} equations",
-                has(Place::unclear) ? say(" or too near to tell") : "", linear ? say("these") : say("nonlinear"))};
+    return {
+        StabilityVerdict::undecided, StabilityTheorem::none,
+        say("critical: no multiplier is surely beyond the unit circle, and some are on it{}; the first "
+            "approximation over a period says nothing about {} equations",
+            has(OnCircle::unclear) ? say(" or too near to tell") : "", linear ? say("these") : say("nonlinear"))};
 }
 
 /// Numbers as exactly as the scene and the options have them.

@@ -117,12 +117,13 @@ OwnSteps steps_of_schiehlen(const Mechanism& m, const Equations&) {
                                      "axes, and the accelerations at "
                                      "q'' = 0:",
                                      shown_label(m.masses[b].origin))};
-        const auto add_rows = [&](const std::string& letter, const std::vector<Vector3>& J) {
+        const auto add_rows = [&](const std::string& letter, const std::vector<GiNaC::symbol>& by,
+                                  const std::vector<Vector3>& J) {
             for (int j = 0; j < m.size(); ++j)
-                for (int k = 0; k < 3; ++k) write.partial(section, letter + "_" + "xyz"[k], m.q[j], J[j][k]);
+                for (int k = 0; k < 3; ++k) write.partial(section, letter + "_" + "xyz"[k], by[j], J[j][k]);
         };
-        add_rows("r", motions[b].J_T);
-        if (m.masses[b].rotation) add_rows("s", motions[b].J_R);
+        add_rows("r", m.q, motions[b].J_T);
+        if (m.masses[b].rotation) add_rows("w", m.qdot, motions[b].J_R);
         for (int k = 0; k < 3; ++k)
             if (const auto f = write.normal(motions[b].a_bar[k]); f && f->size() > 0)
                 section.statements.push_back(

@@ -56,6 +56,9 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
             if (!value.empty()) json["likely"][name] = value;
     }
     if (!checked.reason.empty()) json["reason"] = checked.reason;
+    if (checked.up_to)
+        json["up_to"] = {{"kind", checked.up_to->kind == UpTo::Kind::constant ? "constant" : "derivative"},
+                         {"text", checked.up_to->text}};
     if (!checked.where.empty()) json["where"] = checked.where;
     if (checked.other_branch) {
         const OtherBranch& other = *checked.other_branch;
