@@ -156,7 +156,8 @@ Answer do_derivation(Scene scene, const Asked& asked) {
         options.letters[given.substr(0, equals)] = given.substr(equals + 1);
     }
     const std::string title = scene.title;
-    const Marked marked = mark(std::move(scene), read_derivation(asked.text("derivation"), asked.text("name")), options);
+    const Marked marked =
+        mark(std::move(scene), read_derivation(asked.text("derivation"), asked.text("name")), options);
     return {.json = as_json(marked),
             .text = as_text(marked),
             .files = {{"html", as_html(marked, {.title = title, .version = ALEMBERT_VERSION})}}};

@@ -265,7 +265,7 @@ class Hand:
 
 
 # What only the words around it explain: Jacobians of one body, matrices, Gibbs's function, angular velocities.
-OF_A_FORMALISM = re.compile(r"(\\frac\{\\partial [vrsS]|B_|E_|S$|a_|r_|\\omega_|\\mathrm\{L'|\\frac\{\\partial \\dot|Q_\{\\dot|F_\{|R$)")
+OF_A_FORMALISM = re.compile(r"(\\frac\{\\partial (?:[vrsS]|\\omega)|B_|E_|S$|a_|r_|\\omega_|\\mathrm\{L'|\\frac\{\\partial \\dot|Q_\{\\dot|F_\{|R$)")
 
 
 def formulas_of(text):

@@ -105,7 +105,7 @@ done
 
 # The blocks of a translated page, apart from comments after "# ", are those of the English page in the same order.
 blocks() { awk '/^```/ { inside = !inside; print; next } inside { sub(/[ \t]*(^|[ \t])# .*/, ""); print }' "$1"; }
-for page in README docs/guide; do
+for page in README docs/guide docs/derivations; do
     diff <(blocks "$root/$page.md") <(blocks "$root/$page.zh.md") >"$work/blocks" && continue
     printf '%s.zh.md has other commands, scenes or outputs (>) than %s.md (<):\n' "$page" "$page"
     cat "$work/blocks"

@@ -72,7 +72,8 @@ MarkOptions mark_options(const CheckOptions& options) {
     return result;
 }
 
-/// A page of words is no file of claims: it has lines that are neither equations nor comments nor one of its words.
+/// A page of words is no file of claims: it has lines that are neither equations nor comments nor one of its
+/// words.
 bool has_prose(const std::string& text) {
     std::size_t words = 0;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -84,13 +85,15 @@ bool has_prose(const std::string& text) {
         static constexpr const char* modes[] = {"unknowns", "constants", "rest",   "impact",   "motion",
                                                 "solution", "near",      "closed", "sticking", "where"};
         const std::string word = line.substr(first, line.find_first_of(" \t\r", first) - first);
-        if (std::none_of(std::begin(modes), std::end(modes), [&](const char* mode) { return word == mode; })) ++words;
+        if (std::none_of(std::begin(modes), std::end(modes), [&](const char* mode) { return word == mode; }))
+            ++words;
     }
     return words > 0;
 }
 
 bool is_read_as_derivation(const CheckOptions& options, const std::string& text) {
-    if (options.claims == "-" || !options.page.empty() || !options.csv.empty() || !options.letters.empty()) return true;
+    if (options.claims == "-" || !options.page.empty() || !options.csv.empty() || !options.letters.empty())
+        return true;
     return is_derivation(text, options.claims) || (ending_of(options.claims) == ".txt" && has_prose(text));
 }
 
@@ -107,7 +110,8 @@ int run_claims(Scene scene, const CheckOptions& options) {
 void write_book(const Gradebook& book, const CheckOptions& options, const Scene& scene) {
     if (!options.csv.empty()) write_file(options.csv, as_csv(book), {options.scene});
     if (!options.page.empty())
-        write_file(options.page, as_html(book, {.title = scene.title, .version = ALEMBERT_VERSION}), {options.scene});
+        write_file(options.page, as_html(book, {.title = scene.title, .version = ALEMBERT_VERSION}),
+                   {options.scene});
 }
 
 int run_folder(const Scene& scene, const CheckOptions& options) {
@@ -150,7 +154,8 @@ int run_draft(const CheckOptions& options) {
     const Scene scene = parse_scene(drafted.text, say("the scene drafted from {}", options.scene));
     const Marked marked = mark(scene, std::move(written), mark_options(options));
     if (!options.page.empty())
-        write_file(options.page, as_html(marked, {.title = scene.title, .version = ALEMBERT_VERSION}), {options.scene});
+        write_file(options.page, as_html(marked, {.title = scene.title, .version = ALEMBERT_VERSION}),
+                   {options.scene});
     if (options.json) {
         Json json = as_json(marked);
         json["scene"] = drafted.text;
@@ -190,9 +195,10 @@ void add_check(CLI::App& app, Chosen& chosen) {
          .about = say("checks your equations, or a whole derivation, against the derived equations"),
          .example = "alembert check scenes/textbook/double_pendulum.toml"},
         run, [](Verb& verb, CheckOptions& options) {
-            verb.add_option("claims", options.claims,
-                            say("a file, one equation a line, or a derivation in LaTeX, Markdown or plain text, or a "
-                                "folder of these; - for standard input; default: the scene's [[claim]]s"))
+            verb.add_option(
+                    "claims", options.claims,
+                    say("a file, one equation a line, or a derivation in LaTeX, Markdown or plain text, or a "
+                        "folder of these; - for standard input; default: the scene's [[claim]]s"))
                 .type_name(values::claims);
             verb.add_flag("--complete", options.complete,
                           say("the exit code is 2 also if the claims that hold do not "
@@ -200,9 +206,10 @@ void add_check(CLI::App& app, Chosen& chosen) {
             verb.add_option("--letters", options.letters,
                             say("for which name a letter of the derivation stands, as in \"\\\\ell=l\""))
                 .type_name(values::assignment);
-            verb.add_flag("--scene-from", options.drafts,
-                          say("SCENE is a derivation; a scene is drafted from its letters and energies, and its lines "
-                              "are held against them"));
+            verb.add_flag(
+                "--scene-from", options.drafts,
+                say("SCENE is a derivation; a scene is drafted from its letters and energies, and its lines "
+                    "are held against them"));
             verb.add_option("--html", options.page, say("the marked derivation, or derivations, as a page"))
                 .type_name(values::file);
             verb.add_option("--csv", options.csv, say("a row for each derivation, as a table"))

@@ -50,7 +50,8 @@ public:
     SharedCount() {
         void* const memory =
             mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-        if (memory == MAP_FAILED) throw CompileError(say("there is no memory for {} bytes", sizeof(std::atomic<int>)));
+        if (memory == MAP_FAILED)
+            throw CompileError(say("there is no memory for {} bytes", sizeof(std::atomic<int>)));
         count_ = new (memory) std::atomic<int>(0);
     }
     ~SharedCount() { munmap(count_, sizeof(std::atomic<int>)); }
@@ -105,8 +106,8 @@ std::vector<std::string> derivations_in(const std::string& folder) {
     }
     if (error) throw ModelError(say("{}: the folder cannot be read: {}", folder, error.message()));
     if (files.empty())
-        throw ModelError(say("{}: the folder has no derivations; expected files that end with .tex, .md or .txt",
-                             folder));
+        throw ModelError(
+            say("{}: the folder has no derivations; expected files that end with .tex, .md or .txt", folder));
     std::sort(files.begin(), files.end());
     return files;
 }

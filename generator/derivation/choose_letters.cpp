@@ -113,6 +113,30 @@ double score_of(DerivedSystem& system, const Written& written, const Letters& le
     return marker.score();
 }
 
+/// Whether a user may give a letter this name: one of the scene, its rate, or an energy.
+bool is_name(const std::string& name, const Letters& letters) {
+    const std::string stem = name.substr(0, name.find('\''));
+    const bool is_energy = name.size() == 1 && std::string_view("TVLEH").find(name) != std::string_view::npos;
+    return is_energy || letters.is_of_scene(stem);
+}
+
+std::string without_lines(std::string name) {
+    std::erase(name, '_');
+    return name;
+}
+
+/// Tells of letters that are written in another hand than the scene's: \ell for l.
+void tell_hands(ChosenLetters& chosen, const Written& written) {
+    std::map<Letter, int> all;
+    for (const WrittenStatement& statement : written.statements)
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+    for (const auto& [letter, dots] : all) {
+        const auto name = chosen.letters.name_of(letter);
+        if (name && chosen.letters.is_of_scene(*name) && without_lines(identifier_of(letter)) != without_lines(*name))
+            chosen.told.emplace(shown(letter), *name);
+    }
+}
+
 Letters with(Letters letters, const Assignment& assignment) {
     for (const auto& [letter, name] : assignment) letters.bind(letter, name);
     return letters;
@@ -125,7 +149,7 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
     ChosenLetters result{.letters = Letters(system.scene()), .told = {}, .remarks = {}};
     const Scene& scene = system.scene();
     for (const auto& [text, name] : given) {
-        if (!result.letters.is_of_scene(name))
+        if (!is_name(name, result.letters))
             throw SceneError(say("the letter {} is said to be '{}', and the scene has no such name; it has {}", text, name,
                                  fmt::join(result.letters.scene_names(), ", ")),
                              {});
@@ -160,6 +184,7 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
     }
     result.letters = with(std::move(result.letters), best);
     for (const auto& [letter, name] : best) result.told[shown(letter)] = name;
+    tell_hands(result, written);
     return result;
 }
 

@@ -38,8 +38,8 @@ const char* name_of(LineStatus status) {
 }
 
 Marked mark(Scene scene, Written written, const MarkOptions& options) {
-    DerivedSystem system(std::move(scene), options.by);
-    return mark(system, std::move(written), options);
+    DerivedSystem derived{std::move(scene), options.by};
+    return mark(derived, std::move(written), options);
 }
 
 Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) {

@@ -40,7 +40,8 @@ bool has_quantity(const Math& math) {
 
 bool has_derivative(const Math& math) {
     if (math.kind == Kind::rate || math.kind == Kind::partial || math.kind == Kind::variation) return true;
-    return std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return has_derivative(*arg); });
+    return std::any_of(math.args.begin(), math.args.end(),
+                       [](const MathPtr& arg) { return has_derivative(*arg); });
 }
 
 class Drafting {
@@ -59,10 +60,10 @@ private:
     const Written& written_;
     Letters letters_;
     const Math *kinetic_ = nullptr, *potential_ = nullptr, *lagrangian_ = nullptr;
-    std::map<Letter, int> dots_;    ///< every letter, with the most dots that it has anywhere
-    std::set<Letter> of_time_;      ///< F(t)
+    std::map<Letter, int> dots_;  ///< every letter, with the most dots that it has anywhere
+    std::set<Letter> of_time_;    ///< F(t)
     std::map<Letter, const Math*> defined_;
-    std::set<Letter> squared_;      ///< v in v^2 = …
+    std::set<Letter> squared_;                                      ///< v in v^2 = …
     std::map<Letter, std::pair<std::string, const Math*>> forces_;  ///< Q with its coordinate and its value
     std::vector<std::string> assumed_;
 
@@ -82,9 +83,10 @@ private:
         }
         if (kinetic_ != nullptr) lagrangian_ = nullptr;
         if (kinetic_ == nullptr && lagrangian_ == nullptr)
-            throw ModelError(say("{}: no scene can be drafted, because no line states T or L; expected a line such as "
-                                 "T = m*l^2*theta'^2/2",
-                                 written_.file));
+            throw ModelError(
+                say("{}: no scene can be drafted, because no line states T or L; expected a line such as "
+                    "T = m*l^2*theta'^2/2",
+                    written_.file));
     }
 
     void collect_time(const Math& math) {
@@ -113,7 +115,8 @@ private:
             if (!is_plain_letter(left) || quantity_of(left.letter) || has_quantity(right)) continue;
             std::map<Letter, int> inside;
             collect_letters(right, inside);
-            const bool is_static = std::all_of(inside.begin(), inside.end(), [](const auto& one) { return one.second == 0; });
+            const bool is_static =
+                std::all_of(inside.begin(), inside.end(), [](const auto& one) { return one.second == 0; });
             if (is_static && !inside.empty() && !inside.contains(left.letter) && is_used(left.letter))
                 defined_.emplace(left.letter, &right);
         }
@@ -140,11 +143,13 @@ private:
             std::map<Letter, int> inside;
             collect_letters(value, inside);
             if (has_quantity(value) || has_derivative(value)) continue;
-            if (std::all_of(inside.begin(), inside.end(), [this](const auto& one) { return is_used(one.first); })) continue;
+            if (std::all_of(inside.begin(), inside.end(), [this](const auto& one) { return is_used(one.first); }))
+                continue;
             for (const auto& [other, dots] : dots_) {
                 if (!is_coordinate(other)) continue;
                 const std::string name = name_for(other);
-                if (letter.index == other.base + (other.index.empty() ? "" : "_" + other.index) || letter.index == name)
+                if (letter.index == other.base + (other.index.empty() ? "" : "_" + other.index) ||
+                    letter.index == name)
                     forces_.emplace(letter, std::pair(name, &value));
             }
         }
@@ -174,9 +179,10 @@ private:
     void need_no_squares() const {
         for (const Letter& letter : squared_)
             if (!defined_.contains(letter) && is_used(letter))
-                throw ModelError(say("{}: no scene can be drafted, because the energies hold {}, of which only the "
-                                     "square is given; write it out",
-                                     written_.file, identifier_of(letter)));
+                throw ModelError(
+                    say("{}: no scene can be drafted, because the energies hold {}, of which only the "
+                        "square is given; write it out",
+                        written_.file, identifier_of(letter)));
     }
 
     /// The letters that a scene needs: of the energies, of what defines these, and of the forces.
@@ -220,10 +226,12 @@ private:
         if (coordinates.empty())
             throw ModelError(say("{}: no scene can be drafted, because no letter of the energies carries a dot",
                                  written_.file));
-        for (const auto& [letter, value] : defined_) draft.table("definitions").set(name_for(letter), text_of(*value));
+        for (const auto& [letter, value] : defined_)
+            draft.table("definitions").set(name_for(letter), text_of(*value));
         if (lagrangian_ != nullptr) draft.table("energy").set("lagrangian", text_of(*lagrangian_));
         if (kinetic_ != nullptr) draft.table("energy").set("kinetic", text_of(*kinetic_));
-        if (kinetic_ != nullptr && potential_ != nullptr) draft.table("energy").set("potential", text_of(*potential_));
+        if (kinetic_ != nullptr && potential_ != nullptr)
+            draft.table("energy").set("potential", text_of(*potential_));
         for (const auto& [letter, force] : forces_) draft.table("forces").set(force.first, text_of(*force.second));
         assumed_.push_back(say("Coordinates, because they carry dots: {}.", fmt::join(coordinates, ", ")));
         if (!parameters.empty())

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A scene from a derivation's own first lines, for people who have none: its coordinates are the letters that carry
-/// dots, its parameters the other letters, its energies those that the derivation states.
+/// A scene from a derivation's own first lines, for people who have none: its coordinates are the letters that
+/// carry dots, its parameters the other letters, its energies those that the derivation states.
 ///
 ///     const DraftedScene drafted = scene_from(read_derivation(text, "homework.tex"));
 ///     parse_scene(drafted.text, "homework.toml");

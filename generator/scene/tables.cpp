@@ -165,10 +165,10 @@ void read_letters(const Table& table, Scene& scene) {
         const std::string stem = names.spelled(name->text.substr(0, primes));
         const bool is_quantity = std::string_view("T V L E H t").find(stem) != std::string_view::npos;
         if (!names.has(stem) && !(is_quantity && stem.size() == 1))
-            table.reading().complain(name->place,
-                                     say("the letter {} stands for {}, which the scene does not have; expected one "
-                                         "of its names, as in \"\\\\ell\" = \"l\"",
-                                         in_quotes(entry.key), in_quotes(name->text)));
+            table.reading().complain(
+                name->place, say("the letter {} stands for {}, which the scene does not have; expected one "
+                                 "of its names, as in \"\\\\ell\" = \"l\"",
+                                 in_quotes(entry.key), in_quotes(name->text)));
         name->text = stem + name->text.substr(primes);
         scene.letters.push_back({{entry.key, entry.place}, *std::move(name)});
     }

@@ -30,7 +30,8 @@ std::vector<std::pair<std::string, std::size_t>> Gradebook::slips() const {
     for (const GradedRow& row : rows)
         for (const std::string& kind : std::set<std::string>(row.kinds.begin(), row.kinds.end())) ++counts[kind];
     std::vector<std::pair<std::string, std::size_t>> sorted(counts.begin(), counts.end());
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
     return sorted;
 }
 
@@ -52,11 +53,11 @@ GradedRow graded(const Marked& marked) {
 }
 
 Json to_json(const GradedRow& row) {
-    return {{"file", row.file},       {"first_mistake", or_null(row.first_mistake)},
-            {"kind", row.kind},       {"right", row.right},
+    return {{"file", row.file},         {"first_mistake", or_null(row.first_mistake)},
+            {"kind", row.kind},         {"right", row.right},
             {"mistakes", row.mistakes}, {"follows", row.follows},
-            {"open", row.open},       {"missing", row.missing},
-            {"kinds", row.kinds},     {"problem", row.problem},
+            {"open", row.open},         {"missing", row.missing},
+            {"kinds", row.kinds},       {"problem", row.problem},
             {"page", row.page}};
 }
 

@@ -26,8 +26,8 @@ std::string inline_math(const Phrase& phrase);
 /// A name or a short expression with Greek letters and indices.
 std::string html_letters(const std::string& expression);
 
-/// Rows of MathML and the signs between them, "<mo>=</mo>" and the like, as a block that may be broken before these
-/// and before the plus and minus signs of their outermost sums.
+/// Rows of MathML and the signs between them, "<mo>=</mo>" and the like, as a block that may be broken before
+/// these and before the plus and minus signs of their outermost sums.
 std::string breakable(const std::vector<std::string>& rows);
 
 /// left = right as a block that may be broken before the plus and minus signs of its outermost sums.

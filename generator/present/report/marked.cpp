@@ -105,8 +105,7 @@ std::string details_of(const MarkedLine& line, const std::string& indent) {
         add(say("wrong term: "), line.term);
     add(say("correct line: "), line.right);
     std::string state;
-    for (const auto& [name, value] : c.counterexample)
-        state += (state.empty() ? "" : ", ") + name + " = " + value;
+    for (const auto& [name, value] : c.counterexample) state += (state.empty() ? "" : ", ") + name + " = " + value;
     add(say("it fails at "), state);
     if (!state.empty()) add(say("where left - right = "), c.residual);
     return page;
@@ -123,7 +122,9 @@ std::string letters_line(const Marked& marked) {
 
 std::string one_line(const std::string& source) {
     std::string result;
-    for (const char c : source) {
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        const char c = source[i];
+        if (c == '&' && (i == 0 || source[i - 1] != '\\')) continue;  // of LaTeX's columns
         const bool is_blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
         if (!is_blank) result += c;
         if (is_blank && !result.empty() && result.back() != ' ') result += ' ';
@@ -143,7 +144,8 @@ std::size_t count_of(const Marked& marked, LineStatus status) {
 
 std::size_t count_right(const Marked& marked) {
     return count_of(marked, LineStatus::right) + count_of(marked, LineStatus::right_near) +
-           count_of(marked, LineStatus::right_up_to_constant) + count_of(marked, LineStatus::right_up_to_derivative);
+           count_of(marked, LineStatus::right_up_to_constant) +
+           count_of(marked, LineStatus::right_up_to_derivative);
 }
 
 std::string words_of_status(const Marked& marked, const MarkedLine& line) {
@@ -188,14 +190,14 @@ std::string summary_of(const Marked& marked) {
         text = say("No mistake was found.");
     }
     text += say(" Right: {}, mistakes: {}, following from them: {}.", right, wrong, follow);
-    const std::size_t open = count_of(marked, LineStatus::undecided) + count_of(marked, LineStatus::not_understood);
+    const std::size_t open =
+        count_of(marked, LineStatus::undecided) + count_of(marked, LineStatus::not_understood);
     if (open > 0) text += say(" Not judged: {}.", open);
     return text;
 }
 
 std::string words_of_missing(const Marked& marked) {
-    if (marked.missing.empty())
-        return marked.complete ? say("No equation of motion is missing.") : std::string();
+    if (marked.missing.empty()) return marked.complete ? say("No equation of motion is missing.") : std::string();
     std::string names;
     for (const std::string& name : marked.missing) names += (names.empty() ? "" : ", ") + name;
     return marked.missing.size() == 1 ? say("No right line gives the equation of motion of {}.", names)

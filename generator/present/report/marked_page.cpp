@@ -6,6 +6,7 @@
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "check/slip_words.hpp"
+#include "derivation/written/read.hpp"
 #include "present/report/html.hpp"
 #include "present/report/marked.hpp"
 #include "present/report/page.hpp"
@@ -31,7 +32,8 @@ std::string sign_between(Relation relation) {
 }
 
 /// The sides of a chain from `first` to `last`; before the first, if it is not that of the chain, only its sign.
-std::string formula(const WrittenStatement& statement, std::size_t first, std::size_t last, const WrongPart& wrong) {
+std::string formula(const WrittenStatement& statement, std::size_t first, std::size_t last,
+                    const WrongPart& wrong) {
     std::vector<std::string> rows;
     if (first > 0) {
         rows.push_back(sign_between(statement.relations[first - 1]));
@@ -100,7 +102,8 @@ void add_row(std::string& page, const Marked& marked, const MarkedLine& line, co
 }
 
 /// The sides of the statement that the line compares: those inside its part of the document.
-std::pair<std::size_t, std::size_t> sides_of(const WrittenStatement& statement, const MarkedLine& line, std::size_t nth) {
+std::pair<std::size_t, std::size_t> sides_of(const WrittenStatement& statement, const MarkedLine& line,
+                                             std::size_t nth) {
     const auto& sides = statement.sides;
     for (std::size_t k = 0; k + 1 < sides.size(); ++k)
         if (sides[k]->length > 0 && line.length > 0 && sides[k]->offset >= line.offset &&
@@ -128,7 +131,8 @@ void add_statement(std::string& page, std::string& words, const Marked& marked, 
     }
     end_words(page, words);
     if (lines.empty() && !statement.sides.empty()) {
-        put(page, "<div class=\"marked\"><span class=\"where\">{}</span>\n<div class=\"as-written\">{}</div></div>\n",
+        put(page,
+            "<div class=\"marked\"><span class=\"where\">{}</span>\n<div class=\"as-written\">{}</div></div>\n",
             marked.written.line(statement.offset), formula(statement, 0, statement.sides.size() - 1, {}));
         return;
     }
@@ -190,7 +194,8 @@ std::string marked_fragment(const Marked& marked) {
     std::string letters;
     for (const auto& [written, name] : marked.letters)
         if (written != name)
-            put(letters, "{}<code>{}</code> = <code>{}</code>", letters.empty() ? "" : ", ", html(written), html(name));
+            put(letters, "{}<code>{}</code> = <code>{}</code>", letters.empty() ? "" : ", ", html(written),
+                html(name));
     if (!letters.empty()) put(page, "<p class=\"hint\">{} {}</p>\n", html(say("Letters as understood:")), letters);
     for (const std::string& remark : marked.remarks) put(page, "<p class=\"hint\">{}</p>\n", html(remark));
     return page;
@@ -219,7 +224,8 @@ std::string as_html(const Gradebook& book, const MarkedPageOptions& options) {
             put(page, "<pre class=\"problem\" role=\"note\">{}</pre>\n", html(row.problem));
         page += "</section>\n";
     }
-    put(page, "</main>\n<footer>{}</footer>\n</body>\n</html>\n", html(say("Checked by alembert {}.", options.version)));
+    put(page, "</main>\n<footer>{}</footer>\n</body>\n</html>\n",
+        html(say("Checked by alembert {}.", options.version)));
     return page;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A marked derivation as one HTML page that needs nothing else: typeset as written, line by line with its verdict,
-/// the wrong term in colour, the right line beside it. And the pages of a class.
+/// A marked derivation as one HTML page that needs nothing else: typeset as written, line by line with its
+/// verdict, the wrong term in colour, the right line beside it. And the pages of a class.
 
 #include "derivation/marked.hpp"
 #include "present/report/gradebook.hpp"

@@ -14,13 +14,14 @@ namespace alembert {
 
 struct ScenePageOptions {
     std::string version = {};
-    std::string by = {};  ///< the requested formalism
+    std::string by = {};          ///< the requested formalism
     std::string derivation = {};  ///< a marked derivation in HTML (marked_page.hpp); empty for none
 };
 
 std::string as_html(const Overview& overview, const ScenePageOptions& options = {});
 
-/// The head of a page and the beginning of its body, with the style and, if it has one, the script allowed by hash.
+/// The head of a page and the beginning of its body, with the style and, if it has one, the script allowed by
+/// hash.
 std::string page_head(const std::string& title, bool has_script);
 
 /// The page of a scene that cannot be read.

@@ -24,7 +24,8 @@ std::string sign_of(const std::string& sign) {
     return element_of("mo", sign);
 }
 std::string bracketed(const std::string& content, const std::string& open = "(", const std::string& close = ")") {
-    return row_of("<mo stretchy=\"true\">" + open + "</mo>" + content + "<mo stretchy=\"true\">" + close + "</mo>");
+    return row_of("<mo stretchy=\"true\">" + open + "</mo>" + content + "<mo stretchy=\"true\">" + close +
+                  "</mo>");
 }
 
 const std::string thin_space = "<mspace width=\"0.17em\"></mspace>";
@@ -33,10 +34,9 @@ const std::string minus_sign = "<mo>&#x2212;</mo>", no_sign = "<mo>&#x2062;</mo>
 
 /// "theta" as θ, "ell" as ℓ; other words as they are.
 std::string printed(const std::string& base) {
-    static const std::map<std::string, std::string> signs{{"ell", "ℓ"},      {"varphi", "φ"},     {"varepsilon", "ε"},
-                                                          {"vartheta", "ϑ"}, {"varrho", "ϱ"},     {"hbar", "ħ"},
-                                                          {"phi", "ϕ"},      {"varOmega", "Ω"},   {"infty", "∞"},
-                                                          {"nabla", "∇"},    {"imath", "ı"},      {"jmath", "ȷ"}};
+    static const std::map<std::string, std::string> signs{
+        {"ell", "ℓ"}, {"varphi", "φ"},   {"varepsilon", "ε"}, {"vartheta", "ϑ"}, {"varrho", "ϱ"}, {"hbar", "ħ"},
+        {"phi", "ϕ"}, {"varOmega", "Ω"}, {"infty", "∞"},      {"nabla", "∇"},    {"imath", "ı"},  {"jmath", "ȷ"}};
     if (const auto found = signs.find(base); found != signs.end()) return found->second;
     if (const GreekLetter* greek = greek_named(base)) return std::string(greek->letter);
     return base;
@@ -69,7 +69,8 @@ std::string small_print(const std::string& text) {
     if (is_number) return element_of("mn", text);
     const std::size_t split = text.find('_');
     if (split == std::string::npos || split == 0) return element_of("mi", html(printed(text)));
-    return element_of("msub", element_of("mi", html(printed(text.substr(0, split)))) + small_print(text.substr(split + 1)));
+    return element_of(
+        "msub", element_of("mi", html(printed(text.substr(0, split)))) + small_print(text.substr(split + 1)));
 }
 
 std::string letter_mathml(const Letter& letter, int dots) {
@@ -123,7 +124,8 @@ private:
 
     std::string list(const std::vector<MathPtr>& args, std::size_t from = 0) {
         std::string result;
-        for (std::size_t k = from; k < args.size(); ++k) result += (k > from ? sign_of(",") : "") + write(*args[k]);
+        for (std::size_t k = from; k < args.size(); ++k)
+            result += (k > from ? sign_of(",") : "") + write(*args[k]);
         return result;
     }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Mathematics as its author wrote it, in MathML Core: what stands in a derivation, not yet read as names of a scene.
+/// Mathematics as its author wrote it, in MathML Core: what stands in a derivation, not yet read as names of a
+/// scene.
 ///
 ///     written_mathml(*statement.sides[0], {.offset = line.term_offset, .length = line.term_length})
 ///
