@@ -211,7 +211,10 @@ private:
             out() += ')';
             return;
         }
-        inside(base, Bond::atom);
+        if (base.kind == Kind::applied)
+            term(base);  // m (a + b)^2 is a product in which the parentheses are squared
+        else
+            inside(base, Bond::atom);
         out() += '^';
         inside(*math.args[1], Bond::atom);
     }
