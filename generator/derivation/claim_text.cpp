@@ -50,7 +50,7 @@ private:
             case Kind::applied:  // perhaps a product that was written without a sign
                 return Bond::product;
             case Kind::power:
-                return Bond::power;
+                return math.args[0]->kind == Kind::applied ? Bond::product : Bond::power;
             default:
                 return Bond::atom;
         }

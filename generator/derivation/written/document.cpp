@@ -278,7 +278,7 @@ void DocumentReader::dollar() {
     const std::size_t width = is_displayed ? 2 : 1;
     const std::size_t limit = is_displayed ? end_ : paragraph_end(at_);
     std::size_t close = std::string::npos;
-    // In Markdown a $ within a word is none, and blanks stand inside of both or of neither.
+    // In Markdown a $ within a word is none, and one that blanks part from the formula opens the next before a word.
     const bool is_strict = markup_ == Markup::markdown && !is_displayed;
     const auto is_blank = [&](std::size_t k) {
         return k >= end_ || text_[k] == ' ' || text_[k] == '\n' || text_[k] == '\t';
@@ -295,7 +295,8 @@ void DocumentReader::dollar() {
                 ++k;
             } else if (text_[k] == '$') {
                 if (is_displayed && text_.compare(k, 2, "$$") != 0) continue;
-                if (is_strict && is_blank(begin + 1) != is_blank(k - 1)) continue;
+                const bool before_word = k + 1 < end_ && std::isalnum(static_cast<unsigned char>(text_[k + 1])) != 0;
+                if (is_strict && is_blank(begin + 1) != is_blank(k - 1) && (before_word || text_[k + 1] == '\\')) continue;
                 close = k;
                 break;
             }
