@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "derivation/first_order.hpp"
 
+#include "check/slip.hpp"
 #include "model/energy.hpp"
 
 namespace alembert {
@@ -10,6 +11,7 @@ using GiNaC::ex;
 namespace {
 
 constexpr double longest = 20000;
+constexpr int most_changes = 100;  // of a line that are tried
 
 }  // namespace
 
@@ -59,6 +61,27 @@ std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState&
     std::vector<CheckedClaim> verdicts = system.check({near}, known);
     if (verdicts.empty() || verdicts[0].verdict == Verdict::undecided) return std::nullopt;
     return std::move(verdicts[0]);
+}
+
+std::optional<Slip> slip_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
+                              const std::map<std::string, ex>& known) {
+    std::vector<Diagnostic> mistakes;
+    Claim claim;
+    claim.equation = parse_equality(line.lhs + " = " + line.rhs, {}, mistakes);
+    if (!mistakes.empty()) return std::nullopt;
+    int left = most_changes;
+    const EquationTerms terms = equation_terms(system.mechanism(), system.equations());
+    const Judge judge{.is_right =
+                          [&](const Claim& changed) {
+                              if (--left < 0) return false;
+                              const LineClaim other{.lhs = changed.equation.lhs.text, .rhs = changed.equation.rhs.text};
+                              const auto checked = checked_near(other, base, system, known);
+                              return checked && checked->verdict == Verdict::proved;
+                          },
+                      .vanishes = [](const Expression&) { return false; },
+                      .terms = [&]() -> const EquationTerms& { return terms; },
+                      .absent = [] { return std::vector<AbsentTerm>(); }};
+    return likely_slip(claim, 0, system.mechanism(), system.equations(), judge);
 }
 
 }  // namespace alembert

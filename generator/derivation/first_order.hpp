@@ -30,4 +30,8 @@ bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool 
 std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
                                          const std::map<std::string, GiNaC::ex>& known);
 
+/// The smallest change of a line that makes it right near the state; nothing if none was found.
+std::optional<Slip> slip_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
+                              const std::map<std::string, GiNaC::ex>& known);
+
 }  // namespace alembert

@@ -192,11 +192,12 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_of_quantity(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
+    if (is_of_quantity(line, sides) || is_equilibrium(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
         holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
-        is_equilibrium(line, sides) || holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
+        holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
         return;
     line.status = LineStatus::mistake;
+    if (speaks_of_small_) notes_.back().near = near_;
     if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();
 }
 

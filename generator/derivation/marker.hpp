@@ -25,6 +25,7 @@ struct LineNotes {
     LineClaim claim = {};            ///< empty where there is none
     ClaimText left = {}, right = {};
     bool alone_is_quantity = false;  ///< as in ClaimWriting
+    std::optional<BaseState> near = {};  ///< about which the derivation linearizes there
     std::optional<MotionRow> equation = {};  ///< set if it is a right equation of motion, written out
     /// Names with the values that the derivation has stated, if some that stand in the line are wrong.
     std::map<std::string, GiNaC::ex> own = {};
@@ -106,6 +107,7 @@ private:
     bool speaks_of_law_in_general(const Math& math) const;
     bool has_quantities(const Sides& sides) const;
     bool repeats_law(const Sides& sides) const;
+    bool speaks_of_quantity(const LineNotes& notes) const;
     std::optional<CheckedClaim> with_other_forces(const LineClaim& claim);
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
     void adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict);

@@ -32,7 +32,7 @@ bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
     const bool right = is_lone(*sides.rhs) && sides.left.names.empty();
     if (!left && !right) return false;
     const std::string name = left ? sides.left.text : sides.right.text;
-    if (!letters_.is_of_scene(name)) return false;
+    if (!letters_.is_of_scene(name) || letters_.moves(name)) return false;
     line.status = LineStatus::not_about_scene;
     line.reason = say("a value of {}; lines are judged for all values", name);
     return true;

@@ -81,7 +81,7 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
 
 /// Equilibria: θ = 0, or an equation that holds there.
 bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
-    if (!speaks_of_rest_) return false;
+    if (!speaks_of_rest_ && !statement_->displayed) return false;
     const auto is_state = [&](const Math& a, const ClaimText& b) {
         return a.kind == Kind::letter && a.dots == 0 && letters_.moves(letters_.name_of(a.letter).value_or("")) &&
                holds_letters_only(b.names, system_.scene());
@@ -91,7 +91,7 @@ bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
     const std::string name = left ? sides.left.text : sides.right.text, value = left ? sides.right.text : sides.left.text;
     const CheckedClaim found =
         check_equilibrium({system_.scene(), system_.mechanism(), {{name, parsed(value)}}, system_.sheets()});
-    if (found.verdict == Verdict::undecided) return false;
+    if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !speaks_of_rest_)) return false;
     line.checked = found;
     notes_.back().claim = {};
     line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::mistake;
@@ -116,7 +116,9 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
     if (has_quantities(sides)) return false;
     try {
         const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_);
-        if (verdicts[0].verdict != Verdict::proved && verdicts[0].verdict != Verdict::vacuous) return false;
+        const auto& other = verdicts[0].other_branch;
+        const bool on_a_branch = other && other->verdict == Verdict::proved;
+        if (verdicts[0].verdict != Verdict::proved && verdicts[0].verdict != Verdict::vacuous && !on_a_branch) return false;
     } catch (const std::exception&) {
         return false;
     }

@@ -46,6 +46,10 @@ void Marker::verify() {
     std::vector<CheckedClaim> verdicts = verdicts_on(claims, known_, system_);
     for (std::size_t i = 0; i < asked.size(); ++i) {
         LineNotes& notes = notes_[asked[i]];
+        if (verdicts[i].verdict == Verdict::undecided && !system_.scene().unilateral.empty()) {
+            notes.claim.open = true;  // a quantity is what it is whether contacts are closed or not
+            if (speaks_of_quantity(notes)) verdicts[i] = verdicts_on({notes.claim}, known_, system_)[0];
+        }
         adopt(lines[asked[i]], notes, std::move(verdicts[i]));
         MarkedLine& line = lines[asked[i]];
         const bool unknown = !line.checked.likely || line.checked.likely->kind == "unknown";
@@ -54,12 +58,23 @@ void Marker::verify() {
             adopt(line, notes, *other);
             continue;
         }
+        if (notes.near) {
+            CheckedClaim near = line.checked;
+            near.likely = slip_near(notes.claim, *notes.near, system_, known_);
+            if (near.likely) adopt(line, notes, std::move(near));
+            continue;
+        }
         if (notes.own.empty()) continue;
         // A second slip is one against what the derivation itself had before.
         std::vector<CheckedClaim> own = verdicts_on({notes.claim}, notes.own, system_);
         if (!own[0].likely || own[0].likely->kind == "unknown") continue;
         adopt(line, notes, std::move(own[0]));
     }
+}
+
+bool Marker::speaks_of_quantity(const LineNotes& notes) const {
+    const auto is_own = [&](const std::string& name) { return known_.contains(name); };
+    return is_own(notes.claim.lhs) || is_own(notes.claim.rhs);
 }
 
 /// The verdict on a claim about generalized forces where these are the others; nothing if it shows no slip.

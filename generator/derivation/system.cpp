@@ -86,6 +86,7 @@ std::vector<CheckedClaim> DerivedSystem::check(const std::vector<LineClaim>& cla
         Claim claim;
         claim.equation = parse_equality(line.lhs + " = " + line.rhs, {}, mistakes);
         for (const std::string& name : line.constants) claim.constants.push_back({name, {}});
+        if (line.open) scene.unilateral.clear();
         if (line.at_rest) claim.at = Claim::At::rest;
         for (const auto& [name, value] : line.near) {
             claim.at = Claim::At::near;

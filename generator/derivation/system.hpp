@@ -24,6 +24,7 @@ struct LineClaim {
     /// Near this state it is to hold to first order; empty if it is to hold exactly.
     std::vector<std::pair<std::string, std::string>> near = {};
     bool at_rest = false;  ///< whether it speaks of states of rest
+    bool open = false;     ///< whether it is about motions with open contacts only
 };
 
 class DerivedSystem {

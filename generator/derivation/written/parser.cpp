@@ -291,6 +291,13 @@ MathPtr MathParser::primary() {
 }
 
 /// Powers and primes of what is no letter.
+/// Whether (t) follows a rate.
+bool MathParser::is_at_time(const Math& rate) const {
+    const bool is_rate = rate.kind == Math::Kind::rate || (rate.kind == Math::Kind::letter && rate.dots > 0);
+    return is_rate && kind(at_) == Kind::open && kind(at_ + 1) == Kind::letter && token(at_ + 1).letter.base == "t" &&
+           token(at_ + 1).letter.index.empty() && kind(at_ + 2) == Kind::close;
+}
+
 MathPtr MathParser::after_it(MathPtr result, std::size_t begin) {
     while (at_ < end_) {
         if (is(Kind::power)) {
@@ -308,6 +315,8 @@ MathPtr MathParser::after_it(MathPtr result, std::size_t begin) {
         } else if (is(Kind::primes)) {
             const int dots = tokens_[at_++].dots;
             result = rate(result, dots, begin);
+        } else if (is_at_time(*result)) {
+            at_ += 3;  // dσ/dt (t)
         } else if (is_command(at_, ".diff")) {
             result = method(begin);
         } else if (is(Kind::index)) {

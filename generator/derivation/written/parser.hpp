@@ -92,6 +92,7 @@ private:
     bool begins_factor() const;
     MathPtr factor(bool may_be_negative);
     MathPtr primary();
+    bool is_at_time(const Math& rate) const;
     MathPtr after_it(MathPtr node, std::size_t begin);
     MathPtr number();
     MathPtr absolute();
