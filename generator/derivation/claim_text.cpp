@@ -47,6 +47,7 @@ private:
             case Kind::product:
             case Kind::quotient:
             case Kind::quantity:
+            case Kind::applied:  // perhaps a product that was written without a sign
                 return Bond::product;
             case Kind::power:
                 return Bond::power;

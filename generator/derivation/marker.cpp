@@ -14,10 +14,6 @@ using Kind = Math::Kind;
 
 namespace {
 
-bool is_wrong(LineStatus status) {
-    return status == LineStatus::mistake || status == LineStatus::follows;
-}
-
 bool is_virtual_work(const Math& math) {
     return math.kind == Kind::variation && math.args[0]->kind == Kind::letter && math.args[0]->letter.base == "W";
 }
@@ -119,6 +115,7 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
     }
     if (is_virtual_work(lhs)) return judge_work(line, rhs);
     if (judge_vector(line, lhs, rhs)) return;
+    if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
     if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs)) return;
     try {
         judge_pair(line, lhs, rhs);
@@ -163,6 +160,17 @@ void Marker::judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs) {
         judge_false(line, sides, row);
 }
 
+/// d/dt ∂L/∂q' = ∂L/∂q is right, and gives no equation of motion that is written out.
+bool Marker::repeats_law(const Sides& sides) const {
+    const auto is_law = [&](const std::string& name) {
+        const auto is = [&](MechanicalQuantity quantity) { return name == letters_.name_of(quantity); };
+        return name.starts_with("Q_") || is(MechanicalQuantity::kinetic) || is(MechanicalQuantity::potential) ||
+               is(MechanicalQuantity::lagrangian) || is(MechanicalQuantity::energy) || is(MechanicalQuantity::hamiltonian);
+    };
+    return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_law) ||
+           std::any_of(sides.right.names.begin(), sides.right.names.end(), is_law);
+}
+
 bool Marker::has_quantities(const Sides& sides) const {
     const auto is_own = [&](const std::string& name) { return known_.contains(name); };
     return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_own) ||
@@ -174,7 +182,7 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
     MotionRows& rows = system_.rows();
     const bool is_identity = rows.is_identity(row) == true;
     const MotionRow own = rows.row(own_residual(sides));
-    if (!is_identity && !has_quantities(sides)) notes_.back().equation = row;
+    if (!is_identity && !repeats_law(sides)) notes_.back().equation = row;
     const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
     const bool founded = is_identity ? !wrong || rows.is_identity(own) == true : own_.founds(own) || own_.founds(row);
     if (founded) return;
@@ -186,169 +194,10 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
     if (is_of_quantity(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
         holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
-        holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
+        is_equilibrium(line, sides) || holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
         return;
     line.status = LineStatus::mistake;
     if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();
-}
-
-/// T = ½ m v² in a scene whose string pulls with T: what stands alone may be the kinetic energy.
-bool Marker::is_of_quantity(MarkedLine& line, const Sides& sides) {
-    if (notes_.back().alone_is_quantity) return false;
-    const auto differs = [&](const Math& side) {
-        if (side.kind != Kind::letter || side.dots > 0) return false;
-        const auto quantity = letters_.name_of(side.letter, true);
-        return quantity && known_.contains(*quantity) && quantity != letters_.name_of(side.letter);
-    };
-    if (!differs(*sides.lhs) && !differs(*sides.rhs)) return false;
-    notes_.back().alone_is_quantity = true;
-    judge_pair(line, *sides.lhs, *sides.rhs);
-    return true;
-}
-
-/// l = 2 m: a number for a parameter of the scene says nothing about its mechanics.
-bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
-    const auto is_lone = [&](const Math& math) { return math.kind == Kind::letter && math.dots == 0; };
-    const bool left = is_lone(*sides.lhs) && sides.right.names.empty();
-    const bool right = is_lone(*sides.rhs) && sides.left.names.empty();
-    if (!left && !right) return false;
-    const std::string name = left ? sides.left.text : sides.right.text;
-    if (!letters_.is_of_scene(name)) return false;
-    line.status = LineStatus::not_about_scene;
-    line.reason = say("a value of {}; lines are judged for all values", name);
-    return true;
-}
-
-/// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
-bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
-    const auto is_plain = [&](const Math& math) {
-        const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
-        return inner.kind == Kind::number || inner.kind == Kind::letter;
-    };
-    if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
-    const auto moves = [&](const ClaimText& side) {
-        return std::any_of(side.names.begin(), side.names.end(), [&](const std::string& name) { return letters_.moves(name); });
-    };
-    if (!moves(sides.left) && !moves(sides.right)) return false;
-    line.status = LineStatus::not_about_scene;
-    line.reason = say("it describes a state; lines are judged for all motions");
-    return true;
-}
-
-bool Marker::holds_with_all_forces(MarkedLine& line, const Sides& sides) {
-    const auto speaks = [](const std::set<std::string>& names) {
-        return std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("Q_"); });
-    };
-    if (!speaks(sides.left.names) && !speaks(sides.right.names)) return false;
-    const bool before = all_forces_;
-    use_all_forces(!before);
-    const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
-    if (system_.rows().holds(row) == true) {
-        judge_true(line, sides, row);
-        if (line.reason.empty())
-            line.reason = all_forces_ ? say("here generalized forces are those of all forces, with those of V")
-                                      : say("here generalized forces are those of forces that are not in V");
-        return true;
-    }
-    use_all_forces(before);
-    return false;
-}
-
-bool Marker::follows_with_all_forces(MarkedLine& line, const Sides& sides) {
-    const std::set<std::string> names = sides.own_names();
-    if (std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("Q_"); })) return false;
-    use_all_forces(!all_forces_);
-    if (follows(line, sides)) return true;
-    use_all_forces(!all_forces_);
-    return false;
-}
-
-void Marker::use_all_forces(bool all) {
-    all_forces_ = all;
-    own_.count_potential_forces(all);
-    const std::vector<ex> forces = system_.forces(all);
-    for (std::size_t i = 0; i < forces.size(); ++i) {
-        const std::string name = "Q_" + system_.mechanism().q[i].get_name();
-        if (!known_.contains(name)) continue;
-        known_[name] = forces[i];
-        truth_.know(name, forces[i]);
-    }
-}
-
-/// A potential has any zero, and the derivative of a function of coordinates and time changes nothing in a Lagrangian.
-bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residual) {
-    const auto speaks_of = [&](std::initializer_list<MechanicalQuantity> list) {  // as what is said to be equal
-        return std::any_of(list.begin(), list.end(), [&](MechanicalQuantity quantity) {
-            const std::string name = letters_.name_of(quantity);
-            return sides.left.text == name || sides.right.text == name;
-        });
-    };
-    const Mechanism& m = system_.mechanism();
-    MotionRows& rows = system_.rows();
-    if (m.z->depends(residual, m.qddot)) return false;
-    if (speaks_of({MechanicalQuantity::potential, MechanicalQuantity::energy, MechanicalQuantity::hamiltonian, MechanicalQuantity::lagrangian})) {
-        const ex rate = m.time_derivative({residual})[0];
-        if (rows.is_identity(rows.row(rate)) == true) {
-            line.status = LineStatus::right_up_to_constant;
-            return true;
-        }
-    }
-    if (!speaks_of({MechanicalQuantity::lagrangian})) return false;
-    for (const ex& row : system_.euler_lagrange(residual))
-        if (rows.is_identity(rows.row(row)) != true) return false;
-    line.status = LineStatus::right_up_to_derivative;
-    return true;
-}
-
-bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
-    if (at_rest_of_rates_) {
-        const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
-        MotionRows& rows = system_.rows();
-        if (rows.is_identity(rows.row(system_.without_accelerations(residual))) == true) {
-            line.status = LineStatus::right;
-            line.reason = say("where the accelerations of the coordinates are zero");
-            notes_.back().claim = {};
-            return true;
-        }
-    }
-    if (!speaks_of_rest_) return false;
-    LineClaim claim = notes_.back().claim;
-    claim.at_rest = true;
-    if (has_quantities(sides)) return false;
-    try {
-        const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_);
-        if (verdicts[0].verdict != Verdict::proved && verdicts[0].verdict != Verdict::vacuous) return false;
-    } catch (const std::exception&) {
-        return false;
-    }
-    notes_.back().claim = claim;
-    line.status = LineStatus::right;
-    line.reason = say("of states of rest");
-    return true;
-}
-
-bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual) {
-    if (!speaks_of_small_) return false;
-    const auto speaks_of = [&](MechanicalQuantity quantity) {
-        const std::string name = letters_.name_of(quantity);
-        return sides.left.names.contains(name) || sides.right.names.contains(name);
-    };
-    const bool of_potential = speaks_of(MechanicalQuantity::potential) || speaks_of(MechanicalQuantity::lagrangian) || speaks_of(MechanicalQuantity::energy);
-    const int order = of_potential || speaks_of(MechanicalQuantity::kinetic) ? 2 : 1;
-    std::vector<BaseState> bases = near_ ? std::vector<BaseState>{*near_} : base_states(system_.scene());
-    for (const BaseState& base : bases) {
-        bool holds = is_small(residual, base, order, of_potential, system_);
-        if (!holds && order == 1) {
-            const auto checked = checked_near(notes_.back().claim, base, system_, known_);
-            holds = checked && checked->verdict == Verdict::proved;
-            if (checked) near_ = base;
-        }
-        if (!holds) continue;
-        line.status = LineStatus::right_near;
-        line.reason = say("to first order near {}", base.text);
-        return true;
-    }
-    return false;
 }
 
 bool Marker::follows(MarkedLine& line, const Sides& sides) {
@@ -415,71 +264,6 @@ bool Marker::speaks_of_law_in_general(const Math& math) const {
                           letter.index == "r" || letter.index == "s" || letter.index == "q" || letter.index == "alpha";
         return general && open && !letters_.name_of(letter);
     });
-}
-
-void Marker::take_in(std::size_t s, std::size_t k) {
-    const std::vector<MathPtr>& sides = written_.statements[s].sides;
-    const MarkedLine& line = lines.back();
-    if (line.status == LineStatus::definition || is_virtual_work(*sides[0])) return;
-    try {
-        for (std::size_t j = 0; j <= k; ++j) take_in_as(*sides[j], *sides[k + 1]);
-        if (k == 0) take_in_as(*sides[1], *sides[0]);
-        const Sides both = sides_of(*sides[k], *sides[k + 1]);
-        MotionRow own = system_.rows().row(own_residual(both));
-        if (system_.rows().is_identity(own) == true) return;
-        const Mechanism& m = system_.mechanism();
-        if (is_wrong(line.status) && !m.z->depends(own.residual, m.qddot)) own_.add_relation(own.residual, lines.size() - 1);
-        own_.add_equation(std::move(own), lines.size() - 1, is_wrong(line.status),
-                          line.status == LineStatus::right_near || speaks_of_small_);
-    } catch (const NoMeaning&) {  // a side that has no meaning of its own states nothing
-    }
-}
-
-/// L = T − V: the law itself, which states no value.
-bool Marker::repeats_law(const Math& value) const {
-    std::map<Letter, int> letters;
-    collect_letters(value, letters);
-    return !letters.empty() && std::all_of(letters.begin(), letters.end(), [&](const auto& item) {
-        const auto name = letters_.name_of(item.first);
-        return name && quantity_of(item.first) && !letters_.is_of_scene(*name);
-    });
-}
-
-/// Records what a lone quantity, or a derivative of one, has been said to be.
-void Marker::take_in_as(const Math& what, const Math& value) {
-    const bool is_name = (what.kind == Kind::letter && what.dots == 0) || what.kind == Kind::applied;
-    const bool is_step =
-        what.kind == Kind::rate || what.kind == Kind::partial || (what.kind == Kind::letter && what.dots > 0);
-    if (!is_name && !is_step) return;
-    const ClaimText name = claim_text(what, as_written());
-    if (is_name && !known_.contains(name.text)) return;
-    if (is_name && quantity_of(what.letter) && repeats_law(value)) return;
-    if (what.kind == Kind::letter && is_step && letters_.is_of_scene(*letters_.name_of(what.letter))) return;
-    const ClaimText text = claim_text(value, as_derived());
-    if (text.names.contains(name.text)) return;
-    const ex stated = own_.value(text.text);
-    const LineStatus status = lines.back().status;
-    const bool up_to = status == LineStatus::right_up_to_constant || status == LineStatus::right_up_to_derivative ||
-                       status == LineStatus::right_near;
-    MotionRows& rows = system_.rows();
-    const ex truth = truth_.value(name.text);
-    const bool differs = !up_to && rows.is_identity(rows.row(stated - truth)) != true;
-    if (differs && what.kind != Kind::partial && is_step) {  // p' = Q is an equation of motion, and no step
-        const Mechanism& m = system_.mechanism();
-        if (!is_wrong(status) || m.z->depends(truth, m.qddot) != m.z->depends(stated, m.qddot)) return;
-    }
-    std::optional<std::size_t> wrong;
-    if (differs) {
-        wrong = is_wrong(status) ? std::optional(lines.size() - 1) : own_.wrong_in(text.names);
-        if (!wrong) wrong = own_.wrong_in({name.text});
-        if (!wrong) wrong = lines.size() - 1;
-    }
-    if (is_name)
-        own_.state(name.text, stated, wrong);
-    else
-        own_.state_step(name.text, stated, wrong);
-    if (what.kind == Kind::rate && what.dots == 1)
-        own_.state_rate(own_.value(claim_text(*what.args[0], {.letters = letters_, .steps = &own_.steps()}).text), stated, wrong);
 }
 
 }  // namespace alembert

@@ -76,6 +76,8 @@ private:
     bool is_given_value(MarkedLine& line, const Sides& sides);
     bool is_assumption(MarkedLine& line, const Sides& sides) const;
     bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
+    bool is_equilibrium(MarkedLine& line, const Sides& sides);
+    bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
     bool follows(MarkedLine& line, const Sides& sides);
 
@@ -103,6 +105,7 @@ private:
     bool has_several_unknown(const Math& lhs, const Math& rhs) const;
     bool speaks_of_law_in_general(const Math& math) const;
     bool has_quantities(const Sides& sides) const;
+    bool repeats_law(const Sides& sides) const;
     std::optional<CheckedClaim> with_other_forces(const LineClaim& claim);
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
     void adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict);
@@ -119,7 +122,7 @@ private:
     std::set<Letter> ahead_;      ///< letters that a later line introduces, and that were used before it
     std::set<Letter> roaming_;    ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;          ///< the body of which the words speak
-    bool speaks_of_rest_ = false, at_rest_of_rates_ = false;
+    bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false, speaks_of_period_ = false;
     const WrittenStatement* statement_ = nullptr;
     std::optional<BaseState> near_;  ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;   ///< whether the derivation has begun to linearize

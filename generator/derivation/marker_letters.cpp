@@ -36,47 +36,6 @@ bool is_word_for_constant(const Letter& letter) {
     return letter.base == "const" || letter.base == "constant";
 }
 
-MathPtr letter_of(const Letter& letter, const Math& at, int dots = 0) {
-    auto result = std::make_shared<Math>();
-    result->kind = Kind::letter;
-    result->letter = letter;
-    result->dots = dots;
-    result->offset = at.offset;
-    result->length = at.length;
-    return result;
-}
-
-MathPtr made(Kind kind, std::vector<MathPtr> args, const Math& at, int dots = 0) {
-    auto result = std::make_shared<Math>();
-    result->kind = kind;
-    result->args = std::move(args);
-    result->dots = dots;
-    result->offset = at.offset;
-    result->length = at.length;
-    return result;
-}
-
-MathPtr number(const char* text, const Math& at) {
-    auto result = std::make_shared<Math>();
-    result->kind = Kind::number;
-    result->text = text;
-    result->offset = at.offset;
-    result->length = at.length;
-    return result;
-}
-
-/// The axis of a unit vector: \mathbf i, \hat x, e_y; −1 if it is none.
-int axis_of(const Letter& letter) {
-    const bool marked = letter.accent == "mathbf" || letter.accent == "hat" || letter.accent == "vec" ||
-                        letter.accent == "boldsymbol";
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::string unit(1, "ijk"[axis]), name(1, "xyz"[axis]);
-        if (marked && letter.index.empty() && (letter.base == unit || letter.base == name)) return axis;
-        if (letter.base == "e" && (letter.index == name || letter.index == std::to_string(axis + 1))) return axis;
-    }
-    return -1;
-}
-
 }  // namespace
 
 std::string Marker::bind(const Letter& letter, const ex& truth) {
@@ -128,12 +87,24 @@ void Marker::hear(const std::string& words) {
         return std::any_of(list.begin(), list.end(), [&](const char* part) { return words.find(part) != std::string::npos; });
     };
     at_rest_of_rates_ = false;
+    speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
+    speaks_of_period_ = says({"period", "Period", "周期"});
     speaks_of_rest_ = says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡"});
 }
 
 /// "…, where M = m_1 + m_2": a letter that a later line introduces.
 bool Marker::introduce_ahead(const Letter& letter) {
-    if (!ahead_.insert(letter).second) return false;
+    if (ahead_.contains(letter)) return false;
+    const bool of_motion = std::any_of(statement_->sides.begin(), statement_->sides.end(),
+                                       [](const MathPtr& side) { return is_accelerated(*side); });
+    const auto is_constant = [&](const Math& value) {
+        std::map<Letter, int> all;
+        collect_letters(value, all);
+        return std::none_of(all.begin(), all.end(), [&](const auto& item) {
+            const auto name = letters_.name_of(item.first);
+            return !name || letters_.moves(*name);
+        });
+    };
     for (const WrittenStatement& statement : written_.statements) {
         if (&statement <= statement_) continue;
         for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
@@ -141,9 +112,11 @@ bool Marker::introduce_ahead(const Letter& letter) {
                 const Math &side = *statement.sides[turned ? k + 1 : k], &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
+                if (of_motion && !is_constant(value)) continue;  // a force, which the equation itself determines
                 try {
                     MarkedLine there;
                     define(there, *lone.letter, value, lone.power);
+                    ahead_.insert(letter);
                     return true;
                 } catch (const NoMeaning&) {
                     continue;
@@ -186,6 +159,7 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const ClaimText text = claim_text(rhs, {.letters = letters_});
     if (lone.power == 1 && is_constant_of_motion(line, *lone.letter, text)) return true;
     if (bind_to_scene(line, *lone.letter, rhs, lone.power)) return true;
+    if (is_frequency(line, *lone.letter, rhs, lone.power)) return true;
     define(line, *lone.letter, rhs, lone.power);
     return true;
 }
@@ -228,7 +202,7 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         return true;
     };
     for (const Binding& binding : bindings(letter.letter)) {
-        const ex truth = truth_.value(binding.text);
+        const ex here = truth_.value(binding.text), truth = at_rest_of_rates_ ? system_.without_accelerations(here) : here;
         const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
         if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, true);
         if (binding.named && !named) named = truth;
@@ -318,174 +292,6 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     own_.state(name, stated, wrong);
     line.status = LineStatus::definition;
     line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
-}
-
-/// The components of an expression that is a vector; nothing if it is none.
-std::optional<Marker::Components> Marker::components(const Math& math) const {
-    const auto nothing = number("0", math);
-    switch (math.kind) {
-        case Kind::vector: {
-            Components result = math.args;
-            if (result.size() < 2 || result.size() > 3) return std::nullopt;
-            result.resize(3, nothing);
-            return result;
-        }
-        case Kind::letter: {
-            if (const auto known = vectors_.find(math.letter); known != vectors_.end()) {
-                Components result;
-                for (const MathPtr& part : known->second) {
-                    const Math& zero = *part;
-                    result.push_back(zero.kind == Kind::letter ? letter_of(zero.letter, math, math.dots) : part);
-                }
-                return result;
-            }
-            const int axis = axis_of(math.letter);
-            if (axis < 0 || letters_.name_of(math.letter)) return std::nullopt;
-            Components result(3, nothing);
-            result[static_cast<std::size_t>(axis)] = number("1", math);
-            return result;
-        }
-        case Kind::negate:
-        case Kind::rate: {
-            auto of = components(*math.args[0]);
-            if (!of) return std::nullopt;
-            for (MathPtr& part : *of)
-                if (part->kind != Kind::number || part->text != "0") part = made(math.kind, {part}, math, math.dots);
-            return of;
-        }
-        case Kind::sum: {
-            Components result(3, nothing);
-            for (const MathPtr& term : math.args) {
-                const auto of = components(*term);
-                if (!of) return std::nullopt;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const bool zero = (*of)[k]->kind == Kind::number && (*of)[k]->text == "0";
-                    if (!zero) result[k] = result[k] == nothing ? (*of)[k] : made(Kind::sum, {result[k], (*of)[k]}, math);
-                }
-            }
-            return result;
-        }
-        case Kind::product: {
-            std::optional<Components> vector;
-            std::vector<MathPtr> factors;
-            for (const MathPtr& factor : math.args) {
-                auto of = components(*factor);
-                if (of && vector) return std::nullopt;
-                if (of)
-                    vector = std::move(of);
-                else
-                    factors.push_back(factor);
-            }
-            if (!vector) return std::nullopt;
-            for (MathPtr& part : *vector) {
-                if (part->kind == Kind::number && part->text == "0") continue;
-                std::vector<MathPtr> all = factors;
-                if (part->kind != Kind::number || part->text != "1" || all.empty()) all.push_back(part);
-                part = all.size() == 1 ? all[0] : made(Kind::product, all, math);
-            }
-            return vector;
-        }
-        default:
-            return std::nullopt;
-    }
-}
-
-/// Gives a vector letter the components of the point of the scene that it is, or of the one that its index names.
-bool Marker::bind_vector(const Math& letter, const Components& value) {
-    MotionRows& rows = system_.rows();
-    const std::vector<VectorBinding> bindings = vector_bindings_of(letter.letter, system_.scene());
-    std::optional<std::vector<std::string>> chosen;
-    for (const VectorBinding& binding : bindings) {
-        std::vector<std::string> signs;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const ex stated = truth_.value(claim_text(*value[k], {.letters = letters_}).text);
-            const ex truth = truth_.value(binding.component[k]);
-            if (rows.is_identity(rows.row(stated - truth)) == true)
-                signs.push_back(binding.component[k]);
-            else if (rows.is_identity(rows.row(stated + truth)) == true)
-                signs.push_back("-" + binding.component[k]);
-        }
-        if (signs.size() == 3) {
-            chosen = signs;
-            break;
-        }
-        if (binding.named && !chosen)
-            chosen = std::vector<std::string>(std::begin(binding.component), std::end(binding.component));
-    }
-    Components parts;
-    for (std::size_t k = 0; k < 3; ++k) {
-        Letter part = letter.letter;
-        part.accent.clear();
-        part.index += (part.index.empty() ? "" : ",") + std::string(1, "xyz"[k]);
-        const ex truth =
-            truth_.value(chosen ? (*chosen)[k] : claim_text(*value[k], {.letters = letters_}).text);
-        bind(part, truth);
-        parts.push_back(letter_of(part, letter));
-    }
-    vectors_[letter.letter] = std::move(parts);
-    return chosen.has_value();
-}
-
-/// B_1 = (1, 0, 0, r): a column of more than three numbers is no vector of space, and says nothing that can be judged.
-bool Marker::is_column(MarkedLine& line, const Math& lhs, const Math& rhs) const {
-    const bool column = rhs.kind == Kind::vector || rhs.kind == Kind::matrix;
-    if (!column || lhs.kind != Kind::letter) return false;
-    line.status = LineStatus::definition;
-    line.claim.clear();
-    return true;
-}
-
-/// Lines between vectors: each component is judged, and the worst is told.
-bool Marker::judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs) {
-    std::optional<Components> left = components(lhs), right = components(rhs);
-    if (!left && !right) return is_column(line, lhs, rhs);
-    const Math& open = left ? rhs : lhs;
-    bool is_defined = true;
-    if (!left || !right) {
-        const bool may_bind = open.kind == Kind::letter && open.dots == 0 && !letters_.name_of(open.letter);
-        if (!may_bind)
-            throw NoMeaning{.reason = say("a vector stands on one side only"), .offset = open.offset, .length = open.length};
-        is_defined = bind_vector(open, left ? *left : *right);
-        left = components(lhs);
-        right = components(rhs);
-    }
-    const auto badness = [](LineStatus status) {
-        switch (status) {
-            case LineStatus::mistake:
-                return 5;
-            case LineStatus::undecided:
-                return 4;
-            case LineStatus::unfounded:
-                return 3;
-            case LineStatus::follows:
-                return 2;
-            default:
-                return 1;
-        }
-    };
-    std::optional<MarkedLine> worst;
-    LineNotes notes;
-    for (std::size_t k = 0; k < 3; ++k) {
-        MarkedLine part = line;
-        judge_pair(part, *(*left)[k], *(*right)[k]);
-        if (!worst || badness(part.status) > badness(worst->status)) {
-            worst = part;
-            notes = notes_.back();
-        }
-    }
-    line = *worst;
-    notes_.back() = std::move(notes);
-    if (!is_defined && line.status == LineStatus::right) line.status = LineStatus::definition;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Math &a = *(*left)[k], &b = *(*right)[k];
-        if (a.kind != Kind::letter || a.dots > 0) continue;
-        const auto name = letters_.name_of(a.letter);
-        if (!name || !known_.contains(*name)) continue;
-        const ex stated = own_.value(claim_text(b, {.letters = letters_, .steps = &own_.steps()}).text);
-        const bool same = system_.rows().is_identity(system_.rows().row(stated - known_[*name])) == true;
-        own_.state(*name, stated, same ? std::nullopt : std::optional(lines.size()));
-    }
-    return true;
 }
 
 }  // namespace alembert

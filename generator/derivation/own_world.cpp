@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "model/energy.hpp"
 #include "model/formalism/elements.hpp"
 
 namespace alembert {
@@ -250,6 +251,26 @@ std::optional<std::size_t> OwnWorld::explained_by(const MotionRow& row, bool nea
         if (wrong && rows.follows(row, given, bound)) return wrong;
     }
     return std::nullopt;
+}
+
+// With q'' = −ω² a and q = a the last equations, one for each coordinate, have a determinant that vanishes.
+std::optional<std::size_t> OwnWorld::explains_frequency(const ex& square) {
+    const Mechanism& m = system_.mechanism();
+    const std::size_t n = m.q.size();
+    std::optional<std::size_t> wrong;
+    GiNaC::matrix rows(static_cast<unsigned>(n), static_cast<unsigned>(n));
+    std::size_t found = 0;
+    for (auto equation = equations_.rbegin(); equation != equations_.rend() && found < n; ++equation) {
+        if (!equation->is_near) continue;
+        const std::vector<ex> inertia = m.z->pull_back({{equation->row.residual, 1}}, m.qddot),
+                              stiffness = m.z->pull_back({{equation->row.residual, 1}}, m.q);
+        for (std::size_t i = 0; i < n; ++i)
+            rows(static_cast<unsigned>(found), static_cast<unsigned>(i)) = m.z->expand(stiffness[i] - square * inertia[i]);
+        if (equation->is_wrong) wrong = later(wrong, equation->line);
+        ++found;
+    }
+    if (found < n || !wrong) return std::nullopt;
+    return is_identically_zero(m.z->name(rows.determinant()), m) ? wrong : std::nullopt;
 }
 
 bool OwnWorld::founds(const MotionRow& row) {

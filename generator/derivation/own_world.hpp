@@ -52,6 +52,8 @@ public:
     /// The wrong line that explains a row: Lagrange's equations with the derivation's own quantities give it, or its own
     /// equations do. `near`: whether equations near an equilibrium count.
     std::optional<std::size_t> explained_by(const MotionRow& row, bool near);
+    /// The wrong line that explains this ω²: the derivation's own equations near an equilibrium have this frequency.
+    std::optional<std::size_t> explains_frequency(const GiNaC::ex& square);
     /// Whether a right equation follows from the derivation's own quantities or equations, or these are all right.
     bool founds(const MotionRow& row);
     /// Whether generalized forces contain those of the potential: d/dt ∂T/∂q' − ∂T/∂q = Q.

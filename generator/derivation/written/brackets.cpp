@@ -19,7 +19,8 @@ bool opens(WrittenToken::Kind kind) {
 
 bool closes(WrittenToken::Kind kind) {
     using Kind = WrittenToken::Kind;
-    return kind == Kind::close || kind == Kind::end_group || kind == Kind::end_environment || kind == Kind::no_close;
+    return kind == Kind::close || kind == Kind::end_group || kind == Kind::end_environment ||
+           kind == Kind::no_close;
 }
 
 /// Whether two tokens can be the halves of one bracket. Brackets of different kinds may: [0, 1).
@@ -47,7 +48,8 @@ std::vector<std::size_t> partners(const std::vector<WrittenToken>& tokens) {
             std::size_t k = open.size();
             while (k > 0 && !are_halves(tokens[open[k - 1]].kind, tokens[i].kind)) {
                 const Kind wall = tokens[open[k - 1]].kind;
-                if (tokens[i].kind == Kind::close && (wall == Kind::begin_group || wall == Kind::begin_environment)) {
+                if (tokens[i].kind == Kind::close &&
+                    (wall == Kind::begin_group || wall == Kind::begin_environment)) {
                     k = 0;
                     break;
                 }
@@ -68,7 +70,8 @@ std::vector<MathPtr> MathParser::listed(std::size_t begin, std::size_t end) {
     for (const Range& range : argument_ranges(begin, end)) {
         const bool is_dots = range.end == range.begin + 1 && kind(range.begin) == Kind::dots;  // L(q_1, …, q_n)
         const bool is_value = range.end > range.begin + 2 && kind(range.begin) == Kind::letter &&
-                              kind(range.begin + 1) == Kind::relation && token(range.begin + 1).text == "=";  // x(t=0)
+                              kind(range.begin + 1) == Kind::relation &&
+                              token(range.begin + 1).text == "=";  // x(t=0)
         if (is_dots)
             list.push_back(node({.kind = Math::Kind::letter, .letter = {.base = "dots"}}, range.begin));
         else
@@ -98,13 +101,12 @@ MathPtr MathParser::bracket() {
         unexpected(say("an expression in the brackets"));
     }
     const bool is_value = tokens_[begin].kind == Kind::no_open && tokens_[close].text == "|";
-    if (is_value)
-        fail(close, say("a value at a place, |_…, was found; expected the value written out"));
+    if (is_value) fail(close, say("a value at a place, |_…, was found; expected the value written out"));
     std::vector<MathPtr> list = listed(begin + 1, close);
     at_ = close + 1;
-    if (is(Kind::index))
-        fail(at_, say("brackets with an index were found; expected a letter before an index"));
-    if (tokens_[begin].text == "|") return node({.kind = Math::Kind::call, .text = "abs", .args = {list[0]}}, begin);
+    if (is(Kind::index)) fail(at_, say("brackets with an index were found; expected a letter before an index"));
+    if (tokens_[begin].text == "|")
+        return node({.kind = Math::Kind::call, .text = "abs", .args = {list[0]}}, begin);
     if (list.size() == 1) return list[0];
     return node({.kind = Math::Kind::vector, .args = std::move(list)}, begin);
 }
@@ -125,7 +127,8 @@ MathPtr MathParser::group() {
                 unexpected(say("a term"));
         const MathPtr following = primary();
         if (!is_marked) return following;
-        if (following->kind != Math::Kind::letter) fail(begin, say("marks before a term were found; expected a letter after them"));
+        if (following->kind != Math::Kind::letter)
+            fail(begin, say("marks before a term were found; expected a letter after them"));
         Letter marked = following->letter;
         const auto join = [](const std::string& a, const std::string& b) {
             return a.empty() || b.empty() ? a + b : a + "," + b;
@@ -157,7 +160,8 @@ MathPtr MathParser::environment() {
     const std::size_t begin = at_;
     const std::size_t close = closing(begin);
     const std::string& name = tokens_[begin].text;
-    static constexpr std::string_view known[] = {"pmatrix", "bmatrix", "matrix", "array", "Bmatrix", "smallmatrix", "tabular"};
+    static constexpr std::string_view known[] = {"pmatrix", "bmatrix",     "matrix", "array",
+                                                 "Bmatrix", "smallmatrix", "tabular"};
     if (std::find(std::begin(known), std::end(known), name) == std::end(known))
         fail(begin, say("an environment {} was found within a formula; expected a vector or a matrix", name));
     std::vector<std::vector<MathPtr>> rows{{}};
@@ -165,7 +169,8 @@ MathPtr MathParser::environment() {
     const auto add_cell = [&](std::size_t end) {
         const bool is_empty = from >= end;  // an empty cell is 0
         if (!is_empty || rows.back().size() > 0 || tokens_[end].kind == Kind::ampersand)
-            rows.back().push_back(is_empty ? node({.kind = Math::Kind::number, .text = "0"}, begin) : within(from, end));
+            rows.back().push_back(is_empty ? node({.kind = Math::Kind::number, .text = "0"}, begin)
+                                           : within(from, end));
         from = end + 1;
     };
     for (std::size_t i = begin + 1; i < close; ++i) {
@@ -214,7 +219,8 @@ std::size_t MathParser::unit_end(std::size_t i, std::string& unit) const {
         else if (what.kind == Kind::letter && what.dots == 0 && (what.upright || !is_upright))
             word = what.text.empty() || what.text == "word" ? what.letter.base : what.text;
         if (word.empty() || (what.kind == Kind::letter && !is_known_unit(word))) return begin;
-        if (what.kind == Kind::text && (!meaning_of_unit(word) || word.find_first_of("0123456789") == 0)) return begin;
+        if (what.kind == Kind::text && (!meaning_of_unit(word) || word.find_first_of("0123456789") == 0))
+            return begin;
         is_certain |= what.upright || what.kind == Kind::text || word.size() > 1;
         unit += word;
         ++i;

@@ -11,14 +11,14 @@ namespace alembert {
 
 struct WrittenCommand {
     enum class Effect {
-        token,      ///< is the token `kind` with `text`
-        nothing,    ///< spacing, styles, sizes of brackets
-        dropped,    ///< with its arguments, `text` of them ("1")
-        words,      ///< \text{…}
-        upright,    ///< \mathrm{…}
-        delimiter,  ///< \left, \right
-        definition, ///< \newcommand
-        refused,    ///< what would execute something or read a file
+        token,       ///< is the token `kind` with `text`
+        nothing,     ///< spacing, styles, sizes of brackets
+        dropped,     ///< with its arguments, `text` of them ("1")
+        words,       ///< \text{…}
+        upright,     ///< \mathrm{…}
+        delimiter,   ///< \left, \right
+        definition,  ///< \newcommand
+        refused,     ///< what would execute something or read a file
     };
     std::string_view name;
     Effect effect = Effect::nothing;

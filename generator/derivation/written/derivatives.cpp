@@ -14,9 +14,9 @@ namespace {
 constexpr int most_orders = 9;
 
 bool is_style(const WrittenToken& token) {
-    static constexpr std::string_view names[] = {"dot",    "ddot",     "dddot",   "vec",        "hat",    "bar",
-                                                 "tilde",  "mathbf",   "mathcal", "underline",  "ddddot", "mathbb",
-                                                 "mathfrak", "mathscr"};
+    static constexpr std::string_view names[] = {"dot",    "ddot",   "dddot",    "vec",     "hat",
+                                                 "bar",    "tilde",  "mathbf",   "mathcal", "underline",
+                                                 "ddddot", "mathbb", "mathfrak", "mathscr"};
     return token.kind == WrittenToken::Kind::command &&
            std::find(std::begin(names), std::end(names), token.text) != std::end(names);
 }
@@ -37,13 +37,15 @@ std::optional<MathParser::Differential> MathParser::differential(std::size_t i) 
     const bool is_partial = kind(i) == Kind::partial;
     if (!is_partial && !(i < end_ && is_plain_letter(token(i), "d"))) return {};
     if (kind(i + 1) == Kind::index || kind(i + 1) == Kind::primes) return {};
-    if (kind(i + 1) == Kind::number && token(i + 1).tight && token(i + 1).text.size() == 1 && kind(i + 2) == Kind::letter)
+    if (kind(i + 1) == Kind::number && token(i + 1).tight && token(i + 1).text.size() == 1 &&
+        kind(i + 2) == Kind::letter)
         return Differential{is_partial, token(i + 1).text[0] - '0', i + 2};  // d2theta/dt2
     if (kind(i + 1) != Kind::power) return Differential{is_partial, 1, i + 1};
     std::size_t k = i + 2;
     const bool is_group = kind(k) == Kind::begin_group;
     if (is_group) ++k;
-    if (kind(k) != Kind::number || token(k).text.size() != 1 || (is_group && kind(k + 1) != Kind::end_group)) return {};
+    if (kind(k) != Kind::number || token(k).text.size() != 1 || (is_group && kind(k + 1) != Kind::end_group))
+        return {};
     return Differential{is_partial, token(k).text[0] - '0', k + (is_group ? 2 : 1)};
 }
 
@@ -63,7 +65,8 @@ std::size_t MathParser::end_of_letter(std::size_t i) const {
         const bool is_letter = has_accent || end_of_letter_inside(i);
         if (!is_letter) return none;
         i = partner_[i] + 1;
-    } else if (kind(i) == Kind::letter || (kind(i) == Kind::text && token(i).text.find(' ') == std::string::npos)) {
+    } else if (kind(i) == Kind::letter ||
+               (kind(i) == Kind::text && token(i).text.find(' ') == std::string::npos)) {
         ++i;
     } else {
         return none;
@@ -146,9 +149,10 @@ MathPtr MathParser::partial(const MathPtr& of, std::vector<MathPtr> variables, s
         if (one->kind == Math::Kind::applied && one->args.size() == 1 && is_time(*one->args[0]))
             one = node({.kind = Math::Kind::letter, .letter = one->letter, .dots = one->dots}, begin);
         if (one->kind != Math::Kind::letter)
-            throw NotUnderstood{one->offset, one->length,
-                                say("a derivative is taken with respect to something that is no letter; expected a "
-                                    "coordinate, a speed or the time")};
+            throw NotUnderstood{
+                one->offset, one->length,
+                say("a derivative is taken with respect to something that is no letter; expected a "
+                    "coordinate, a speed or the time")};
         args.push_back(std::move(one));
     }
     return node({.kind = Math::Kind::partial, .text = std::string(sign), .args = std::move(args)}, begin);
@@ -157,7 +161,8 @@ MathPtr MathParser::partial(const MathPtr& of, std::vector<MathPtr> variables, s
 MathPtr MathParser::derivative(const Differential& what, const MathPtr& operand, const std::vector<Range>& of,
                                std::size_t begin) {
     if (static_cast<std::size_t>(what.order) != of.size())
-        fail(begin, say("a derivative of order {} is divided by {} differentials; expected as many", what.order, of.size()));
+        fail(begin, say("a derivative of order {} is divided by {} differentials; expected as many", what.order,
+                        of.size()));
     std::vector<MathPtr> list;
     bool is_rate = !what.is_partial;
     for (const Range& range : of) {
@@ -232,8 +237,10 @@ MathPtr MathParser::slanted_derivative() {
             if (!one || one->is_partial != what->is_partial) break;
             std::size_t k = end_of_letter(one->after);
             if (k == no_partner) break;
-            if (kind(k) == Kind::power && kind(k + 1) == Kind::number) k += 2;
-            else if (kind(k) == Kind::power && kind(k + 1) == Kind::begin_group && kind(k + 2) == Kind::number) k += 4;
+            if (kind(k) == Kind::power && kind(k + 1) == Kind::number)
+                k += 2;
+            else if (kind(k) == Kind::power && kind(k + 1) == Kind::begin_group && kind(k + 2) == Kind::number)
+                k += 4;
             i = k;
             if (!what->is_partial) break;  // d/dt dx: the second belongs to what follows
         }
@@ -277,7 +284,8 @@ MathPtr MathParser::variation() {
     const bool is_delta = is_plain_letter(sign, "delta"), is_capital = is_plain_letter(sign, "Delta");
     const bool is_d = is_plain_letter(sign, "d") && (has_differentials_ || sign.upright);
     if (!is_delta && !is_d && !is_capital) return nullptr;
-    const bool takes_letter = kind(begin + 1) == Kind::letter || (kind(begin + 1) == Kind::command && is_style(token(begin + 1)));
+    const bool takes_letter =
+        kind(begin + 1) == Kind::letter || (kind(begin + 1) == Kind::command && is_style(token(begin + 1)));
     const std::size_t end = takes_letter ? end_of_letter(begin + 1) : no_partner;
     if (end == no_partner && !(is_delta && has_variations_ && kind(begin + 1) == Kind::open)) return nullptr;
     const bool is_dotted = kind(begin + 1) == Kind::command || token(begin + 1).dots > 0;

@@ -14,7 +14,8 @@ namespace {
 bool stands_before_angle(const Math& math) {
     using Kind = Math::Kind;
     if (math.kind == Kind::number) return true;
-    if (math.kind == Kind::quotient) return math.args[0]->kind == Kind::number && math.args[1]->kind == Kind::number;
+    if (math.kind == Kind::quotient)
+        return math.args[0]->kind == Kind::number && math.args[1]->kind == Kind::number;
     if (math.kind != Kind::letter || math.dots > 0) return false;
     static constexpr std::string_view names[] = {"omega", "Omega", "nu", "n", "k", "pi"};
     return std::find(std::begin(names), std::end(names), math.letter.base) != std::end(names);
@@ -36,15 +37,16 @@ MathPtr MathParser::function() {
     if (is(Kind::power)) {
         ++at_;
         power = exponent();
-        const bool is_inverse = power->kind == Math::Kind::negate && power->args[0]->text == "1" && !inverse_of(name).empty();
+        const bool is_inverse =
+            power->kind == Math::Kind::negate && power->args[0]->text == "1" && !inverse_of(name).empty();
         if (is_inverse) {
             name = inverse_of(name);
             power = nullptr;
         }
     }
     std::vector<MathPtr> arguments;
-    const bool has_group = is(Kind::begin_group) && kind(at_ + 1) == Kind::open && partner_[at_ + 1] != no_partner &&
-                           partner_[at_ + 1] + 1 == partner_[at_];
+    const bool has_group = is(Kind::begin_group) && kind(at_ + 1) == Kind::open &&
+                           partner_[at_ + 1] != no_partner && partner_[at_ + 1] + 1 == partner_[at_];
     if (is(Kind::open) || has_group) {
         const std::size_t open = at_ + (has_group ? 1 : 0), close = closing(open);
         if (close == open + 1) unexpected(say("the argument of {}", name));
@@ -71,7 +73,8 @@ MathPtr MathParser::bare_argument() {
     std::vector<MathPtr> factors{factor(false)};
     while (at_ < end_) {
         const bool is_letter = is(Kind::letter) && now().dots == 0;
-        const bool is_accented = is(Kind::command) && now().text != "dot" && now().text != "ddot" && begins_factor();
+        const bool is_accented =
+            is(Kind::command) && now().text != "dot" && now().text != "ddot" && begins_factor();
         const bool is_time_after = is_letter && now().letter == Letter{.base = "t"} &&
                                    factors.back()->kind == Math::Kind::letter && factors.back()->dots == 0;
         const bool goes_on = stands_before_angle(*factors.back()) &&
@@ -89,17 +92,19 @@ MathPtr MathParser::bare_argument() {
 
 MathPtr MathParser::command() {
     const std::string& name = tokens_[at_].text;
-    static constexpr std::string_view accents[] = {"dot",     "ddot",     "dddot",   "ddddot",   "vec",
-                                                   "hat",     "bar",      "tilde",   "mathbf",   "mathcal",
-                                                   "mathbb",  "mathfrak", "mathscr", "underline"};
+    static constexpr std::string_view accents[] = {"dot",    "ddot",     "dddot",   "ddddot",   "vec",
+                                                   "hat",    "bar",      "tilde",   "mathbf",   "mathcal",
+                                                   "mathbb", "mathfrak", "mathscr", "underline"};
     if (name == "frac") return fraction();
     if (name == "sqrt") return root();
     if (std::find(std::begin(accents), std::end(accents), name) != std::end(accents)) return accented();
     if (name == "underbrace" || name == "overbrace") return labelled_brace();
-    if (name == "sum" || name == "int" || name == "prod" || name == "oint" || name == "iint") return big_operator();
+    if (name == "sum" || name == "int" || name == "prod" || name == "oint" || name == "iint")
+        return big_operator();
     if (name == "abs" || name == "norm") return absolute_command();
     if (name == "dv" || name == "pdv" || name == "dd") return derivative_command();
-    static constexpr std::string_view calls[] = {"diff", "Diff", "Rational", "Pow", "Subscript", "simplify", "expand"};
+    static constexpr std::string_view calls[] = {"diff",      "Diff",     "Rational", "Pow",
+                                                 "Subscript", "simplify", "expand"};
     if (std::find(std::begin(calls), std::end(calls), name) != std::end(calls)) return algebra_call();
     unexpected(say("a term"));
 }
@@ -125,7 +130,8 @@ MathPtr MathParser::root() {
     } else {
         inside = exponent();
     }
-    if (!degree || degree->text == "2") return node({.kind = Math::Kind::call, .text = "sqrt", .args = {inside}}, begin);
+    if (!degree || degree->text == "2")
+        return node({.kind = Math::Kind::call, .text = "sqrt", .args = {inside}}, begin);
     const MathPtr one = node({.kind = Math::Kind::number, .text = "1"}, begin);
     const MathPtr exponent = node({.kind = Math::Kind::quotient, .args = {one, degree}}, begin);
     return node({.kind = Math::Kind::power, .args = {inside, exponent}}, begin);
@@ -170,7 +176,9 @@ MathPtr MathParser::big_operator() {
     if (at_ >= end_ || !begins_factor()) unexpected(say("what is summed"));
     MathPtr body = term();
     return node({.kind = Math::Kind::call,
-                 .text = name == "sum" ? "sum" : name == "prod" ? "prod" : "integral",
+                 .text = name == "sum"    ? "sum"
+                         : name == "prod" ? "prod"
+                                          : "integral",
                  .letter = limits,
                  .args = {body}},
                 begin);
@@ -213,7 +221,8 @@ MathPtr MathParser::algebra_call() {
     at_ = close + 1;
     if (name == "diff" || name == "Diff") return algebra_derivative(ranges, begin);
     const std::size_t count = name == "simplify" || name == "expand" ? 1 : 2;
-    if (ranges.size() != count) fail(begin, say("{} has {} arguments here; expected {}", name, ranges.size(), count));
+    if (ranges.size() != count)
+        fail(begin, say("{} has {} arguments here; expected {}", name, ranges.size(), count));
     MathPtr first = within(ranges[0].begin, ranges[0].end);
     if (count == 1) return first;
     MathPtr second = within(ranges[1].begin, ranges[1].end);
@@ -223,7 +232,8 @@ MathPtr MathParser::algebra_call() {
         letter.index = flat_text(ranges[1].begin, ranges[1].end);
         return this->letter(letter, first->dots, begin);
     }
-    return node({.kind = name == "Pow" ? Math::Kind::power : Math::Kind::quotient, .args = {first, second}}, begin);
+    return node({.kind = name == "Pow" ? Math::Kind::power : Math::Kind::quotient, .args = {first, second}},
+                begin);
 }
 
 MathPtr MathParser::algebra_derivative(const std::vector<Range>& arguments, std::size_t begin) {
@@ -257,7 +267,8 @@ MathPtr MathParser::algebra_derivative(const std::vector<Range>& arguments, std:
         variables.push_back(within(range.begin, range.end));
         if (order != no_partner) repeat(order);
     }
-    const bool is_rate = std::all_of(variables.begin(), variables.end(), [](const MathPtr& one) { return is_time(*one); });
+    const bool is_rate =
+        std::all_of(variables.begin(), variables.end(), [](const MathPtr& one) { return is_time(*one); });
     if (is_rate) return rate(of, static_cast<int>(variables.size()), begin);
     return partial(of, std::move(variables), "", begin);
 }

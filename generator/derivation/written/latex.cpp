@@ -17,7 +17,8 @@ using MathKind = Math::Kind;
 std::string base_in_latex(const std::string& base) {
     if (base.size() == 1) return base;
     const WrittenCommand* const command = command_named(base);
-    if (command != nullptr && command->kind == WrittenToken::Kind::letter && command->text == base) return "\\" + base;
+    if (command != nullptr && command->kind == WrittenToken::Kind::letter && command->text == base)
+        return "\\" + base;
     std::string word;
     for (const char c : base) word += c == '_' ? "\\_" : std::string(1, c);
     return "\\mathrm{" + word + "}";
@@ -111,7 +112,8 @@ std::string product_in_latex(const Math& math) {
         const std::string factor = bracketed(one, is_product ? 3 : k + 1 < math.args.size() ? 2 : 1);
         const bool before_number = !text.empty() && one.kind == MathKind::number;
         // F(…) would be read for F times (…)
-        const bool before_bracket = k > 0 && factor.starts_with("\\left(") && math.args[k - 1]->kind == MathKind::letter;
+        const bool before_bracket =
+            k > 0 && factor.starts_with("\\left(") && math.args[k - 1]->kind == MathKind::letter;
         if (k > 0) text += is_cross ? " \\times " : is_dotted || before_number ? " \\cdot " : " ";
         text += before_bracket && !is_cross && !is_dotted ? "{" + factor + "}" : factor;
     }
@@ -141,11 +143,13 @@ std::string partial_in_latex(const Math& math) {
     const std::string sign = math.text == "d" ? "d " : "\\partial ";
     const std::size_t order = math.args.size() - 1;
     std::string below;
-    for (std::size_t k = 1; k < math.args.size(); ++k) below += (below.empty() ? "" : " ") + sign + latex(*math.args[k]);
+    for (std::size_t k = 1; k < math.args.size(); ++k)
+        below += (below.empty() ? "" : " ") + sign + latex(*math.args[k]);
     const std::string raised = order > 1 ? "^{" + std::to_string(order) + "} " : "";
     const Math& of = *math.args[0];
     std::string above = sign.substr(0, sign.size() - 1) + (raised.empty() ? " " : raised);
-    if (of.kind == MathKind::letter || of.kind == MathKind::applied) return "\\frac{" + above + latex(of) + "}{" + below + "}";
+    if (of.kind == MathKind::letter || of.kind == MathKind::applied)
+        return "\\frac{" + above + latex(of) + "}{" + below + "}";
     return "\\frac{" + above + "}{" + below + "}\\left(" + latex(of) + "\\right)";
 }
 
@@ -160,7 +164,8 @@ std::string power_in_latex(const Math& math) {
     // A letter's raised text or arguments stand where the exponent comes.
     if (base.kind == MathKind::letter && !base.letter.raised.empty()) below = "{" + below + "}";
     std::string above = latex(*math.args[1]);
-    const bool is_capital = math.args[1]->kind == MathKind::letter && above.size() == 1 && above[0] >= 'A' && above[0] <= 'Z';
+    const bool is_capital =
+        math.args[1]->kind == MathKind::letter && above.size() == 1 && above[0] >= 'A' && above[0] <= 'Z';
     if (is_capital) above = "{" + above + "}";
     return below + "^{" + above + "}";
 }
@@ -202,7 +207,8 @@ std::string latex(const Math& math) {
         case MathKind::variation: {
             const std::string of = latex(*math.args[0]);
             const bool is_letter = math.args[0]->kind == MathKind::letter;
-            return (math.text == "d" ? "\\mathrm{d}" : "\\delta ") + (is_letter ? of : "\\left(" + of + "\\right)");
+            return (math.text == "d" ? "\\mathrm{d}" : "\\delta ") +
+                   (is_letter ? of : "\\left(" + of + "\\right)");
         }
         case MathKind::vector:
         case MathKind::matrix:

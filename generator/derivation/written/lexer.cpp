@@ -11,6 +11,8 @@ namespace alembert {
 
 namespace {
 
+constexpr int most_replaced_within = 40;
+
 bool is_latin(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
@@ -64,7 +66,11 @@ WrittenToken& WrittenLexer::add(Kind kind, std::size_t begin, std::string_view t
 
 /// Reads `latex` in place of what stands from `begin` to here.
 void WrittenLexer::replace(const std::string& latex, std::size_t begin, WrittenNotation notation) {
+    if (replaced_ >= most_replaced_within)
+        throw BeyondLimit{place(begin),
+                          say("the formula is nested more than {} levels deep", most_replaced_within)};
     WrittenLexer inner(latex, place(begin), notation, context_, list_);
+    inner.replaced_ = replaced_ + 1;
     inner.is_fixed_ = true;
     inner.fixed_length_ = is_fixed_ ? fixed_length_ : at_ - begin;
     inner.expansion_ = expansion_;
@@ -137,14 +143,17 @@ bool WrittenLexer::doubled_sign(std::size_t begin) {
         std::string_view meaning;
     };
     static constexpr Pair pairs[] = {
-        {"<=>", Kind::arrow, "iff"}, {"...", Kind::dots, ""},     {"**", Kind::power, ""},    {":=", Kind::relation, ":"},
-        {"==", Kind::relation, "="}, {"=>", Kind::arrow, "to"},   {"->", Kind::arrow, "to"},  {"<=", Kind::relation, "<"},
-        {">=", Kind::relation, "<"}, {"!=", Kind::relation, "<"}, {"~=", Kind::relation, "~"}, {".*", Kind::times, ""},
-        {"./", Kind::divide, "/"},   {"//", Kind::divide, "/"},   {".^", Kind::power, ""},     {"||", Kind::bar, "||"},
+        {"<=>", Kind::arrow, "iff"}, {"...", Kind::dots, ""},     {"**", Kind::power, ""},
+        {":=", Kind::relation, ":"}, {"==", Kind::relation, "="}, {"=>", Kind::arrow, "to"},
+        {"->", Kind::arrow, "to"},   {"<=", Kind::relation, "<"}, {">=", Kind::relation, "<"},
+        {"!=", Kind::relation, "<"}, {"~=", Kind::relation, "~"}, {".*", Kind::times, ""},
+        {"./", Kind::divide, "/"},   {"//", Kind::divide, "/"},   {".^", Kind::power, ""},
+        {"||", Kind::bar, "||"},
     };
     for (const Pair& pair : pairs) {
         if (text_.compare(at_, pair.text.size(), pair.text) != 0) continue;
-        if (!is_plain() && (pair.text == "=>" || pair.text == "<=" || pair.text == "->" || pair.text == "||")) continue;
+        if (!is_plain() && (pair.text == "=>" || pair.text == "<=" || pair.text == "->" || pair.text == "||"))
+            continue;
         at_ += pair.text.size();
         add(pair.kind, begin, pair.meaning);
         return true;
@@ -179,11 +188,10 @@ bool WrittenLexer::sign() {
             one_digit_ = is_plain() ? 0 : 1;
             return true;
         case '(':
-        case '[':
-            {
-                WrittenToken& bracket = add(Kind::open, begin, std::string_view(&c, 1));
-                bracket.upright = is_plain() && bracket.tight && c == '[';  // th'[t] of Mathematica
-            }
+        case '[': {
+            WrittenToken& bracket = add(Kind::open, begin, std::string_view(&c, 1));
+            bracket.upright = is_plain() && bracket.tight && c == '[';  // th'[t] of Mathematica
+        }
             return true;
         case ')':
         case ']':
@@ -309,9 +317,11 @@ void WrittenLexer::word() {
 
 /// Words of programs of computer algebra, functions, and differentials such as dtheta.
 bool WrittenLexer::plain_word(std::size_t begin, const std::string& word) {
-    static constexpr std::string_view calls[] = {"Derivative", "diff", "Diff", "Rational", "Pow",      "pow",
-                                                 "Dt",         "Eq",   "Subscript", "Power", "simplify", "expand"};
-    static constexpr std::string_view modules[] = {"sp", "sympy", "np", "numpy", "math", "Math", "sm", "me", "cmath"};
+    static constexpr std::string_view calls[] = {"Derivative", "diff",  "Diff",     "Rational",
+                                                 "Pow",        "pow",   "Dt",       "Eq",
+                                                 "Subscript",  "Power", "simplify", "expand"};
+    static constexpr std::string_view modules[] = {"sp",   "sympy", "np", "numpy", "math",
+                                                   "Math", "sm",    "me", "cmath"};
     std::size_t next = at_;
     while (byte(next) == ' ') ++next;
     const bool has_bracket = byte(next) == '(' || byte(next) == '[';
@@ -320,10 +330,15 @@ bool WrittenLexer::plain_word(std::size_t begin, const std::string& word) {
         ++at_;
         return true;
     }
+    if (word == "D" && byte(at_) == '[') {
+        add(Kind::command, begin, "diff");
+        return true;
+    }
     if (has_bracket && std::find(std::begin(calls), std::end(calls), word) != std::end(calls)) {
-        add(Kind::command, begin, word == "Diff" || word == "Derivative" || word == "Dt" ? "diff"
-                                  : word == "pow" || word == "Power"                      ? "Pow"
-                                                                                          : word);
+        add(Kind::command, begin,
+            word == "Diff" || word == "Derivative" || word == "Dt" ? "diff"
+            : word == "pow" || word == "Power"                     ? "Pow"
+                                                                   : word);
         return true;
     }
     if (const std::string_view function = function_named(word); !function.empty()) {

@@ -25,11 +25,12 @@ private:
     TokenContext& context_;
     std::vector<WrittenToken>& list_;
     std::size_t at_ = 0;
-    int expansion_ = 0;           // how many macros stand in each other
-    bool is_fixed_ = false;       // all tokens have the place of what was replaced
+    int replaced_ = 0;       // how many replacements stand in each other
+    int expansion_ = 0;      // how many macros stand in each other
+    bool is_fixed_ = false;  // all tokens have the place of what was replaced
     std::size_t fixed_length_ = 0;
     bool is_tight_ = false;
-    std::size_t one_digit_ = 0;   // how many numbers of one digit may come: \frac12
+    std::size_t one_digit_ = 0;  // how many numbers of one digit may come: \frac12
 
     char byte(std::size_t i) const { return i < text_.size() ? text_[i] : '\0'; }
     bool has_digit(std::size_t i) const { return byte(i) >= '0' && byte(i) <= '9'; }

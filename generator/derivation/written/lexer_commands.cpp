@@ -79,13 +79,14 @@ std::string plain_unit(std::string_view unit) {
         std::string_view name, sign;
     };
     static constexpr Part parts[] = {
-        {"metre", "m"},   {"meter", "m"},    {"second", "s"},  {"kilogram", "kg"}, {"gram", "g"},   {"newton", "N"},
-        {"radian", "rad"}, {"joule", "J"},   {"watt", "W"},    {"degree", "deg"},  {"hertz", "Hz"}, {"pascal", "Pa"},
-        {"minute", "min"}, {"hour", "h"},    {"kelvin", "K"},  {"ampere", "A"},    {"coulomb", "C"}, {"volt", "V"},
-        {"kilo", "k"},    {"centi", "c"},    {"milli", "m"},   {"micro", "u"},     {"mega", "M"},   {"giga", "G"},
-        {"squared", "^2"}, {"cubed", "^3"},  {"square", ""},   {"kg", "kg"},       {"m", "m"},      {"s", "s"},
-        {"N", "N"},       {"rad", "rad"},    {"mm", "mm"},     {"cm", "cm"},       {"cdot", "*"},   {"times", "*"},
-        {"rm", ""},       {"mathrm", ""},    {"text", ""},     {"circ", "deg"},
+        {"metre", "m"},  {"meter", "m"},    {"second", "s"},   {"kilogram", "kg"}, {"gram", "g"},
+        {"newton", "N"}, {"radian", "rad"}, {"joule", "J"},    {"watt", "W"},      {"degree", "deg"},
+        {"hertz", "Hz"}, {"pascal", "Pa"},  {"minute", "min"}, {"hour", "h"},      {"kelvin", "K"},
+        {"ampere", "A"}, {"coulomb", "C"},  {"volt", "V"},     {"kilo", "k"},      {"centi", "c"},
+        {"milli", "m"},  {"micro", "u"},    {"mega", "M"},     {"giga", "G"},      {"squared", "^2"},
+        {"cubed", "^3"}, {"square", ""},    {"kg", "kg"},      {"m", "m"},         {"s", "s"},
+        {"N", "N"},      {"rad", "rad"},    {"mm", "mm"},      {"cm", "cm"},       {"cdot", "*"},
+        {"times", "*"},  {"rm", ""},        {"mathrm", ""},    {"text", ""},       {"circ", "deg"},
     };
     std::string plain;
     bool is_prefix = false;
@@ -241,7 +242,8 @@ void WrittenLexer::named(const WrittenCommand& command, std::size_t begin) {
         case Effect::words: {
             const std::string words = plain_words(argument());
             if (words.size() == 1 && is_command_letter(words[0]) && words != "a") {  // \textbf{r}
-                add(Kind::letter, begin).letter = {.base = words, .accent = command.name == "textbf" ? "mathbf" : ""};
+                add(Kind::letter, begin).letter = {.base = words,
+                                                   .accent = command.name == "textbf" ? "mathbf" : ""};
             } else if (!words.empty()) {
                 add(Kind::text, begin, words);
             }
@@ -274,7 +276,8 @@ void WrittenLexer::named(const WrittenCommand& command, std::size_t begin) {
         const std::string over(argument());  // what is coloured, or stands over a sign, comes after it
         (void)over;
         is_tight_ = true;
-    } else if (text == "boxed" || text == "mathop" || text == "mathrel" || text == "mathbin" || text == "mathord") {
+    } else if (text == "boxed" || text == "mathop" || text == "mathrel" || text == "mathbin" ||
+               text == "mathord") {
         is_tight_ = true;
     } else if (command.kind == Kind::relation || command.kind == Kind::arrow) {
         if (command.name.starts_with('x')) bracket_argument(), argument();  // \xrightarrow{…}
@@ -305,7 +308,8 @@ void WrittenLexer::upright(std::size_t begin) {
     }();
     if (const std::string_view function = function_named(name); !function.empty()) {
         add(Kind::function, begin, function);
-    } else if (name.size() == 2 && name[0] == 'd' && std::string_view("tTxyzqrsuvVWELmAMSHQU").find(name[1]) != std::string_view::npos) {
+    } else if (name.size() == 2 && name[0] == 'd' &&
+               std::string_view("tTxyzqrsuvVWELmAMSHQU").find(name[1]) != std::string_view::npos) {
         WrittenToken& d = add(Kind::letter, begin);
         d.letter.base = "d";
         d.upright = true;
@@ -316,7 +320,8 @@ void WrittenLexer::upright(std::size_t begin) {
         token.text = name;
         token.upright = true;
     } else if (inside.find('\\') == std::string_view::npos || !plain_unit(inside).empty()) {
-        const std::string unit = inside.find('\\') == std::string_view::npos ? std::string(inside) : plain_unit(inside);
+        const std::string unit =
+            inside.find('\\') == std::string_view::npos ? std::string(inside) : plain_unit(inside);
         if (inside.find('\\') != std::string_view::npos && inside.find("\\,") == std::string_view::npos &&
             inside.find("\\cdot") == std::string_view::npos && inside.find("\\ ") == std::string_view::npos) {
             at_ = before;  // a style over mathematics
@@ -349,9 +354,9 @@ void WrittenLexer::quantity(std::size_t begin, std::string_view name) {
     if (name != "unit") {
         std::string number(argument());
         std::erase(number, ',');
-        if (const std::size_t e = number.find_first_of("eE"); e != std::string::npos)
-            number = number.substr(0, e) + "\\cdot10^{" + number.substr(e + 1) + "}";
-        replace("{" + number + "}", begin);
+        if (const std::size_t e = number.find_first_of("eE"); e != std::string::npos && name == "num")
+            number = "{" + number.substr(0, e) + "\\cdot10^{" + number.substr(e + 1) + "}}";
+        replace(number, begin);
     }
     if (name == "num") return;
     const std::string unit = plain_unit(argument());
@@ -363,9 +368,10 @@ void WrittenLexer::environment(bool begins, std::size_t begin) {
     std::string name(argument().substr(0, 60));
     const bool is_starred = name.ends_with('*');
     if (is_starred) name.pop_back();
-    static constexpr std::string_view lines[] = {"aligned",  "split",    "gathered", "alignedat", "align",  "equation",
-                                                 "gather",   "multline", "eqnarray", "alignat",   "flalign", "math",
-                                                 "displaymath", "subequations", "dgroup", "dmath", "empheq", "multlined"};
+    static constexpr std::string_view lines[] = {"aligned",  "split",  "gathered",    "alignedat",    "align",
+                                                 "equation", "gather", "multline",    "eqnarray",     "alignat",
+                                                 "flalign",  "math",   "displaymath", "subequations", "dgroup",
+                                                 "dmath",    "empheq", "multlined"};
     if (begins && (name.starts_with("align") || name == "gathered" || name == "split")) bracket_argument();
     if (begins && (name == "alignedat" || name == "alignat" || name == "empheq")) argument();
     if (std::find(std::begin(lines), std::end(lines), name) != std::end(lines)) {
@@ -390,7 +396,8 @@ void WrittenLexer::expand(const WrittenMacro& macro, std::string_view name, std:
     std::string text;
     for (std::size_t k = 0; k < macro.body.size(); ++k) {
         const char c = macro.body[k];
-        const bool is_argument = c == '#' && k + 1 < macro.body.size() && macro.body[k + 1] >= '1' && macro.body[k + 1] <= '9';
+        const bool is_argument =
+            c == '#' && k + 1 < macro.body.size() && macro.body[k + 1] >= '1' && macro.body[k + 1] <= '9';
         if (is_argument) {
             const auto which = static_cast<std::size_t>(macro.body[++k] - '1');
             if (which < arguments.size()) text += arguments[which];

@@ -50,7 +50,7 @@ std::string described(const WrittenToken& token) {
         case Kind::period:
             return say("a full stop");
         case Kind::dots:
-            return say("dots that leave something out");
+            return say("an ellipsis");
         case Kind::open:
         case Kind::begin_group:
         case Kind::no_open:
@@ -106,8 +106,9 @@ void MathParser::unexpected(const std::string& expected) const {
         fail(at_, say("{} is not known in a formula; expected {}", in_quotes(now().text), expected));
     }
     if (at_ < end_ && now().kind == Kind::refused)
-        fail(at_, say("{} is refused: nothing is executed, and no other file is read; expected formulas written out",
-                      in_quotes(now().text)));
+        fail(at_,
+             say("{} is refused: nothing is executed, and no other file is read; expected formulas written out",
+                 in_quotes(now().text)));
     fail(at_, say("{} was found; expected {}", at_ < end_ ? described(now()) : described({}), expected));
 }
 
@@ -127,17 +128,27 @@ MathPtr MathParser::within(std::size_t begin, std::size_t end) {
     return result;
 }
 
+/// Trees are walked by recursion: chains such as a/b/c/… may not make them deeper than brackets can.
+void MathParser::count_levels(Math& math) const {
+    for (const MathPtr& one : math.args) math.levels = std::max(math.levels, one->levels + 1);
+    if (math.levels > 3 * most_written_nesting)
+        throw BeyondLimit{math.offset,
+                          say("the formula is nested more than {} levels deep", most_written_nesting)};
+}
+
 MathPtr MathParser::node(Math math, std::size_t begin) const {
     const WrittenToken& first = token(begin);
     const WrittenToken& last = token(at_ > begin ? at_ - 1 : begin);
     math.offset = first.offset;
     math.length = std::max(last.offset + last.length, first.offset + first.length) - first.offset;
+    count_levels(math);
     return std::make_shared<const Math>(std::move(math));
 }
 
 MathPtr MathParser::placed(Math math, const Math& first, const Math& last) const {
     math.offset = first.offset;
     math.length = std::max(last.offset + last.length, first.offset + first.length) - first.offset;
+    count_levels(math);
     return std::make_shared<const Math>(std::move(math));
 }
 
@@ -186,8 +197,10 @@ MathPtr MathParser::term() {
             factors = {placed({.kind = Math::Kind::quotient, .args = {numerator, below}}, *numerator, *below)};
             sign.clear();
         } else if (begins_factor()) {
-            if (is(Kind::number) && factors.back()->kind == Math::Kind::number && kind(at_ - 1) == Kind::number)
-                fail(at_, say("two numbers stand beside each other; expected a sign between them"));
+            if (is(Kind::number) && kind(at_ - 1) == Kind::number)  // 2 3, x_10, \frac123
+                fail(at_,
+                     say("two numbers stand beside each other; expected a sign between them, or braces around an "
+                         "index or exponent of several digits"));
             factors.push_back(factor(false));
         } else {
             break;
@@ -282,8 +295,9 @@ MathPtr MathParser::after_it(MathPtr result, std::size_t begin) {
     while (at_ < end_) {
         if (is(Kind::power)) {
             const Range range = (++at_, script_range());
-            const bool is_transposed = range.end == range.begin + 1 && kind(range.begin) == Kind::letter &&
-                                       (token(range.begin).letter.base == "T" || token(range.begin).letter.base == "top");
+            const bool is_transposed =
+                range.end == range.begin + 1 && kind(range.begin) == Kind::letter &&
+                (token(range.begin).letter.base == "T" || token(range.begin).letter.base == "top");
             if (is_transposed && (result->kind == Math::Kind::vector || result->kind == Math::Kind::matrix)) {
                 at_ = std::max(range.end, at_);
                 if (result->kind == Math::Kind::matrix && result->args.size() == 1) result = result->args[0];

@@ -4,12 +4,15 @@
 /// The tokens of one side of an equation become a tree.
 ///
 /// As mathematicians read it:
-/// - A product without signs goes on to the next sign of a sum: 2 m l \cos\theta. a/b c is (a/b) c, and 1/2 m v^2 is
+/// - A product without signs goes on to the next sign of a sum: 2 m l \cos\theta. a/b c is (a/b) c, and 1/2 m v^2
+/// is
 ///   (1/2) m v^2; but a number and a letter written together are one divisor: p^2/2m is p^2/(2m).
-/// - A function without parentheses takes numbers, then letters up to the first that can be an angle: \sin 2\theta,
+/// - A function without parentheses takes numbers, then letters up to the first that can be an angle: \sin
+/// 2\theta,
 ///   \sin\omega t, \cos\theta_1\,\dot\theta_1 = (cos θ₁) θ̇₁. With parentheses it takes these alone.
 /// - d/dt without parentheses takes the whole product that follows it.
-/// - A letter before parentheses is `applied`. What is raised to a power after them is F(t) or, if it is a product, the
+/// - A letter before parentheses is `applied`. What is raised to a power after them is F(t) or, if it is a
+/// product, the
 ///   parentheses: m(a+b)^2.
 
 #include <optional>
@@ -26,8 +29,8 @@ struct NotUnderstood {
     std::string message;
 };
 
-/// For each token the one that closes or opens it; `no_partner` for others. Throws BeyondLimit if they are nested too
-/// deeply.
+/// For each token the one that closes or opens it; `no_partner` for others. Throws BeyondLimit if they are nested
+/// too deeply.
 inline constexpr std::size_t no_partner = static_cast<std::size_t>(-1);
 std::vector<std::size_t> partners(const std::vector<WrittenToken>& tokens);
 
@@ -62,8 +65,8 @@ private:
     bool has_variations_ = false;
     std::size_t at_ = 0, end_ = 0;
     int depth_ = 0;
-    int bars_ = 0;           // open |
-    bool is_bare_ = false;   // the argument of a function without parentheses
+    int bars_ = 0;          // open |
+    bool is_bare_ = false;  // the argument of a function without parentheses
     std::size_t steps_ = 0;
 
     const WrittenToken& now() const { return token(at_); }
@@ -77,6 +80,7 @@ private:
     [[noreturn]] void unexpected(const std::string& expected) const;
     std::size_t closing(std::size_t i) const;
     MathPtr within(std::size_t begin, std::size_t end);
+    void count_levels(Math& math) const;
     MathPtr node(Math math, std::size_t begin) const;
     MathPtr placed(Math math, const Math& first, const Math& last) const;
 
@@ -125,7 +129,8 @@ private:
     MathPtr slanted_derivative();
     MathPtr derivative_command();
     MathPtr rate(const MathPtr& of, int order, std::size_t begin) const;
-    MathPtr partial(const MathPtr& of, std::vector<MathPtr> variables, std::string_view sign, std::size_t begin) const;
+    MathPtr partial(const MathPtr& of, std::vector<MathPtr> variables, std::string_view sign,
+                    std::size_t begin) const;
     MathPtr subscripted_partial();
     MathPtr variation();
 

@@ -13,7 +13,8 @@ namespace {
 using RowKind = WrittenToken::Kind;
 
 bool is_system(const std::string& name) {
-    static constexpr std::string_view names[] = {"cases", "dcases", "rcases", "drcases", "array", "system", "numcases", "subnumcases", "matrix"};
+    static constexpr std::string_view names[] = {"cases",  "dcases",   "rcases",      "drcases", "array",
+                                                 "system", "numcases", "subnumcases", "matrix"};
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
@@ -29,8 +30,20 @@ bool may_start_system(const std::vector<WrittenToken>& tokens, std::size_t i) {
            before == RowKind::arrow || before == RowKind::begin_group;
 }
 
+/// Whether nothing but words and separators stands around a bracket.
+bool stands_alone(const std::vector<WrittenToken>& tokens, std::size_t open, std::size_t close) {
+    const auto separates = [](RowKind kind) {
+        return kind == RowKind::text || kind == RowKind::comma || kind == RowKind::semicolon ||
+               kind == RowKind::row || kind == RowKind::space || kind == RowKind::arrow ||
+               kind == RowKind::period || kind == RowKind::end;
+    };
+    return separates(open == 0 ? RowKind::end : tokens[open - 1].kind) &&
+           separates(close + 1 < tokens.size() ? tokens[close + 1].kind : RowKind::end);
+}
+
 /// Marks for each bracket whether a relation or the end of a row stands directly in it.
-std::vector<char> holds_relation(const std::vector<WrittenToken>& tokens, const std::vector<std::size_t>& partner) {
+std::vector<char> holds_relation(const std::vector<WrittenToken>& tokens,
+                                 const std::vector<std::size_t>& partner) {
     std::vector<char> holds(tokens.size(), 0);
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
@@ -66,11 +79,19 @@ std::vector<WrittenToken> without_frames(std::vector<WrittenToken> tokens) {
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         const RowKind before = i == 0 ? RowKind::row : tokens[i - 1].kind;
         const bool has_partner = partner[i] != no_partner;
-        if (tokens[i].kind == RowKind::begin_group && has_partner && holds[i] && before != RowKind::index &&
-            before != RowKind::power && before != RowKind::command && before != RowKind::end_group) {
+        const RowKind after_empty = i + 2 < tokens.size() ? tokens[i + 2].kind : RowKind::end;
+        if (tokens[i].kind == RowKind::begin_group && partner[i] == i + 1 && before != RowKind::index &&
+            before != RowKind::power && before != RowKind::command && before != RowKind::end_group &&
+            after_empty != RowKind::power && after_empty != RowKind::index) {
+            dropped[i] = dropped[i + 1] = 1;  // &{}- c
+        } else if (tokens[i].kind == RowKind::begin_group && has_partner && holds[i] && before != RowKind::index &&
+                   before != RowKind::power && before != RowKind::command && before != RowKind::end_group) {
             dropped[i] = dropped[partner[i]] = 1;
         } else if (is_framing(tokens[i]) && has_partner && holds[i] && may_start_system(tokens, i)) {
             tokens[i].kind = tokens[partner[i]].kind = RowKind::row;  // a system of equations
+        } else if (tokens[i].kind == RowKind::open && has_partner && holds[i] &&
+                   stands_alone(tokens, i, partner[i])) {
+            dropped[i] = dropped[partner[i]] = 1;  // {x' = y, y' = -x}
         } else if (tokens[i].kind == RowKind::open && i + 1 < tokens.size()) {
             const WrittenToken& next = tokens[i + 1];
             const bool is_brace = (next.kind == RowKind::row && next.text == "begin") || is_framing(next);
@@ -88,10 +109,11 @@ namespace {
 /// A row without its &.
 struct WrittenRow {
     std::vector<WrittenToken> tokens;
-    bool begins_empty = false;   // nothing stands before the first &
-    bool is_indented = false;    // \quad
+    bool begins_empty = false;  // nothing stands before the first &
+    bool is_indented = false;   // \quad
     bool has_relation = false;
-    bool leads_to_relation = false;  // it, or a row that goes on with it, has a relation that is not its first sign
+    bool leads_to_relation =
+        false;  // it, or a row that goes on with it, has a relation that is not its first sign
 };
 
 bool is_row_sign(RowKind kind) {
@@ -112,7 +134,8 @@ public:
         divide();
         for (std::size_t r = rows_.size(); r-- > 0;) {
             WrittenRow& row = rows_[r];
-            const bool has_next = r + 1 < rows_.size() && rows_[r + 1].begins_empty && begins_with_sign(rows_[r + 1]) &&
+            const bool has_next = r + 1 < rows_.size() && rows_[r + 1].begins_empty &&
+                                  begins_with_sign(rows_[r + 1]) &&
                                   rows_[r + 1].tokens.front().kind != RowKind::relation;
             row.leads_to_relation = (row.has_relation && row.tokens.front().kind != RowKind::relation) ||
                                     (has_next && rows_[r + 1].leads_to_relation);
@@ -149,7 +172,8 @@ private:
                 ++cells_;
                 if (row_.tokens.empty()) row_.begins_empty = true;
                 // The second & of a row of `align` begins another equation, that of `eqnarray` (a &=& b) does not.
-                if (cells_ % 2 == 0 && row_.has_relation && !is_row_sign(row_.tokens.back().kind)) add_space(token);
+                if (cells_ % 2 == 0 && row_.has_relation && !is_row_sign(row_.tokens.back().kind))
+                    add_space(token);
             } else if (token.kind == RowKind::space && row_.tokens.empty()) {
                 row_.is_indented = true;
             } else {
@@ -171,7 +195,8 @@ private:
         for (std::size_t i = begin; i <= partner_[begin]; ++i) {
             const RowKind kind = tokens_[i].kind;
             matrices += kind == RowKind::begin_environment ? 1 : kind == RowKind::end_environment ? -1 : 0;
-            if (matrices > 0 || (kind != RowKind::row && kind != RowKind::ampersand)) row_.tokens.push_back(tokens_[i]);
+            if (matrices > 0 || (kind != RowKind::row && kind != RowKind::ampersand))
+                row_.tokens.push_back(tokens_[i]);
         }
     }
 
@@ -183,7 +208,8 @@ private:
     }
 
     bool goes_on(const WrittenRow& row, const std::vector<WrittenToken>& chain, bool chain_has_relation) const {
-        if (joins_rows_ || row.tokens.front().kind == RowKind::relation || is_row_sign(chain.back().kind)) return true;
+        if (joins_rows_ || row.tokens.front().kind == RowKind::relation || is_row_sign(chain.back().kind))
+            return true;
         if (!begins_with_sign(row)) return false;
         if (!chain_has_relation) return true;  // a \\ + b = c
         if (row.begins_empty) return row.is_indented || !row.leads_to_relation;

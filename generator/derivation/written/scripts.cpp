@@ -16,8 +16,8 @@ int dots_of_accent(std::string_view name) {
 }
 
 bool is_capital(const WrittenToken& token) {
-    return token.kind == WrittenToken::Kind::letter && token.letter.base.size() == 1 && token.letter.base[0] >= 'A' &&
-           token.letter.base[0] <= 'Z' && token.dots == 0;
+    return token.kind == WrittenToken::Kind::letter && token.letter.base.size() == 1 &&
+           token.letter.base[0] >= 'A' && token.letter.base[0] <= 'Z' && token.dots == 0;
 }
 
 }  // namespace
@@ -67,10 +67,14 @@ std::string MathParser::flat_text(std::size_t begin, std::size_t end) {
                 break;
             case Kind::letter: {
                 static constexpr std::string_view dotted[] = {"", "_dot", "_ddot", "_dddot", "_ddddot"};
-                if (!text.empty() && what.letter.base.size() > 1 && text.back() != ',' && text.back() != '_') text += ' ';
+                if (!text.empty() && what.letter.base.size() > 1 && text.back() != ',' && text.back() != '_')
+                    text += ' ';
+                if (what.upright && !what.text.empty()) {
+                    text += what.text;
+                    break;
+                }
                 text += what.letter.base + after + std::string(dotted[std::min(what.dots, 4)]);
-                if (!what.letter.index.empty())
-                    text += (what.upright || what.letter.base.size() > 1 ? "" : "_") + what.letter.index;
+                if (!what.letter.index.empty()) text += "_" + what.letter.index;
                 after.clear();
                 break;
             }
@@ -161,7 +165,8 @@ std::optional<std::string> MathParser::raised_text(const Letter& letter, std::si
     if (is_number) return {};
     bool are_marks = true;  // ^{*\top}
     for (std::size_t i = begin; i < end; ++i)
-        are_marks &= token(i).kind == Kind::times || (token(i).kind == Kind::letter && token(i).letter.base == "top") ||
+        are_marks &= token(i).kind == Kind::times ||
+                     (token(i).kind == Kind::letter && token(i).letter.base == "top") ||
                      (token(i).kind == Kind::letter && token(i).letter.base == "T");
     if (are_marks) {
         std::string marks;
@@ -171,8 +176,8 @@ std::optional<std::string> MathParser::raised_text(const Letter& letter, std::si
     if (first.kind == Kind::open && count == 3 && token(end - 1).kind == Kind::close &&
         (token(begin + 1).kind == Kind::number || token(begin + 1).kind == Kind::letter))
         return flat_text(begin, end);
-    if (count == 1 && first.kind == Kind::letter && (first.upright || first.letter.base.size() > 1) && !first.letter.base.empty() &&
-        command_named(first.letter.base) == nullptr)
+    if (count == 1 && first.kind == Kind::letter && (first.upright || first.letter.base.size() > 1) &&
+        !first.letter.base.empty() && command_named(first.letter.base) == nullptr)
         return flat_text(begin, end);
     for (std::size_t i = begin; i < end; ++i)
         if (!is_capital(token(i)) && token(i).kind != Kind::divide && token(i).kind != Kind::comma) return {};
@@ -229,7 +234,8 @@ MathPtr MathParser::letter(Letter letter, int dots, std::size_t begin) {
             dots += tokens_[at_++].dots;
         } else if (is(Kind::power)) {
             if (!add_raised(letter, dots)) break;
-        } else if (is(Kind::times) && (kind(at_ + 1) == Kind::index || kind(at_ + 1) == Kind::end) && now().text.empty()) {
+        } else if (is(Kind::times) && (kind(at_ + 1) == Kind::index || kind(at_ + 1) == Kind::end) &&
+                   now().text.empty()) {
             ++at_;  // F*_v
             letter.raised += "*";
         } else {
@@ -256,8 +262,9 @@ MathPtr MathParser::letter(Letter letter, int dots, std::size_t begin) {
         if (dots > 0 && arguments.size() == 1 && is_time(*arguments[0]))
             result = node({.kind = Math::Kind::letter, .letter = letter, .dots = dots}, begin);
         else
-            result = node(
-                {.kind = Math::Kind::applied, .letter = letter, .dots = dots, .args = std::move(arguments)}, begin);
+            result =
+                node({.kind = Math::Kind::applied, .letter = letter, .dots = dots, .args = std::move(arguments)},
+                     begin);
     }
     if (power) result = node({.kind = Math::Kind::power, .args = {result, power}}, begin);
     return result;

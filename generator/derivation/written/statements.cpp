@@ -18,10 +18,10 @@ using PartKind = WrittenToken::Kind;
 /// What stands between two separators of a chain.
 struct Part {
     std::size_t begin = 0, end = 0;
-    PartKind before = PartKind::end;   // the separator
+    PartKind before = PartKind::end;  // the separator
     std::vector<std::size_t> relations{};
-    std::string words{};                 // of \text{…} before it
-    bool is_condition = false;           // "if", "for" before it
+    std::string words{};        // of \text{…} before it
+    bool is_condition = false;  // "if", "for" before it
     bool is_consequence = false;
 };
 
@@ -34,8 +34,7 @@ Relation relation_of(const std::string& sign) {
 /// Reads one chain.
 class ChainReader {
 public:
-    explicit ChainReader(const std::vector<WrittenToken>& tokens)
-        : tokens_(tokens), partner_(partners(tokens)) {}
+    explicit ChainReader(const std::vector<WrittenToken>& tokens) : tokens_(tokens), partner_(partners(tokens)) {}
 
     std::vector<WrittenStatement> statements() {
         split();
@@ -96,7 +95,8 @@ private:
 
     bool is_number_of_equation(const Part& part) const {
         const std::size_t length = part.end - part.begin;
-        if (length < 3 || length > 6 || kind(part.begin) != PartKind::open || partner_[part.begin] != part.end - 1) return false;
+        if (length < 3 || length > 6 || kind(part.begin) != PartKind::open || partner_[part.begin] != part.end - 1)
+            return false;
         for (std::size_t i = part.begin + 1; i + 1 < part.end; ++i)
             if (kind(i) != PartKind::number && kind(i) != PartKind::period && kind(i) != PartKind::letter &&
                 kind(i) != PartKind::primes && kind(i) != PartKind::times && kind(i) != PartKind::minus)
@@ -120,7 +120,8 @@ private:
                                  joined.back().begin < joined.back().end;
             if (goes_on && part.begin < part.end) {
                 joined.back().end = part.end;
-                joined.back().relations.insert(joined.back().relations.end(), part.relations.begin(), part.relations.end());
+                joined.back().relations.insert(joined.back().relations.end(), part.relations.begin(),
+                                               part.relations.end());
                 continue;
             }
             if (part.begin >= part.end && part.words.empty() && !part.is_consequence) {
@@ -139,7 +140,8 @@ private:
     }
 
     static bool is_punctuation(PartKind kind) {
-        return kind == PartKind::period || kind == PartKind::comma || kind == PartKind::semicolon || kind == PartKind::space;
+        return kind == PartKind::period || kind == PartKind::comma || kind == PartKind::semicolon ||
+               kind == PartKind::space;
     }
 
     void read(const Part& part) {
@@ -204,7 +206,8 @@ private:
 
     /// i = 1, 2, …, n: no claim. What follows the comma has no relation.
     bool is_index_range(const Part& part) {
-        if (was_condition_ && part.before == PartKind::comma && part.relations.empty() && part.end == part.begin + 1)
+        if (was_condition_ && part.before == PartKind::comma && part.relations.empty() &&
+            part.end == part.begin + 1)
             return true;
         const bool is_list_item = part.before == PartKind::comma && part.relations.empty() && !list_.empty() &&
                                   !list_.back().sides.empty() && list_.back().relations.size() == 1 &&
@@ -215,7 +218,8 @@ private:
             was_index_range_ = false;
             return false;
         }
-        if (!was_index_range_ && list_.back().sides[0]->kind == Math::Kind::letter && list_.back().relations.size() == 1) {
+        if (!was_index_range_ && list_.back().sides[0] && list_.back().sides[0]->kind == Math::Kind::letter &&
+            list_.back().relations.size() == 1) {
             std::vector<MathPtr> condition = std::move(list_.back().sides);
             const WrittenStatement range = list_.back();
             if (list_.size() > 1) {
@@ -242,7 +246,8 @@ private:
         while (!own.empty() && is_punctuation(own.back().kind)) own.pop_back();
         if (own.empty()) {
             const WrittenToken& near = tokens_[std::min(begin, tokens_.size() - 1)];
-            throw NotUnderstood{near.offset, near.length, say("nothing stands on one side of a sign such as =; expected an expression")};
+            throw NotUnderstood{near.offset, near.length,
+                                say("nothing stands on one side of a sign such as =; expected an expression")};
         }
         const std::vector<std::size_t> partner = partners(own);
         return MathParser(own, partner, has_differentials).read(0, own.size());
@@ -252,20 +257,23 @@ private:
     bool has_differentials(const Part& part) const {
         const std::size_t end = part.relations.empty() ? part.end : part.relations[0];
         std::size_t i = part.begin;
-        const bool is_d = kind(i) == PartKind::letter && tokens_[i].letter == Letter{.base = "d"} && tokens_[i].dots == 0;
+        const bool is_d =
+            kind(i) == PartKind::letter && tokens_[i].letter == Letter{.base = "d"} && tokens_[i].dots == 0;
         for (std::size_t k = part.begin; k < part.end; ++k)
             if (kind(k) == PartKind::command && tokens_[k].text == "int") return true;
         if (!is_d || kind(i + 1) != PartKind::letter || part.relations.empty()) return false;
         for (i += 2; i < end; ++i)
             if (kind(i) != PartKind::index && kind(i) != PartKind::begin_group && kind(i) != PartKind::end_group &&
-                kind(i) != PartKind::number && kind(i) != PartKind::power && kind(i) != PartKind::times && kind(i) != PartKind::text)
+                kind(i) != PartKind::number && kind(i) != PartKind::power && kind(i) != PartKind::times &&
+                kind(i) != PartKind::text)
                 return false;
         return true;
     }
 
     void fill(const Part& part, WrittenStatement& statement) {
         const bool differentials = has_differentials(part);
-        for (const std::size_t relation : part.relations) statement.relations.push_back(relation_of(tokens_[relation].text));
+        for (const std::size_t relation : part.relations)
+            statement.relations.push_back(relation_of(tokens_[relation].text));
         bool is_first = true;
         for (const auto& [begin, end] : sides(part)) {
             const bool is_missing = is_first && begin == end && !part.relations.empty();
@@ -276,7 +284,8 @@ private:
 
     /// Eq(a, b) of SymPy
     bool fill_from_call(const Part& part, WrittenStatement& statement) {
-        if (kind(part.begin) != PartKind::command || tokens_[part.begin].text != "Eq" || !part.relations.empty()) return false;
+        if (kind(part.begin) != PartKind::command || tokens_[part.begin].text != "Eq" || !part.relations.empty())
+            return false;
         const std::size_t open = part.begin + 1;
         if (kind(open) != PartKind::open || partner_[open] != part.end - 1) return false;
         for (std::size_t i = open + 1; i + 1 < part.end; ++i) {
@@ -315,7 +324,8 @@ private:
     void add_case(const Part& part, WrittenStatement statement, std::size_t begin, std::size_t end) {
         std::size_t cell = begin;
         while (cell < end && kind(cell) != PartKind::ampersand) ++cell;
-        for (const std::size_t relation : part.relations) statement.relations.push_back(relation_of(tokens_[relation].text));
+        for (const std::size_t relation : part.relations)
+            statement.relations.push_back(relation_of(tokens_[relation].text));
         auto ranges = sides(part);
         ranges.back() = {begin, cell};
         for (const auto& [first, last] : ranges) statement.sides.push_back(side(first, last, false));
@@ -323,7 +333,8 @@ private:
         statement.length = tokens_[end - 1].offset + tokens_[end - 1].length - statement.offset;
         std::size_t from = cell + 1;
         for (std::size_t i = cell + 1; i <= end; ++i) {
-            const bool divides = i == end || kind(i) == PartKind::relation || kind(i) == PartKind::text || kind(i) == PartKind::comma;
+            const bool divides = i == end || kind(i) == PartKind::relation || kind(i) == PartKind::text ||
+                                 kind(i) == PartKind::comma;
             if (!divides) continue;
             if (from < i) statement.conditions.push_back(side(from, i, false));
             from = i + 1;

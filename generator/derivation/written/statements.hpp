@@ -8,8 +8,9 @@
 
 namespace alembert {
 
-/// `joins_rows`: the rows of `multline` are one. The statements have no words but those of \text{…} in the formula.
-/// A statement whose first side is missing (`= b`) has a null there: the last side of the statement before it is meant.
+/// `joins_rows`: the rows of `multline` are one. The statements have no words but those of \text{…} in the
+/// formula. A statement whose first side is missing (`= b`) has a null there: the last side of the statement
+/// before it is meant.
 std::vector<WrittenStatement> statements_of(std::vector<WrittenToken> tokens, bool joins_rows);
 
 }  // namespace alembert

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The tokens of a formula. LaTeX, Unicode mathematics and plain text become one stream: θ̈₁² and \ddot{\theta}_{1}^{2}
-/// have the same tokens. A character of Unicode and a macro of the document are replaced by the LaTeX that they stand
-/// for; what comes of them keeps the place where they were written.
+/// The tokens of a formula. LaTeX, Unicode mathematics and plain text become one stream: θ̈₁² and
+/// \ddot{\theta}_{1}^{2} have the same tokens. A character of Unicode and a macro of the document are replaced by
+/// the LaTeX that they stand for; what comes of them keeps the place where they were written.
 
 #include <map>
 #include <string>
@@ -17,10 +17,10 @@ namespace alembert {
 struct WrittenToken {
     enum class Kind {
         number,
-        letter,       ///< with what its own word says: theta1_dot
-        function,     ///< sin
-        command,      ///< what the parser knows by its name: frac, dot, sum
-        open,         ///< ( [ \{ \langle; text: the bracket
+        letter,    ///< with what its own word says: theta1_dot
+        function,  ///< sin
+        command,   ///< what the parser knows by its name: frac, dot, sum
+        open,      ///< ( [ \{ \langle; text: the bracket
         close,
         begin_group,  ///< {
         end_group,
@@ -42,11 +42,11 @@ struct WrittenToken {
         comma,
         semicolon,
         period,
-        dots,       ///< …
+        dots,  ///< …
         ampersand,
-        row,    ///< \\ and line ends of plain text
-        space,  ///< \quad
-        text,   ///< \text{…}; letter.base: "unit" if upright
+        row,      ///< \\ and line ends of plain text
+        space,    ///< \quad
+        text,     ///< \text{…}; letter.base: "unit" if upright
         refused,  ///< text: what a message says about it
         stray,    ///< what has no meaning in a formula
         end,

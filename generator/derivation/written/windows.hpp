@@ -35,7 +35,8 @@ private:
 struct MathParser::Depth {
     explicit Depth(MathParser& parser) : parser_(parser) {
         if (++parser.depth_ > 3 * most_written_nesting)
-            throw BeyondLimit{parser.now().offset, say("the formula is nested more than {} levels deep", most_written_nesting)};
+            throw BeyondLimit{parser.now().offset,
+                              say("the formula is nested more than {} levels deep", most_written_nesting)};
     }
     Depth(const Depth&) = delete;
     ~Depth() { --parser_.depth_; }
