@@ -84,9 +84,8 @@ private:
         if (kinetic_ != nullptr) lagrangian_ = nullptr;
         if (kinetic_ == nullptr && lagrangian_ == nullptr)
             throw ModelError(
-                say("{}: no scene can be drafted, because no line states T or L; expected a line such as "
-                    "T = m*l^2*theta'^2/2",
-                    written_.file));
+                say("no scene can be drafted, because no line states T or L; expected a line such as "
+                    "T = m*l^2*theta'^2/2"));
     }
 
     void collect_time(const Math& math) {
@@ -171,8 +170,8 @@ private:
         try {
             return claim_text(math, {.letters = letters_}).text;
         } catch (const NoMeaning& problem) {
-            throw ModelError(say("{}:{}: no scene can be drafted: {}", written_.file, written_.line(math.offset),
-                                 problem.reason));
+            throw ModelError(
+                say("line {}: no scene can be drafted: {}", written_.line(math.offset), problem.reason));
         }
     }
 
@@ -180,9 +179,9 @@ private:
         for (const Letter& letter : squared_)
             if (!defined_.contains(letter) && is_used(letter))
                 throw ModelError(
-                    say("{}: no scene can be drafted, because the energies hold {}, of which only the "
+                    say("no scene can be drafted, because the energies hold {}, of which only the "
                         "square is given; write it out",
-                        written_.file, identifier_of(letter)));
+                        identifier_of(letter)));
     }
 
     /// The letters that a scene needs: of the energies, of what defines these, and of the forces.
@@ -205,7 +204,7 @@ private:
         const std::set<Letter> all = needed();
         for (const Letter& letter : all) letters_.bind(letter, name_for(letter));
         SceneDraft draft;
-        draft.set("title", say("drafted from {}", written_.file));
+        draft.set("title", say("drafted from {}"));
         std::vector<std::string> coordinates, parameters, inputs;
         double start = first_coordinate;
         for (const Letter& letter : all) {
@@ -224,8 +223,7 @@ private:
             }
         }
         if (coordinates.empty())
-            throw ModelError(say("{}: no scene can be drafted, because no letter of the energies carries a dot",
-                                 written_.file));
+            throw ModelError(say("no scene can be drafted, because no letter of the energies carries a dot"));
         for (const auto& [letter, value] : defined_)
             draft.table("definitions").set(name_for(letter), text_of(*value));
         if (lagrangian_ != nullptr) draft.table("energy").set("lagrangian", text_of(*lagrangian_));
