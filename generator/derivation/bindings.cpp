@@ -37,7 +37,8 @@ std::vector<Place3> matching(const std::vector<std::string>& things, const std::
     std::vector<Place3> result;
     for (const bool exactly : {true, false}) {
         for (std::size_t k = 0; k < things.size(); ++k)
-            if (exactly ? plain(index) == plain(things[k]) : names(index, things[k], k)) result.push_back({things[k], true});
+            if (exactly ? plain(index) == plain(things[k]) : names(index, things[k], k))
+                result.push_back({things[k], true});
         if (!result.empty()) return result;
     }
     for (const std::string& thing : things) result.push_back({thing, things.size() == 1});
@@ -107,15 +108,16 @@ std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
             if (component >= 0)
                 add_component(result, point, vector, component);
             else
-                result.push_back(
-                    {.text = fmt::format("sqrt(dot({0}({1}),{0}({1})))", vector, point.name), .named = point.named});
+                result.push_back({.text = fmt::format("sqrt(dot({0}({1}),{0}({1})))", vector, point.name),
+                                  .named = point.named});
         }
     std::vector<std::string> bodies;
     for (const Body& b : scene.bodies) bodies.push_back(b.name.text);
     if (base == "omega" || base == "Omega")
         for (const Place3& body : matching(bodies, component < 0 ? letter.index : rest)) {
-            const std::string text = fmt::format("dot(omega({0}),{1}({2}))", body.name, axis_names[component < 0 ? 2 : component],
-                                                 component < 0 ? "N" : body.name);
+            const std::string text =
+                fmt::format("dot(omega({0}),{1}({2}))", body.name, axis_names[component < 0 ? 2 : component],
+                            component < 0 ? "N" : body.name);
             result.push_back({.text = text, .named = body.named});
             result.push_back({.text = "-" + text, .named = body.named, .reversed = true});
         }
@@ -126,9 +128,9 @@ std::vector<VectorBinding> vector_bindings_of(const Letter& letter, const Scene&
     std::vector<VectorBinding> result;
     const std::string& base = letter.base;
     const char* const vector = base == "r" || base == "R" || base == "x" || base == "p" || base == "OP" ? "pos"
-                               : base == "v" || base == "V" ? "vel"
-                               : base == "a"                ? "acc"
-                                                            : nullptr;
+                               : base == "v" || base == "V"                                             ? "vel"
+                               : base == "a"                                                            ? "acc"
+                                                                                                        : nullptr;
     if (vector == nullptr) return result;
     for (const Place3& point : points_for(letter.index, scene)) {
         VectorBinding binding{.component = {}, .named = point.named};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What a letter that the scene does not have may stand for: a coordinate or velocity of a point, an angular velocity, a
-/// moment of inertia.
+/// What a letter that the scene does not have may stand for: a coordinate or velocity of a point, an angular
+/// velocity, a moment of inertia.
 ///
 ///     for (const Binding& b : bindings_of({.base = "x", .index = "1"}, scene))
 ///         b.text                    // "dot(pos(M1),ex(N))"
@@ -18,8 +18,8 @@
 namespace alembert {
 
 struct Binding {
-    std::string text;    ///< in the language of claims
-    bool named = false;  ///< whether the index names the point or body, or there is only one
+    std::string text;       ///< in the language of claims
+    bool named = false;     ///< whether the index names the point or body, or there is only one
     bool reversed = false;  ///< whether the axis points the other way: y downwards for y upwards
 };
 

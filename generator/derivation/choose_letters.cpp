@@ -57,7 +57,8 @@ OpenLetters open_letters(const Written& written, const Letters& letters) {
 }
 
 /// Names of the scene that no letter of the derivation is.
-std::vector<std::string> unused(const std::vector<std::string>& names, const Written& written, const Letters& letters) {
+std::vector<std::string> unused(const std::vector<std::string>& names, const Written& written,
+                                const Letters& letters) {
     std::map<Letter, int> all;
     for (const WrittenStatement& statement : written.statements)
         for (const MathPtr& side : statement.sides) collect_letters(*side, all);
@@ -79,7 +80,8 @@ std::vector<Assignment> assignments(const std::vector<Letter>& letters, const st
         std::vector<Assignment> longer;
         for (const Assignment& begun : result) {
             for (const std::string& name : names) {
-                const bool taken = std::any_of(begun.begin(), begun.end(), [&](const auto& pair) { return pair.second == name; });
+                const bool taken =
+                    std::any_of(begun.begin(), begun.end(), [&](const auto& pair) { return pair.second == name; });
                 if (taken) continue;
                 longer.push_back(begun);
                 longer.back().emplace_back(letter, name);
@@ -96,12 +98,14 @@ std::vector<Assignment> assignments(const std::vector<Letter>& letters, const st
 std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) {
     std::set<Letter> result;
     for (const WrittenStatement& statement : written.statements) {
-        if (std::none_of(statement.sides.begin(), statement.sides.end(), [](const MathPtr& side) { return is_accelerated(*side); }))
+        if (std::none_of(statement.sides.begin(), statement.sides.end(),
+                         [](const MathPtr& side) { return is_accelerated(*side); }))
             continue;
         std::map<Letter, int> here;
         for (const MathPtr& side : statement.sides) collect_letters(*side, here);
         for (const auto& [letter, dots] : here)
-            if (const auto name = letters.name_of(letter); name && quantity_of(letter) && !letters.is_of_scene(*name))
+            if (const auto name = letters.name_of(letter);
+                name && quantity_of(letter) && !letters.is_of_scene(*name))
                 result.insert(letter);
     }
     return result;
@@ -132,7 +136,8 @@ void tell_hands(ChosenLetters& chosen, const Written& written) {
         for (const MathPtr& side : statement.sides) collect_letters(*side, all);
     for (const auto& [letter, dots] : all) {
         const auto name = chosen.letters.name_of(letter);
-        if (name && chosen.letters.is_of_scene(*name) && without_lines(identifier_of(letter)) != without_lines(*name))
+        if (name && chosen.letters.is_of_scene(*name) &&
+            without_lines(identifier_of(letter)) != without_lines(*name))
             chosen.told.emplace(shown(letter), *name);
     }
 }
@@ -150,8 +155,8 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
     const Scene& scene = system.scene();
     for (const auto& [text, name] : given) {
         if (!is_name(name, result.letters))
-            throw SceneError(say("the letter {} is said to be '{}', and the scene has no such name; it has {}", text, name,
-                                 fmt::join(result.letters.scene_names(), ", ")),
+            throw SceneError(say("the letter {} is said to be '{}', and the scene has no such name; it has {}",
+                                 text, name, fmt::join(result.letters.scene_names(), ", ")),
                              {});
         result.letters.bind(letter_in(text), name);
         result.told[text] = name;
@@ -169,8 +174,9 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
     for (const Input& i : scene.inputs) parameters.push_back(i.name.text);
     for (const GiNaC::symbol& multiplier : system.equations().lambda) parameters.push_back(multiplier.get_name());
     Assignment best;
-    for (const auto& [letters, names] : {std::pair(open.moving, unused(result.letters.coordinates(), written, result.letters)),
-                                         std::pair(open.constant, unused(parameters, written, result.letters))}) {
+    for (const auto& [letters, names] :
+         {std::pair(open.moving, unused(result.letters.coordinates(), written, result.letters)),
+          std::pair(open.constant, unused(parameters, written, result.letters))}) {
         if (letters.empty() || names.empty()) continue;
         double most = -1e9;
         Assignment chosen;

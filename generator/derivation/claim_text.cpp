@@ -68,7 +68,8 @@ private:
         const std::size_t begin = out().size();
         plain_term(math);
         if (how_.steps != nullptr && may_be_step(math)) {
-            const std::string key = claim_text(math, {.letters = how_.letters, .displacements = how_.displacements}).text;
+            const std::string key =
+                claim_text(math, {.letters = how_.letters, .displacements = how_.displacements}).text;
             if (const auto step = how_.steps->find(key); step != how_.steps->end()) {
                 out().resize(begin);
                 std::erase_if(result_.parts, [&](const ClaimText::Part& part) { return part.begin >= begin; });
@@ -80,7 +81,8 @@ private:
     }
 
     static bool may_be_step(const Math& math) {
-        return math.kind == Kind::rate || math.kind == Kind::partial || (math.kind == Kind::letter && math.dots > 0);
+        return math.kind == Kind::rate || math.kind == Kind::partial ||
+               (math.kind == Kind::letter && math.dots > 0);
     }
 
     void plain_term(const Math& math) {
@@ -131,11 +133,11 @@ private:
     std::string name(const Math& math, bool as_quantity) const {
         if (const auto known = how_.letters.name_of(math.letter, as_quantity)) return *known;
         throw NoMeaning{.reason = say("the letter {} is neither a name of the scene nor defined before",
-                                          fmt::format("'{}'", identifier_of(math.letter))),
-                            .offset = math.offset,
-                            .length = math.length,
-                            .unknown = math.letter,
-                            .dots = math.dots};
+                                      fmt::format("'{}'", identifier_of(math.letter))),
+                        .offset = math.offset,
+                        .length = math.length,
+                        .unknown = math.letter,
+                        .dots = math.dots};
     }
 
     void letter(const Math& math, bool as_quantity) {
@@ -246,7 +248,8 @@ private:
             term(of);
         for (std::size_t k = 1; k < math.args.size(); ++k) {
             out() += ',';
-            if (math.args[k]->kind != Kind::letter) refuse(*math.args[k], say("expected a letter to differentiate by"));
+            if (math.args[k]->kind != Kind::letter)
+                refuse(*math.args[k], say("expected a letter to differentiate by"));
             letter(*math.args[k], false);
         }
         out() += ')';
@@ -260,7 +263,9 @@ private:
                     out() += std::to_string(value->second);
                     return;
                 }
-        refuse(math, say("a virtual displacement has a meaning in the virtual work only, for a coordinate of the scene"));
+        refuse(
+            math,
+            say("a virtual displacement has a meaning in the virtual work only, for a coordinate of the scene"));
     }
 
     void quantity(const Math& math) {
@@ -281,8 +286,8 @@ ClaimText claim_text(const Math& math, const ClaimWriting& writing) {
 }
 
 bool is_accelerated(const Math& math) {
-    return math.dots > 1 ||
-           std::any_of(math.args.begin(), math.args.end(), [](const MathPtr& arg) { return is_accelerated(*arg); });
+    return math.dots > 1 || std::any_of(math.args.begin(), math.args.end(),
+                                        [](const MathPtr& arg) { return is_accelerated(*arg); });
 }
 
 void collect_letters(const Math& math, std::map<Letter, int>& to) {

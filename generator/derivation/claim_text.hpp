@@ -4,7 +4,8 @@
 /// Mathematics as written, in the language of claims.
 ///
 ///     const ClaimText text = claim_text(*math, letters);
-///     text.text                            // "(diff(L,theta'))'" for \frac{d}{dt}\frac{\partial L}{\partial \dot\theta}
+///     text.text                            // "(diff(L,theta'))'" for \frac{d}{dt}\frac{\partial L}{\partial
+///     \dot\theta}
 ///
 /// Each part of the text knows where it stands in the document.
 
@@ -32,9 +33,9 @@ struct ClaimText {
 /// Thrown for what has no meaning as a number in this scene.
 struct NoMeaning {
     std::string reason;
-    std::size_t offset = 0, length = 0;   ///< in the document
-    std::optional<Letter> unknown = {};   ///< the letter that is not known
-    int dots = 0;                         ///< of that letter
+    std::size_t offset = 0, length = 0;  ///< in the document
+    std::optional<Letter> unknown = {};  ///< the letter that is not known
+    int dots = 0;                        ///< of that letter
 };
 
 struct ClaimWriting {
@@ -45,7 +46,8 @@ struct ClaimWriting {
     const std::map<std::string, int>* displacements = nullptr;
     /// For each generalized speed of the scene the rates that change with it, with the names of ∂q'/∂u.
     const std::map<std::string, std::vector<std::pair<std::string, std::string>>>* speeds = nullptr;
-    /// Whether a letter alone is the quantity of mechanics where the scene has this name, too: T = ½ m v² beside a force T.
+    /// Whether a letter alone is the quantity of mechanics where the scene has this name, too: T = ½ m v² beside a
+    /// force T.
     bool alone_is_quantity = false;
 };
 

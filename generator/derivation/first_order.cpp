@@ -27,11 +27,13 @@ std::vector<BaseState> base_states(const Scene& scene) {
     std::vector<BaseState> result{zero};
     if (differ) result.push_back(start);
     for (BaseState& base : result)
-        for (const auto& [name, value] : base.values) base.text += (base.text.empty() ? "" : ", ") + name + " = " + value;
+        for (const auto& [name, value] : base.values)
+            base.text += (base.text.empty() ? "" : ", ") + name + " = " + value;
     return result;
 }
 
-bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_constant, const DerivedSystem& system) {
+bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_constant,
+              const DerivedSystem& system) {
     const Mechanism& m = system.mechanism();
     if (m.z->tree_size(residual) > longest) return false;
     World world(system.scene(), m, system.sheets());
@@ -74,7 +76,8 @@ std::optional<Slip> slip_near(const LineClaim& line, const BaseState& base, cons
     const Judge judge{.is_right =
                           [&](const Claim& changed) {
                               if (--left < 0) return false;
-                              const LineClaim other{.lhs = changed.equation.lhs.text, .rhs = changed.equation.rhs.text};
+                              const LineClaim other{.lhs = changed.equation.lhs.text,
+                                                    .rhs = changed.equation.rhs.text};
                               const auto checked = checked_near(other, base, system, known);
                               return checked && checked->verdict == Verdict::proved;
                           },

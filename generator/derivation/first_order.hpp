@@ -21,12 +21,13 @@ struct BaseState {
 /// All coordinates zero, and those of the scene's start if these are others.
 std::vector<BaseState> base_states(const Scene& scene);
 
-/// Whether `residual`, as a function of the state alone, vanishes up to this order in the deviations from the base state.
-/// `up_to_constant`: its value there does not matter.
-bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool up_to_constant, const DerivedSystem& system);
+/// Whether `residual`, as a function of the state alone, vanishes up to this order in the deviations from the base
+/// state. `up_to_constant`: its value there does not matter.
+bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool up_to_constant,
+              const DerivedSystem& system);
 
-/// Whether the line holds on every motion near the state, to first order; nothing if that cannot be told (the state is no
-/// equilibrium).
+/// Whether the line holds on every motion near the state, to first order; nothing if that cannot be told (the
+/// state is no equilibrium).
 std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
                                          const std::map<std::string, GiNaC::ex>& known);
 

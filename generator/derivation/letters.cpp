@@ -28,8 +28,8 @@ std::string in_latin(const std::string& text) {
     return result;
 }
 
-/// The letters that a person may write for a name, the most likely first: theta1 → θ₁; l_C → l with the index C; mB → the
-/// word mB, or m with the index B.
+/// The letters that a person may write for a name, the most likely first: theta1 → θ₁; l_C → l with the index C;
+/// mB → the word mB, or m with the index B.
 std::vector<Letter> letters_of(const std::string& name) {
     const std::string word = in_latin(name);
     std::vector<Letter> result;
@@ -38,7 +38,8 @@ std::vector<Letter> letters_of(const std::string& name) {
             result.push_back({.base = std::move(base), .index = std::move(index), .raised = {}, .accent = {}});
     };
     const std::size_t line = word.find('_');
-    if (line != std::string::npos && line > 0 && line + 1 < word.size()) add(word.substr(0, line), word.substr(line + 1));
+    if (line != std::string::npos && line > 0 && line + 1 < word.size())
+        add(word.substr(0, line), word.substr(line + 1));
     std::size_t digits = word.size();
     while (digits > 0 && is_digit_at(word, digits - 1)) --digits;
     if (digits > 0 && digits < word.size()) add(word.substr(0, digits), word.substr(digits));
@@ -53,8 +54,10 @@ std::vector<Letter> letters_of(const std::string& name) {
 /// Other hands for the same letter.
 std::vector<std::string> hands_of(const std::string& base) {
     static const std::map<std::string, std::string> plain{
-        {"varphi", "phi"},     {"vartheta", "theta"}, {"varepsilon", "epsilon"}, {"varrho", "rho"}, {"varkappa", "kappa"},
-        {"varsigma", "sigma"}, {"ell", "l"},          {"hbar", "h"},             {"imath", "i"},    {"varpi", "pi"}};
+        {"varphi", "phi"}, {"vartheta", "theta"}, {"varepsilon", "epsilon"},
+        {"varrho", "rho"}, {"varkappa", "kappa"}, {"varsigma", "sigma"},
+        {"ell", "l"},      {"hbar", "h"},         {"imath", "i"},
+        {"varpi", "pi"}};
     std::vector<std::string> result{base};
     for (const auto& [variant, letter] : plain) {
         if (variant == base) result.push_back(letter);
@@ -82,8 +85,10 @@ std::optional<MechanicalQuantity> quantity_of(const Letter& letter) {
     const bool plain = is_one_of(letter.accent, {"", "mathcal", "mathrm", "mathscr", "mathit"});
     if (!plain || !letter.raised.empty()) return std::nullopt;
     const std::string& base = letter.base;
-    if (is_one_of(base, {"E", "W"}) && is_one_of(index, {"k", "K", "kin", "kinetic", "c"})) return MechanicalQuantity::kinetic;
-    if (is_one_of(base, {"E", "W"}) && is_one_of(index, {"p", "P", "pot", "potential"})) return MechanicalQuantity::potential;
+    if (is_one_of(base, {"E", "W"}) && is_one_of(index, {"k", "K", "kin", "kinetic", "c"}))
+        return MechanicalQuantity::kinetic;
+    if (is_one_of(base, {"E", "W"}) && is_one_of(index, {"p", "P", "pot", "potential"}))
+        return MechanicalQuantity::potential;
     if (is_one_of(index, {"", "tot", "total", "sys", "system"})) {
         if (is_one_of(base, {"T", "K", "KE"})) return MechanicalQuantity::kinetic;
         if (is_one_of(base, {"V", "U", "PE", "Pi"})) return MechanicalQuantity::potential;
@@ -99,7 +104,8 @@ std::optional<MechanicalQuantity> quantity_of(const Letter& letter) {
 
 std::string identifier_of(const Letter& letter) {
     std::string result = letter.base;
-    if (!letter.accent.empty() && !is_one_of(letter.accent, {"mathrm", "mathit", "mathbf", "boldsymbol", "mathcal"}))
+    if (!letter.accent.empty() &&
+        !is_one_of(letter.accent, {"mathrm", "mathit", "mathbf", "boldsymbol", "mathcal"}))
         result += "_" + letter.accent;
     if (letter.raised == "*") result += "_star";
     for (const std::string* part : {&letter.index, &letter.raised}) {
@@ -140,7 +146,8 @@ Letters::Letters(const Scene& scene) {
     // A name that is written exactly so comes before one that another hand would write so.
     std::vector<std::vector<Letter>> all;
     std::size_t most = 0;
-    for (const std::string& name : scene_names_) all.push_back(letters_of(name)), most = std::max(most, all.back().size());
+    for (const std::string& name : scene_names_)
+        all.push_back(letters_of(name)), most = std::max(most, all.back().size());
     for (std::size_t rank = 0; rank < most; ++rank) {
         std::size_t k = 0;
         for (const std::string& name : scene_names_) {
@@ -157,7 +164,9 @@ void Letters::bind(const Letter& letter, const std::string& name) {
 
 std::optional<std::string> Letters::in_scene(const Letter& letter) const {
     for (const bool with_accent : {true, false}) {
-        if (!with_accent && !is_one_of(letter.accent, {"mathrm", "mathit", "mathbf", "boldsymbol", "bar", "tilde"})) break;
+        if (!with_accent &&
+            !is_one_of(letter.accent, {"mathrm", "mathit", "mathbf", "boldsymbol", "bar", "tilde"}))
+            break;
         for (const std::string& base : hands_of(letter.base)) {
             const Letter plain{.base = base,
                                .index = index_word(letter.index),
@@ -177,7 +186,8 @@ std::optional<std::string> Letters::in_scene(const Letter& letter) const {
 std::optional<std::string> Letters::of_mechanics(const Letter& letter) const {
     const std::optional<MechanicalQuantity> quantity = quantity_of(letter);
     if (!quantity || open_.contains(letter)) return std::nullopt;
-    if (*quantity != MechanicalQuantity::momentum && *quantity != MechanicalQuantity::force) return name_of(*quantity);
+    if (*quantity != MechanicalQuantity::momentum && *quantity != MechanicalQuantity::force)
+        return name_of(*quantity);
     const std::string coordinate = coordinate_of(letter.index);
     if (coordinate.empty()) return std::nullopt;
     const std::string name = (*quantity == MechanicalQuantity::momentum ? "p_" : "Q_") + coordinate;

@@ -5,10 +5,12 @@
 ///
 ///     Letters letters(scene);
 ///     letters.name_of({.base = "theta", .index = "1"})      // "theta1" or "theta_1", as the scene has it
-///     letters.name_of({.base = "L"})                        // "L", the Lagrangian, unless the scene has this name
+///     letters.name_of({.base = "L"})                        // "L", the Lagrangian, unless the scene has this
+///     name
 ///
-/// A letter is what the user says, else what the derivation has defined, else the name of the scene that is written
-/// so, else one of mechanics' own letters, else a name of the scene in another hand (\varphi for phi, \ell for l).
+/// A letter is what the user says, else what the derivation has defined, else the name of the scene that is
+/// written so, else one of mechanics' own letters, else a name of the scene in another hand (\varphi for phi, \ell
+/// for l).
 
 #include <map>
 #include <optional>
@@ -40,8 +42,8 @@ public:
     void release(const Letter& letter) { bound_.erase(letter); }
     /// From now on it is none of mechanics' own letters: T is a tension here.
     void leave_open(const Letter& letter) { open_.insert(letter); }
-    /// The name that claims have for it; nothing if it is not known. `as_quantity`: where it stands it can only be a
-    /// quantity of mechanics (∂L/∂q'), even if the scene has a length of this name.
+    /// The name that claims have for it; nothing if it is not known. `as_quantity`: where it stands it can only be
+    /// a quantity of mechanics (∂L/∂q'), even if the scene has a length of this name.
     std::optional<std::string> name_of(const Letter& letter, bool as_quantity = false) const;
 
     bool is_function(const std::string& name) const { return functions_.contains(name); }

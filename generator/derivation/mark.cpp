@@ -45,7 +45,8 @@ Marked mark(Scene scene, Written written, const MarkOptions& options) {
 Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) {
     Marked result{.written = std::move(written)};
     std::map<std::string, std::string> letters = options.letters;
-    for (const WrittenLetter& letter : system.scene().letters) letters.emplace(letter.written.text, letter.name.text);
+    for (const WrittenLetter& letter : system.scene().letters)
+        letters.emplace(letter.written.text, letter.name.text);
     const ChosenLetters chosen = choose_letters(system, result.written, letters);
     Marker marker(system, result.written, chosen.letters);
     marker.run();

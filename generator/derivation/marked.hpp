@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A hand derivation, line by line with a verdict: which line is the first wrong one, what the slip is, and whether the
-/// rest is right given that line.
+/// A hand derivation, line by line with a verdict: which line is the first wrong one, what the slip is, and
+/// whether the rest is right given that line.
 ///
 ///     const Marked marked = mark(scene, read_derivation(text, "homework.tex"));
 ///     marked.lines[*marked.first_mistake].likely->kind
@@ -38,33 +38,34 @@ const char* name_of(LineStatus status);
 /// One equality: `a = b = c` are two.
 struct MarkedLine {
     LineStatus status = LineStatus::undecided;
-    std::size_t statement = 0;  ///< in Written::statements
+    std::size_t statement = 0;           ///< in Written::statements
     std::size_t offset = 0, length = 0;  ///< of its two sides in the document
     int line = 0, column = 0;            ///< from 1
-    std::string source{};                  ///< as written
-    std::string claim{};                   ///< in the scene's language; empty if it was not understood
-    CheckedClaim checked{};               ///< the verdict on the system itself
-    std::string term{};                    ///< the wrong term, in the scene's language; empty if it is not known
+    std::string source{};                ///< as written
+    std::string claim{};                 ///< in the scene's language; empty if it was not understood
+    CheckedClaim checked{};              ///< the verdict on the system itself
+    std::string term{};                  ///< the wrong term, in the scene's language; empty if it is not known
     std::size_t term_offset = 0, term_length = 0;  ///< of the wrong term in the document; length 0 if not known
-    std::string right{};                   ///< the right line, in the scene's language; empty if it is not known
-    std::string right_latex{};             ///< the same in LaTeX
-    std::optional<std::size_t> follows_from{}; ///< the wrong line, in Marked::lines, that explains this one
+    std::string right{};        ///< the right line, in the scene's language; empty if it is not known
+    std::string right_latex{};  ///< the same in LaTeX
+    std::optional<std::size_t> follows_from{};  ///< the wrong line, in Marked::lines, that explains this one
     std::string reason{};                       ///< in words, if there is something to explain
 };
 
 struct Marked {
     Written written{};
-    std::vector<MarkedLine> lines{};            ///< in reading order
+    std::vector<MarkedLine> lines{};  ///< in reading order
     std::optional<std::size_t> first_mistake{};
-    std::vector<std::string> missing{};          ///< rows of the equations of motion that no right line gives: "theta1"
-    bool complete = false;                      ///< whether nothing is missing
+    std::vector<std::string> missing{};  ///< rows of the equations of motion that no right line gives: "theta1"
+    bool complete = false;               ///< whether nothing is missing
     std::map<std::string, std::string> letters{};  ///< as written → in the scene: "\\ell" → "l"
-    std::vector<std::string> remarks{};           ///< what was assumed about letters and what could not be told apart
+    std::vector<std::string> remarks{};  ///< what was assumed about letters and what could not be told apart
 };
 
 struct MarkOptions {
-    std::string by = {};                             ///< a formalism; if empty, the one that a teacher would choose
-    std::map<std::string, std::string> letters = {}; ///< as written → in the scene, over [letters] and what is found
+    std::string by = {};  ///< a formalism; if empty, the one that a teacher would choose
+    std::map<std::string, std::string> letters =
+        {};  ///< as written → in the scene, over [letters] and what is found
 };
 
 class DerivedSystem;

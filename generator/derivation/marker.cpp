@@ -98,7 +98,8 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
     std::map<Letter, int> all;
     collect_letters(lhs, all);
     collect_letters(rhs, all);
-    return std::count_if(all.begin(), all.end(), [&](const auto& item) { return !letters_.name_of(item.first); }) > 1;
+    return std::count_if(all.begin(), all.end(), [&](const auto& item) { return !letters_.name_of(item.first); }) >
+           1;
 }
 
 void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
@@ -127,7 +128,8 @@ void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation 
 
 Marker::Sides Marker::sides_of(const Math& lhs, const Math& rhs) const {
     const ClaimWriting as_is = as_written(), own = as_derived();
-    return {&lhs, &rhs, claim_text(lhs, as_is), claim_text(rhs, as_is), claim_text(lhs, own), claim_text(rhs, own)};
+    return {
+        &lhs, &rhs, claim_text(lhs, as_is), claim_text(rhs, as_is), claim_text(lhs, own), claim_text(rhs, own)};
 }
 
 ClaimWriting Marker::as_written() const {
@@ -135,7 +137,10 @@ ClaimWriting Marker::as_written() const {
 }
 
 ClaimWriting Marker::as_derived() const {
-    return {.letters = letters_, .steps = &own_.steps(), .speeds = &speeds_, .alone_is_quantity = notes_.back().alone_is_quantity};
+    return {.letters = letters_,
+            .steps = &own_.steps(),
+            .speeds = &speeds_,
+            .alone_is_quantity = notes_.back().alone_is_quantity};
 }
 
 ex Marker::own_residual(const Sides& sides) {
@@ -165,7 +170,8 @@ bool Marker::repeats_law(const Sides& sides) const {
     const auto is_law = [&](const std::string& name) {
         const auto is = [&](MechanicalQuantity quantity) { return name == letters_.name_of(quantity); };
         return name.starts_with("Q_") || is(MechanicalQuantity::kinetic) || is(MechanicalQuantity::potential) ||
-               is(MechanicalQuantity::lagrangian) || is(MechanicalQuantity::energy) || is(MechanicalQuantity::hamiltonian);
+               is(MechanicalQuantity::lagrangian) || is(MechanicalQuantity::energy) ||
+               is(MechanicalQuantity::hamiltonian);
     };
     return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_law) ||
            std::any_of(sides.right.names.begin(), sides.right.names.end(), is_law);
@@ -184,7 +190,8 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
     const MotionRow own = rows.row(own_residual(sides));
     if (!is_identity && !repeats_law(sides)) notes_.back().equation = row;
     const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
-    const bool founded = is_identity ? !wrong || rows.is_identity(own) == true : own_.founds(own) || own_.founds(row);
+    const bool founded =
+        is_identity ? !wrong || rows.is_identity(own) == true : own_.founds(own) || own_.founds(row);
     if (founded) return;
     line.status = LineStatus::unfounded;
     line.follows_from = wrong;
@@ -192,9 +199,10 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_of_quantity(line, sides) || is_equilibrium(line, sides) || is_given_value(line, sides) || is_assumption(line, sides) ||
-        holds_with_all_forces(line, sides) || holds_up_to(line, sides, row.residual) ||
-        holds_at_rest(line, sides) || holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
+    if (is_of_quantity(line, sides) || is_equilibrium(line, sides) || is_given_value(line, sides) ||
+        is_assumption(line, sides) || holds_with_all_forces(line, sides) ||
+        holds_up_to(line, sides, row.residual) || holds_at_rest(line, sides) ||
+        holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
         return;
     line.status = LineStatus::mistake;
     if (speaks_of_small_) notes_.back().near = near_;
@@ -261,8 +269,9 @@ bool Marker::speaks_of_law_in_general(const Math& math) const {
     return std::any_of(letters.begin(), letters.end(), [&](const auto& item) {
         const Letter& letter = item.first;
         const bool general = letter.base == "q" || letter.base == "Q" || letter.base == "p";
-        const bool open = letter.index.empty() || letter.index == "i" || letter.index == "j" || letter.index == "k" ||
-                          letter.index == "r" || letter.index == "s" || letter.index == "q" || letter.index == "alpha";
+        const bool open = letter.index.empty() || letter.index == "i" || letter.index == "j" ||
+                          letter.index == "k" || letter.index == "r" || letter.index == "s" ||
+                          letter.index == "q" || letter.index == "alpha";
         return general && open && !letters_.name_of(letter);
     });
 }

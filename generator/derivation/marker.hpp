@@ -22,10 +22,10 @@ namespace alembert {
 
 /// What was found about a line while it was judged.
 struct LineNotes {
-    LineClaim claim = {};            ///< empty where there is none
+    LineClaim claim = {};  ///< empty where there is none
     ClaimText left = {}, right = {};
-    bool alone_is_quantity = false;  ///< as in ClaimWriting
-    std::optional<BaseState> near = {};  ///< about which the derivation linearizes there
+    bool alone_is_quantity = false;          ///< as in ClaimWriting
+    std::optional<BaseState> near = {};      ///< about which the derivation linearizes there
     std::optional<MotionRow> equation = {};  ///< set if it is a right equation of motion, written out
     /// Names with the values that the derivation has stated, if some that stand in the line are wrong.
     std::map<std::string, GiNaC::ex> own = {};
@@ -121,10 +121,11 @@ private:
     std::map<Letter, Components> vectors_;    ///< letters that are vectors, with the letters of their components
     std::vector<LineNotes> notes_;            ///< one for each line
     std::map<std::string, std::vector<std::pair<std::string, std::string>>> speeds_;  ///< as in ClaimWriting
-    std::set<Letter> ahead_;      ///< letters that a later line introduces, and that were used before it
-    std::set<Letter> roaming_;    ///< letters that were found for a body, as v_x is that of each body in turn
-    std::string spoken_;          ///< the body of which the words speak
-    bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false, speaks_of_period_ = false;
+    std::set<Letter> ahead_;    ///< letters that a later line introduces, and that were used before it
+    std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
+    std::string spoken_;        ///< the body of which the words speak
+    bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
+         speaks_of_period_ = false;
     const WrittenStatement* statement_ = nullptr;
     std::optional<BaseState> near_;  ///< about which the derivation linearizes, once a line has shown it
     bool speaks_of_small_ = false;   ///< whether the derivation has begun to linearize

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Letters that a derivation introduces: points and velocities of the scene, constants of the motion, abbreviations.
+// Letters that a derivation introduces: points and velocities of the scene, constants of the motion,
+// abbreviations.
 #include "derivation/marker.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +28,9 @@ struct Lone {
 
 Lone lone_letter(const Math& side) {
     if (side.kind == Kind::letter && side.dots == 0) return {&side, 1};
-    const bool is_power = side.kind == Kind::power && side.args[0]->kind == Kind::letter && side.args[0]->dots == 0 &&
-                          side.args[1]->kind == Kind::number && side.args[1]->text == "2";
+    const bool is_power = side.kind == Kind::power && side.args[0]->kind == Kind::letter &&
+                          side.args[0]->dots == 0 && side.args[1]->kind == Kind::number &&
+                          side.args[1]->text == "2";
     return is_power ? Lone{side.args[0].get(), 2} : Lone{};
 }
 
@@ -60,18 +62,24 @@ std::vector<Binding> Marker::bindings(const Letter& letter) const {
     return own.empty() ? all : own;
 }
 
-/// The body or particle that stands in the words before a statement. Letters such as v_x that had been found for another one
-/// are open again then.
+/// The body or particle that stands in the words before a statement. Letters such as v_x that had been found for
+/// another one are open again then.
 void Marker::hear(const std::string& words) {
-    if (std::none_of(words.begin(), words.end(), [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; })) return;
+    if (std::none_of(words.begin(), words.end(),
+                     [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }))
+        return;
     std::string spoken;
     const auto look_for = [&](const std::string& name) {
-        const auto is_part_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+        const auto is_part_of_word = [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+        };
         for (std::size_t at = words.find(name); at != std::string::npos; at = words.find(name, at + 1)) {
             const std::size_t end = at + name.size();
-            const bool alone = name.size() > 1 || (at > 4 && (words.compare(at - 5, 5, "body ") == 0 ||
-                                                              (at > 8 && words.compare(at - 9, 9, "particle ") == 0)));
-            if (alone && (at == 0 || !is_part_of_word(words[at - 1])) && (end == words.size() || !is_part_of_word(words[end])))
+            const bool alone =
+                name.size() > 1 || (at > 4 && (words.compare(at - 5, 5, "body ") == 0 ||
+                                               (at > 8 && words.compare(at - 9, 9, "particle ") == 0)));
+            if (alone && (at == 0 || !is_part_of_word(words[at - 1])) &&
+                (end == words.size() || !is_part_of_word(words[end])))
                 spoken = name;
         }
     };
@@ -84,7 +92,8 @@ void Marker::hear(const std::string& words) {
     }
     spoken_ = spoken;
     const auto says = [&](std::initializer_list<const char*> list) {
-        return std::any_of(list.begin(), list.end(), [&](const char* part) { return words.find(part) != std::string::npos; });
+        return std::any_of(list.begin(), list.end(),
+                           [&](const char* part) { return words.find(part) != std::string::npos; });
     };
     at_rest_of_rates_ = false;
     speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
@@ -109,7 +118,8 @@ bool Marker::introduce_ahead(const Letter& letter) {
         if (&statement <= statement_) continue;
         for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
             for (const bool turned : {false, true}) {
-                const Math &side = *statement.sides[turned ? k + 1 : k], &value = *statement.sides[turned ? k : k + 1];
+                const Math &side = *statement.sides[turned ? k + 1 : k],
+                           &value = *statement.sides[turned ? k : k + 1];
                 const Lone lone = lone_letter(side);
                 if (lone.letter == nullptr || lone.letter->letter != letter) continue;
                 if (of_motion && !is_constant(value)) continue;  // a force, which the equation itself determines
@@ -136,10 +146,11 @@ bool Marker::bind_to_part(const Letter& letter) {
     if (!part) return false;
     const std::string name = bind(letter, *part);
     const bool of_force = letter.base == "Q" && !letter.raised.empty() && letter.raised != "*";
-    const std::string whole = letter.base == "T" || letter.base == "K"   ? letters_.name_of(MechanicalQuantity::kinetic)
-                              : letter.base == "V" || letter.base == "U" ? letters_.name_of(MechanicalQuantity::potential)
-                              : of_force ? "Q_" + letters_.coordinate_of(letter.index)
-                                         : "";
+    const std::string whole =
+        letter.base == "T" || letter.base == "K"   ? letters_.name_of(MechanicalQuantity::kinetic)
+        : letter.base == "V" || letter.base == "U" ? letters_.name_of(MechanicalQuantity::potential)
+        : of_force                                 ? "Q_" + letters_.coordinate_of(letter.index)
+                                                   : "";
     if (!whole.empty()) own_.count_as_part(name, whole, *part);
     return true;
 }
@@ -168,7 +179,8 @@ bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
 bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text) {
     const Mechanism& m = system_.mechanism();
     const ex value = truth_.value(text.text);
-    if (m.z->depends(value, m.qddot) || (!m.z->depends(value, m.qdot) && !is_word_for_constant(letter.letter))) return false;
+    if (m.z->depends(value, m.qddot) || (!m.z->depends(value, m.qdot) && !is_word_for_constant(letter.letter)))
+        return false;
     const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
     const bool holds = system_.rows().holds(rate) == true;
     if (!holds && !is_word_for_constant(letter.letter)) return false;
@@ -181,8 +193,8 @@ bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const C
     return true;
 }
 
-/// x_1 = l sin θ: a letter for a point's place, a speed, an angular velocity. Right if one of those of the scene is this;
-/// wrong if the index says which one it is and it is not.
+/// x_1 = l sin θ: a letter for a point's place, a speed, an angular velocity. Right if one of those of the scene
+/// is this; wrong if the index says which one it is and it is not.
 bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
     const ClaimText text = claim_text(rhs, {.letters = letters_}),
                     own = claim_text(rhs, {.letters = letters_, .steps = &own_.steps()});
@@ -193,7 +205,8 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         const ex stated = own_.value(own.text);
         roaming_.insert(letter.letter);
         const std::string name = bind(letter.letter, truth);
-        own_.state(name, GiNaC::pow(stated, GiNaC::numeric(1, power)), right ? std::nullopt : std::optional(lines.size()));
+        own_.state(name, GiNaC::pow(stated, GiNaC::numeric(1, power)),
+                   right ? std::nullopt : std::optional(lines.size()));
         line.status = right ? LineStatus::right : LineStatus::mistake;
         const std::string left = power == 1 ? name : name + "^2";
         line.claim = left + " = " + text.text;
@@ -202,7 +215,8 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         return true;
     };
     for (const Binding& binding : bindings(letter.letter)) {
-        const ex here = truth_.value(binding.text), truth = at_rest_of_rates_ ? system_.without_accelerations(here) : here;
+        const ex here = truth_.value(binding.text),
+                 truth = at_rest_of_rates_ ? system_.without_accelerations(here) : here;
         const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
         if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, true);
         if (binding.named && !named) named = truth;
@@ -216,8 +230,8 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
     return tell(*named, false);
 }
 
-/// A letter that stands among others: one of the scene's places and speeds with which the line is right, or a force that the
-/// line determines.
+/// A letter that stands among others: one of the scene's places and speeds with which the line is right, or a
+/// force that the line determines.
 bool Marker::find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
     if (bind_to_part(letter)) {
         judge(line, lhs, rhs, Relation::equal);
@@ -228,7 +242,8 @@ bool Marker::find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, co
         const std::string name = bind(letter, truth_.value(binding.text));
         try {
             const Sides sides = sides_of(lhs, rhs);
-            const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+            const MotionRow row =
+                system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
             if (system_.rows().holds(row) == true || (binding.named && !spoken_.empty())) {
                 roaming_.insert(letter);
                 judge_pair(line, lhs, rhs);
@@ -260,7 +275,8 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
     const Mechanism& m = system_.mechanism();
     const auto solved = [&](const std::function<ex(const ex&)>& residual) -> std::optional<ex> {
         const ex none = residual(0), slope = residual(1) - none;
-        if (!system_.rows().is_identity(system_.rows().row(residual(2) - none - 2 * slope)).value_or(false)) return std::nullopt;
+        if (!system_.rows().is_identity(system_.rows().row(residual(2) - none - 2 * slope)).value_or(false))
+            return std::nullopt;
         if (m.z->name(slope).is_zero() || m.z->depends(slope, m.qddot)) return std::nullopt;
         return m.z->name(-none / slope);
     };
@@ -286,7 +302,8 @@ void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int p
     const ClaimText text = claim_text(rhs, {.letters = letters_}),
                     own = claim_text(rhs, {.letters = letters_, .steps = &own_.steps()});
     const GiNaC::numeric exponent(1, power);
-    const ex truth = GiNaC::pow(truth_.value(text.text), exponent), stated = GiNaC::pow(own_.value(own.text), exponent);
+    const ex truth = GiNaC::pow(truth_.value(text.text), exponent),
+             stated = GiNaC::pow(own_.value(own.text), exponent);
     const std::optional<std::size_t> wrong = own_.wrong_in(own.names);
     const std::string name = bind(letter.letter, truth);
     own_.state(name, stated, wrong);

@@ -46,7 +46,8 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
     const auto moves = [&](const ClaimText& side) {
-        return std::any_of(side.names.begin(), side.names.end(), [&](const std::string& name) { return letters_.moves(name); });
+        return std::any_of(side.names.begin(), side.names.end(),
+                           [&](const std::string& name) { return letters_.moves(name); });
     };
     if (!moves(sides.left) && !moves(sides.right)) return false;
     line.status = LineStatus::not_about_scene;
@@ -56,7 +57,8 @@ bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
 
 bool Marker::holds_with_all_forces(MarkedLine& line, const Sides& sides) {
     const auto speaks = [](const std::set<std::string>& names) {
-        return std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("Q_"); });
+        return std::any_of(names.begin(), names.end(),
+                           [](const std::string& name) { return name.starts_with("Q_"); });
     };
     if (!speaks(sides.left.names) && !speaks(sides.right.names)) return false;
     const bool before = all_forces_;
@@ -75,7 +77,8 @@ bool Marker::holds_with_all_forces(MarkedLine& line, const Sides& sides) {
 
 bool Marker::follows_with_all_forces(MarkedLine& line, const Sides& sides) {
     const std::set<std::string> names = sides.own_names();
-    if (std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("Q_"); })) return false;
+    if (std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("Q_"); }))
+        return false;
     use_all_forces(!all_forces_);
     if (follows(line, sides)) return true;
     use_all_forces(!all_forces_);
@@ -94,7 +97,8 @@ void Marker::use_all_forces(bool all) {
     }
 }
 
-/// A potential has any zero, and the derivative of a function of coordinates and time changes nothing in a Lagrangian.
+/// A potential has any zero, and the derivative of a function of coordinates and time changes nothing in a
+/// Lagrangian.
 bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residual) {
     const auto speaks_of = [&](std::initializer_list<MechanicalQuantity> list) {  // as what is said to be equal
         return std::any_of(list.begin(), list.end(), [&](MechanicalQuantity quantity) {
@@ -105,7 +109,8 @@ bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residua
     const Mechanism& m = system_.mechanism();
     MotionRows& rows = system_.rows();
     if (m.z->depends(residual, m.qddot)) return false;
-    if (speaks_of({MechanicalQuantity::potential, MechanicalQuantity::energy, MechanicalQuantity::hamiltonian, MechanicalQuantity::lagrangian})) {
+    if (speaks_of({MechanicalQuantity::potential, MechanicalQuantity::energy, MechanicalQuantity::hamiltonian,
+                   MechanicalQuantity::lagrangian})) {
         const ex rate = m.time_derivative({residual})[0];
         if (rows.is_identity(rows.row(rate)) == true) {
             line.status = LineStatus::right_up_to_constant;

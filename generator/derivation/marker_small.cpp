@@ -35,8 +35,8 @@ std::vector<std::pair<std::string, Expression>> parsed(const BaseState& base) {
 
 }  // namespace
 
-/// ω² = g/l, T = 2π √(l/g): a letter for a frequency or a period, in parameters. Judged if the words say so, or once the
-/// derivation has linearized; before that, ω₀² = g/l only gives a name.
+/// ω² = g/l, T = 2π √(l/g): a letter for a frequency or a period, in parameters. Judged if the words say so, or
+/// once the derivation has linearized; before that, ω₀² = g/l only gives a name.
 bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
     const std::string& base = letter.letter.base;
     const bool of_period = (base == "T" || base == "tau" || base == "P") && speaks_of_period_;
@@ -62,7 +62,8 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
         line.reason = say("a frequency of small vibrations about {}", state.text);
         break;
     }
-    if (!known || (line.status != LineStatus::right_near && !speaks_of_frequency_ && !speaks_of_period_)) return false;
+    if (!known || (line.status != LineStatus::right_near && !speaks_of_frequency_ && !speaks_of_period_))
+        return false;
     if (line.status != LineStatus::right_near) {
         line.follows_from = own_.explains_frequency(truth_.value(omega));
         line.status = line.follows_from ? LineStatus::follows : LineStatus::mistake;
@@ -75,7 +76,8 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
     if (is_open) define(line, letter, rhs, power);
     line.status = status;
     line.reason = reason;
-    if (line.claim.empty()) line.claim = identifier_of(letter.letter) + (power == 2 ? "^2" : "") + " = " + text.text;
+    if (line.claim.empty())
+        line.claim = identifier_of(letter.letter) + (power == 2 ? "^2" : "") + " = " + text.text;
     return true;
 }
 
@@ -88,10 +90,12 @@ bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
     };
     const bool left = is_state(*sides.lhs, sides.right), right = is_state(*sides.rhs, sides.left);
     if (!left && !right) return false;
-    const std::string name = left ? sides.left.text : sides.right.text, value = left ? sides.right.text : sides.left.text;
+    const std::string name = left ? sides.left.text : sides.right.text,
+                      value = left ? sides.right.text : sides.left.text;
     const CheckedClaim found =
         check_equilibrium({system_.scene(), system_.mechanism(), {{name, parsed(value)}}, system_.sheets()});
-    if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !speaks_of_rest_)) return false;
+    if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !speaks_of_rest_))
+        return false;
     line.checked = found;
     notes_.back().claim = {};
     line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::mistake;
@@ -118,7 +122,8 @@ bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
         const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_);
         const auto& other = verdicts[0].other_branch;
         const bool on_a_branch = other && other->verdict == Verdict::proved;
-        if (verdicts[0].verdict != Verdict::proved && verdicts[0].verdict != Verdict::vacuous && !on_a_branch) return false;
+        if (verdicts[0].verdict != Verdict::proved && verdicts[0].verdict != Verdict::vacuous && !on_a_branch)
+            return false;
     } catch (const std::exception&) {
         return false;
     }
@@ -134,7 +139,8 @@ bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual
         const std::string name = letters_.name_of(quantity);
         return sides.left.names.contains(name) || sides.right.names.contains(name);
     };
-    const bool of_potential = speaks_of(MechanicalQuantity::potential) || speaks_of(MechanicalQuantity::lagrangian) || speaks_of(MechanicalQuantity::energy);
+    const bool of_potential = speaks_of(MechanicalQuantity::potential) ||
+                              speaks_of(MechanicalQuantity::lagrangian) || speaks_of(MechanicalQuantity::energy);
     const int order = of_potential || speaks_of(MechanicalQuantity::kinetic) ? 2 : 1;
     std::vector<BaseState> bases = near_ ? std::vector<BaseState>{*near_} : base_states(system_.scene());
     for (const BaseState& base : bases) {

@@ -30,7 +30,8 @@ void Marker::take_in(std::size_t s, std::size_t k) {
         MotionRow own = system_.rows().row(own_residual(both));
         if (system_.rows().is_identity(own) == true) return;
         const Mechanism& m = system_.mechanism();
-        if (is_false(line.status) && !m.z->depends(own.residual, m.qddot)) own_.add_relation(own.residual, lines.size() - 1);
+        if (is_false(line.status) && !m.z->depends(own.residual, m.qddot))
+            own_.add_relation(own.residual, lines.size() - 1);
         own_.add_equation(std::move(own), lines.size() - 1, is_false(line.status),
                           line.status == LineStatus::right_near || speaks_of_small_);
     } catch (const NoMeaning&) {  // a side that has no meaning of its own states nothing
@@ -61,8 +62,8 @@ void Marker::take_in_as(const Math& what, const Math& value) {
     if (text.names.contains(name.text)) return;
     const ex stated = own_.value(text.text);
     const LineStatus status = lines.back().status;
-    const bool up_to = status == LineStatus::right_up_to_constant || status == LineStatus::right_up_to_derivative ||
-                       status == LineStatus::right_near;
+    const bool up_to = status == LineStatus::right_up_to_constant ||
+                       status == LineStatus::right_up_to_derivative || status == LineStatus::right_near;
     MotionRows& rows = system_.rows();
     const ex truth = truth_.value(name.text);
     const bool differs = !up_to && rows.is_identity(rows.row(stated - truth)) != true;
@@ -81,7 +82,8 @@ void Marker::take_in_as(const Math& what, const Math& value) {
     else
         own_.state_step(name.text, stated, wrong);
     if (what.kind == Kind::rate && what.dots == 1)
-        own_.state_rate(own_.value(claim_text(*what.args[0], {.letters = letters_, .steps = &own_.steps()}).text), stated, wrong);
+        own_.state_rate(own_.value(claim_text(*what.args[0], {.letters = letters_, .steps = &own_.steps()}).text),
+                        stated, wrong);
 }
 
 }  // namespace alembert

@@ -86,7 +86,8 @@ std::optional<Marker::Components> Marker::components(const Math& math) const {
             auto of = components(*math.args[0]);
             if (!of) return std::nullopt;
             for (MathPtr& part : *of)
-                if (part->kind != Kind::number || part->text != "0") part = made(math.kind, {part}, math, math.dots);
+                if (part->kind != Kind::number || part->text != "0")
+                    part = made(math.kind, {part}, math, math.dots);
             return of;
         }
         case Kind::sum: {
@@ -96,7 +97,8 @@ std::optional<Marker::Components> Marker::components(const Math& math) const {
                 if (!of) return std::nullopt;
                 for (std::size_t k = 0; k < 3; ++k) {
                     const bool zero = (*of)[k]->kind == Kind::number && (*of)[k]->text == "0";
-                    if (!zero) result[k] = result[k] == nothing ? (*of)[k] : made(Kind::sum, {result[k], (*of)[k]}, math);
+                    if (!zero)
+                        result[k] = result[k] == nothing ? (*of)[k] : made(Kind::sum, {result[k], (*of)[k]}, math);
                 }
             }
             return result;
@@ -153,8 +155,7 @@ bool Marker::bind_vector(const Math& letter, const Components& value) {
         Letter part = letter.letter;
         part.accent.clear();
         part.index += (part.index.empty() ? "" : ",") + std::string(1, "xyz"[k]);
-        const ex truth =
-            truth_.value(chosen ? (*chosen)[k] : claim_text(*value[k], {.letters = letters_}).text);
+        const ex truth = truth_.value(chosen ? (*chosen)[k] : claim_text(*value[k], {.letters = letters_}).text);
         bind(part, truth);
         parts.push_back(letter_of(part, letter));
     }
@@ -162,7 +163,8 @@ bool Marker::bind_vector(const Math& letter, const Components& value) {
     return chosen.has_value();
 }
 
-/// B_1 = (1, 0, 0, r): a column of more than three numbers is no vector of space, and says nothing that can be judged.
+/// B_1 = (1, 0, 0, r): a column of more than three numbers is no vector of space, and says nothing that can be
+/// judged.
 bool Marker::is_column(MarkedLine& line, const Math& lhs, const Math& rhs) const {
     const bool column = rhs.kind == Kind::vector || rhs.kind == Kind::matrix;
     if (!column || lhs.kind != Kind::letter) return false;
@@ -180,7 +182,8 @@ bool Marker::judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs) {
     if (!left || !right) {
         const bool may_bind = open.kind == Kind::letter && open.dots == 0 && !letters_.name_of(open.letter);
         if (!may_bind)
-            throw NoMeaning{.reason = say("a vector stands on one side only"), .offset = open.offset, .length = open.length};
+            throw NoMeaning{
+                .reason = say("a vector stands on one side only"), .offset = open.offset, .length = open.length};
         is_defined = bind_vector(open, left ? *left : *right);
         left = components(lhs);
         right = components(rhs);

@@ -16,8 +16,8 @@ bool is_checked(LineStatus status) {
 }
 
 /// The verdicts together; where that fails, of each claim alone.
-std::vector<CheckedClaim> verdicts_on(const std::vector<LineClaim>& claims, const std::map<std::string, GiNaC::ex>& known,
-                                      const DerivedSystem& system) {
+std::vector<CheckedClaim> verdicts_on(const std::vector<LineClaim>& claims,
+                                      const std::map<std::string, GiNaC::ex>& known, const DerivedSystem& system) {
     if (claims.empty()) return {};
     try {
         return system.check(claims, known);
@@ -83,7 +83,8 @@ std::optional<CheckedClaim> Marker::with_other_forces(const LineClaim& claim) {
     use_all_forces(!all_forces_);
     std::vector<CheckedClaim> verdicts = verdicts_on({claim}, known_, system_);
     use_all_forces(!all_forces_);
-    const bool shows = verdicts[0].verdict == Verdict::refuted && verdicts[0].likely && verdicts[0].likely->kind != "unknown";
+    const bool shows =
+        verdicts[0].verdict == Verdict::refuted && verdicts[0].likely && verdicts[0].likely->kind != "unknown";
     return shows ? std::optional(std::move(verdicts[0])) : std::nullopt;
 }
 
@@ -99,7 +100,8 @@ void Marker::adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict) {
             return;
         case Verdict::proved:
         case Verdict::vacuous:
-            if (line.status == LineStatus::mistake || line.status == LineStatus::undecided) line.status = LineStatus::right;
+            if (line.status == LineStatus::mistake || line.status == LineStatus::undecided)
+                line.status = LineStatus::right;
             return;
     }
     if (line.checked.likely) {
@@ -131,7 +133,8 @@ std::vector<std::string> Marker::missing() {
     MotionRows& rows = system_.rows();
     std::vector<const MotionRow*> right;
     for (std::size_t k = 0; k < lines.size(); ++k)
-        if (notes_[k].equation && (lines[k].status == LineStatus::right || lines[k].status == LineStatus::unfounded))
+        if (notes_[k].equation &&
+            (lines[k].status == LineStatus::right || lines[k].status == LineStatus::unfounded))
             right.push_back(&*notes_[k].equation);
     std::vector<std::string> result;
     if (rows.determine(right)) return result;

@@ -81,7 +81,7 @@ std::optional<bool> MotionRows::holds(const MotionRow& row) const {
 }
 
 std::vector<std::vector<Prime>> MotionRows::matrix(std::size_t state, const std::vector<const MotionRow*>& rows,
-                                                    bool bound) const {
+                                                   bool bound) const {
     std::vector<std::vector<Prime>> result;
     if (bound) result = bound_[state];
     for (const MotionRow* row : rows) result.push_back(*row->at[state]);
@@ -100,7 +100,8 @@ bool MotionRows::follows(const MotionRow& row, const std::vector<const MotionRow
         if (!other->linear) return false;
     bool seen = false;
     for (std::size_t s = 0; s < points_.size(); ++s) {
-        if (!row.at[s] || std::any_of(of.begin(), of.end(), [&](const MotionRow* other) { return !other->at[s]; })) continue;
+        if (!row.at[s] || std::any_of(of.begin(), of.end(), [&](const MotionRow* other) { return !other->at[s]; }))
+            continue;
         std::vector<std::vector<Prime>> rows = matrix(s, of, bound);
         const int before = rank(rows);
         rows.push_back(*row.at[s]);
@@ -113,7 +114,8 @@ bool MotionRows::follows(const MotionRow& row, const std::vector<const MotionRow
 bool MotionRows::determine(const std::vector<const MotionRow*>& rows) const {
     bool seen = false;
     for (std::size_t s = 0; s < points_.size(); ++s) {
-        if (std::any_of(rows.begin(), rows.end(), [&](const MotionRow* row) { return !row->linear || !row->at[s]; }))
+        if (std::any_of(rows.begin(), rows.end(),
+                        [&](const MotionRow* row) { return !row->linear || !row->at[s]; }))
             continue;
         std::vector<std::vector<Prime>> all = matrix(s, rows, true);
         const int before = rank(all);
@@ -129,7 +131,8 @@ bool MotionRows::determine(const std::vector<const MotionRow*>& rows) const {
 
 bool MotionRows::agree(const std::vector<const MotionRow*>& rows, bool bound) const {
     for (std::size_t s = 0; s < points_.size(); ++s) {
-        if (std::any_of(rows.begin(), rows.end(), [&](const MotionRow* row) { return !row->linear || !row->at[s]; }))
+        if (std::any_of(rows.begin(), rows.end(),
+                        [&](const MotionRow* row) { return !row->linear || !row->at[s]; }))
             continue;
         const auto all = matrix(s, rows, bound);
         if (rank(all) > rank_of_slopes(all)) return false;

@@ -11,8 +11,8 @@
 ///
 /// An equation linear in accelerations and multipliers is r* + s·(x − x*) at a state with the accelerations and
 /// multipliers x*; it follows from others where its row (s, r*) is a combination of theirs and of those of the
-/// constraints, (A, 0). States are exact (analysis/exact/motions.hpp), so that a wrong answer has a probability of about
-/// 2⁻⁵⁰ a state. This is enough to mark a line; the verdict on the system itself is that of the check.
+/// constraints, (A, 0). States are exact (analysis/exact/motions.hpp), so that a wrong answer has a probability of
+/// about 2⁻⁵⁰ a state. This is enough to mark a line; the verdict on the system itself is that of the check.
 
 #include <functional>
 #include <memory>
@@ -49,7 +49,8 @@ public:
     bool agree(const std::vector<const MotionRow*>& rows, bool bound = true) const;
 
 private:
-    std::vector<std::vector<Prime>> matrix(std::size_t state, const std::vector<const MotionRow*>& rows, bool bound) const;
+    std::vector<std::vector<Prime>> matrix(std::size_t state, const std::vector<const MotionRow*>& rows,
+                                           bool bound) const;
 
     const Mechanism& m_;
     Lower lower_;

@@ -49,15 +49,16 @@ OwnWorld::Stated OwnWorld::with_parts(const std::string& whole, const ex& truth)
 void OwnWorld::refresh() {
     const Mechanism& m = system_.mechanism();
     laws_[0].reset(), laws_[1].reset();
-    const std::string names[] = {letters_.name_of(MechanicalQuantity::kinetic), letters_.name_of(MechanicalQuantity::potential),
-                                 letters_.name_of(MechanicalQuantity::lagrangian), letters_.name_of(MechanicalQuantity::energy),
-                                 letters_.name_of(MechanicalQuantity::hamiltonian)};
+    const std::string names[] = {
+        letters_.name_of(MechanicalQuantity::kinetic), letters_.name_of(MechanicalQuantity::potential),
+        letters_.name_of(MechanicalQuantity::lagrangian), letters_.name_of(MechanicalQuantity::energy),
+        letters_.name_of(MechanicalQuantity::hamiltonian)};
     const bool has_parts = !m.given_lagrangian;
     const Stated T = stated_or(names[0], with_parts(names[0], m.kinetic_energy())),
                  V = stated_or(names[1], with_parts(names[1], m.potential_energy()));
     const bool apart = has_parts || (stated_.contains(names[0]) && stated_.contains(names[1]));
-    const Stated L = stated_or(
-        names[2], apart ? Stated{m.z->name(T.value - V.value), later(T.wrong, V.wrong)} : Stated{m.lagrangian(), {}});
+    const Stated L = stated_or(names[2], apart ? Stated{m.z->name(T.value - V.value), later(T.wrong, V.wrong)}
+                                               : Stated{m.lagrangian(), {}});
     if (apart || stated_.contains(names[0])) know(names[0], T);
     if (apart || stated_.contains(names[1])) know(names[1], V);
     know(names[2], L);
@@ -73,8 +74,9 @@ void OwnWorld::refresh() {
     }
     if (apart) know(names[3], stated_or(names[3], {m.z->name(T.value + V.value), later(T.wrong, V.wrong)}));
     know(names[4], stated_or(names[4], {m.z->name(GiNaC::add(action) - L.value), wrong}));
-    const std::vector<ex> forces = system_.forces(false),
-                          slopes = apart && all_forces_ ? m.z->pull_back({{V.value, 1}}, m.q) : std::vector<ex>(m.q.size(), 0);
+    const std::vector<ex> forces = system_.forces(false), slopes = apart && all_forces_
+                                                                       ? m.z->pull_back({{V.value, 1}}, m.q)
+                                                                       : std::vector<ex>(m.q.size(), 0);
     for (int i = 0; i < m.size(); ++i) {
         const std::string name = "Q_" + m.q[i].get_name();
         if (letters_.is_of_scene(name)) continue;
@@ -121,7 +123,8 @@ std::optional<OwnWorld::Stated> OwnWorld::rate_of(const ex& value) const {
 std::optional<std::size_t> OwnWorld::wrong_in(const std::set<std::string>& names) const {
     std::optional<std::size_t> result;
     for (const std::string& name : names)
-        if (const auto found = known_.find(name); found != known_.end()) result = later(result, found->second.wrong);
+        if (const auto found = known_.find(name); found != known_.end())
+            result = later(result, found->second.wrong);
     return result;
 }
 
@@ -144,7 +147,8 @@ std::optional<OwnWorld::Stated> OwnWorld::step(const std::string& text) const {
 OwnWorld::Law OwnWorld::law_of(int i, bool with_reactions) {
     const Mechanism& m = system_.mechanism();
     const std::string q = m.q[i].get_name(), p = "p_" + q;
-    const std::string T = letters_.name_of(MechanicalQuantity::kinetic), V = letters_.name_of(MechanicalQuantity::potential),
+    const std::string T = letters_.name_of(MechanicalQuantity::kinetic),
+                      V = letters_.name_of(MechanicalQuantity::potential),
                       L = letters_.name_of(MechanicalQuantity::lagrangian);
     const auto partial = [&](const std::string& of, const std::string& by) {
         return fmt::format("diff({},{})", of, by);
@@ -232,7 +236,8 @@ std::vector<const OwnWorld::OwnEquation*> OwnWorld::consistent(bool near, bool b
 std::optional<std::size_t> OwnWorld::explained_by(const MotionRow& row, bool near) {
     MotionRows& rows = system_.rows();
     for (auto equation = equations_.rbegin(); equation != equations_.rend(); ++equation)
-        if (equation->is_wrong && (near || !equation->is_near) && rows.follows(row, {&equation->row})) return equation->line;
+        if (equation->is_wrong && (near || !equation->is_near) && rows.follows(row, {&equation->row}))
+            return equation->line;
     std::vector<const MotionRow*> given;
     std::optional<std::size_t> wrong;
     for (const bool with_reactions : {true, false}) {
@@ -241,7 +246,8 @@ std::optional<std::size_t> OwnWorld::explained_by(const MotionRow& row, bool nea
         for (const Law& law : laws(with_reactions)) given.push_back(&law.row), wrong = later(wrong, law.wrong);
         if (wrong && rows.follows(row, given)) return wrong;
     }
-    for (const bool bound : {true, false}) {  // also where the derivation's own constraints take the place of the scene's
+    for (const bool bound :
+         {true, false}) {  // also where the derivation's own constraints take the place of the scene's
         given.clear();
         wrong.reset();
         for (const OwnEquation* equation : consistent(near, bound)) {
@@ -265,7 +271,8 @@ std::optional<std::size_t> OwnWorld::explains_frequency(const ex& square) {
         const std::vector<ex> inertia = m.z->pull_back({{equation->row.residual, 1}}, m.qddot),
                               stiffness = m.z->pull_back({{equation->row.residual, 1}}, m.q);
         for (std::size_t i = 0; i < n; ++i)
-            rows(static_cast<unsigned>(found), static_cast<unsigned>(i)) = m.z->expand(stiffness[i] - square * inertia[i]);
+            rows(static_cast<unsigned>(found), static_cast<unsigned>(i)) =
+                m.z->expand(stiffness[i] - square * inertia[i]);
         if (equation->is_wrong) wrong = later(wrong, equation->line);
         ++found;
     }

@@ -7,8 +7,8 @@
 ///     own.state("L", value, 3);            // line 3 states L, wrongly
 ///     own.explained_by(row)                // 3 for an equation that Lagrange's equations give with this L
 ///
-/// What the derivation does not state is as it is in the system, and what follows from its own values follows: L is T − V,
-/// p is ∂L/∂q'. Each value knows the wrong line that it comes from, if there is one.
+/// What the derivation does not state is as it is in the system, and what follows from its own values follows: L
+/// is T − V, p is ∂L/∂q'. Each value knows the wrong line that it comes from, if there is one.
 
 #include <map>
 #include <optional>
@@ -46,13 +46,15 @@ public:
 
     /// A relation between coordinates and rates that is wrong, solved for one of the rates.
     void add_relation(const GiNaC::ex& residual, std::size_t line);
-    /// The latest wrong relation without which `residual` would not vanish; nothing if it does not vanish with them.
+    /// The latest wrong relation without which `residual` would not vanish; nothing if it does not vanish with
+    /// them.
     std::optional<std::size_t> explained_by_relations(const GiNaC::ex& residual);
 
-    /// The wrong line that explains a row: Lagrange's equations with the derivation's own quantities give it, or its own
-    /// equations do. `near`: whether equations near an equilibrium count.
+    /// The wrong line that explains a row: Lagrange's equations with the derivation's own quantities give it, or
+    /// its own equations do. `near`: whether equations near an equilibrium count.
     std::optional<std::size_t> explained_by(const MotionRow& row, bool near);
-    /// The wrong line that explains this ω²: the derivation's own equations near an equilibrium have this frequency.
+    /// The wrong line that explains this ω²: the derivation's own equations near an equilibrium have this
+    /// frequency.
     std::optional<std::size_t> explains_frequency(const GiNaC::ex& square);
     /// Whether a right equation follows from the derivation's own quantities or equations, or these are all right.
     bool founds(const MotionRow& row);

@@ -69,7 +69,8 @@ std::optional<ex> part_named(const Letter& letter, const Letters& letters, const
     if (base == "T" || base == "K") return sum_of(m.kinetic, word, m);
     if (base == "V" || base == "U") return sum_of(m.potential, word, m);
     const std::string name = letters.coordinate_of(letter.index);
-    const auto q = std::find_if(m.q.begin(), m.q.end(), [&](const GiNaC::symbol& s) { return s.get_name() == name; });
+    const auto q =
+        std::find_if(m.q.begin(), m.q.end(), [&](const GiNaC::symbol& s) { return s.get_name() == name; });
     if (name.empty() || q == m.q.end()) return std::nullopt;
     const auto i = static_cast<std::size_t>(q - m.q.begin());
     const bool starred = letter.raised == "*" || letter.raised == "\\ast";

@@ -32,7 +32,8 @@ std::vector<ex> DerivedSystem::forces(bool with_potential) const {
 
 ex DerivedSystem::reaction(int i) const {
     GiNaC::exvector terms;
-    for (std::size_t k = 0; k < e_.A.size(); ++k) terms.push_back(e_.A[k][static_cast<std::size_t>(i)] * e_.lambda[k]);
+    for (std::size_t k = 0; k < e_.A.size(); ++k)
+        terms.push_back(e_.A[k][static_cast<std::size_t>(i)] * e_.lambda[k]);
     for (const Mechanism::Constraint* c : m_.undetermined())
         terms.push_back(c->row[static_cast<std::size_t>(i)] * c->multiplier);
     return m_.z->name(GiNaC::add(std::move(terms)));
@@ -46,7 +47,8 @@ std::vector<ex> DerivedSystem::euler_lagrange(const ex& function) const {
     return result;
 }
 
-// The rows of the speeds and of the constraints, as far as they are independent in this order, are a square matrix.
+// The rows of the speeds and of the constraints, as far as they are independent in this order, are a square
+// matrix.
 std::vector<ex> DerivedSystem::rates_by_speed(std::size_t speed) const {
     constexpr std::size_t most = 7;
     const std::size_t n = m_.q.size();

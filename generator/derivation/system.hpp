@@ -47,8 +47,8 @@ public:
     /// d/dt ∂L/∂q'_i − ∂L/∂q_i of any function of the state.
     std::vector<GiNaC::ex> euler_lagrange(const GiNaC::ex& function) const;
 
-    /// ∂q'/∂u of the generalized speed at this place in Mechanism::speeds, along motions that the constraints allow; empty if
-    /// the speeds do not determine the rates.
+    /// ∂q'/∂u of the generalized speed at this place in Mechanism::speeds, along motions that the constraints
+    /// allow; empty if the speeds do not determine the rates.
     std::vector<GiNaC::ex> rates_by_speed(std::size_t speed) const;
     /// The expression without accelerations: at q'' = 0.
     GiNaC::ex without_accelerations(const GiNaC::ex& e) const;

@@ -278,7 +278,8 @@ void DocumentReader::dollar() {
     const std::size_t width = is_displayed ? 2 : 1;
     const std::size_t limit = is_displayed ? end_ : paragraph_end(at_);
     std::size_t close = std::string::npos;
-    // In Markdown a $ within a word is none, and one that blanks part from the formula opens the next before a word.
+    // In Markdown a $ within a word is none, and one that blanks part from the formula opens the next before a
+    // word.
     const bool is_strict = markup_ == Markup::markdown && !is_displayed;
     const auto is_blank = [&](std::size_t k) {
         return k >= end_ || text_[k] == ' ' || text_[k] == '\n' || text_[k] == '\t';
@@ -295,8 +296,10 @@ void DocumentReader::dollar() {
                 ++k;
             } else if (text_[k] == '$') {
                 if (is_displayed && text_.compare(k, 2, "$$") != 0) continue;
-                const bool before_word = k + 1 < end_ && std::isalnum(static_cast<unsigned char>(text_[k + 1])) != 0;
-                if (is_strict && is_blank(begin + 1) != is_blank(k - 1) && (before_word || text_[k + 1] == '\\')) continue;
+                const bool before_word =
+                    k + 1 < end_ && std::isalnum(static_cast<unsigned char>(text_[k + 1])) != 0;
+                if (is_strict && is_blank(begin + 1) != is_blank(k - 1) && (before_word || text_[k + 1] == '\\'))
+                    continue;
                 close = k;
                 break;
             }
@@ -391,7 +394,8 @@ void DocumentReader::environment() {
         const bool keeps_frame = name == "cases" || name == "array" || name.ends_with("matrix");
         if (name.starts_with("alignat") && at_ < end && text_[at_] == '{')
             at_ = std::min(text_.find('}', at_) + 1, end);
-        formula(keeps_frame ? begin : at_, keeps_frame ? after : end, WrittenNotation::latex, true, is_matter_of_rows);
+        formula(keeps_frame ? begin : at_, keeps_frame ? after : end, WrittenNotation::latex, true,
+                is_matter_of_rows);
     }
     at_ = after;
 }

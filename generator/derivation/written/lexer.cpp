@@ -23,8 +23,8 @@ bool is_written_blank(char c) {
 
 }  // namespace
 
-WrittenLexer::WrittenLexer(std::string_view text, std::size_t offset, WrittenNotation notation, TokenContext& context,
-                           std::vector<WrittenToken>& list)
+WrittenLexer::WrittenLexer(std::string_view text, std::size_t offset, WrittenNotation notation,
+                           TokenContext& context, std::vector<WrittenToken>& list)
     : text_(text), offset_(offset), notation_(notation), context_(context), list_(list) {}
 
 void WrittenLexer::run() {

@@ -294,8 +294,9 @@ MathPtr MathParser::primary() {
 /// Whether (t) follows a rate.
 bool MathParser::is_at_time(const Math& rate) const {
     const bool is_rate = rate.kind == Math::Kind::rate || (rate.kind == Math::Kind::letter && rate.dots > 0);
-    return is_rate && kind(at_) == Kind::open && kind(at_ + 1) == Kind::letter && token(at_ + 1).letter.base == "t" &&
-           token(at_ + 1).letter.index.empty() && kind(at_ + 2) == Kind::close;
+    return is_rate && kind(at_) == Kind::open && kind(at_ + 1) == Kind::letter &&
+           token(at_ + 1).letter.base == "t" && token(at_ + 1).letter.index.empty() &&
+           kind(at_ + 2) == Kind::close;
 }
 
 MathPtr MathParser::after_it(MathPtr result, std::size_t begin) {
