@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "alembert/base/error.hpp"
-#include "derivation/written/read.hpp"
+#include "check/written/read.hpp"
 
 using namespace alembert;
 

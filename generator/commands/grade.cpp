@@ -18,8 +18,8 @@
 #include "alembert/base/error.hpp"
 #include "base/archive/file_form.hpp"
 #include "base/language/say.hpp"
+#include "check/derivation/system.hpp"
 #include "commands/progress.hpp"
-#include "derivation/system.hpp"
 #include "present/report/marked_page.hpp"
 #include "scene/text_file.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "derivation/marked.hpp"
+#include "check/derivation/marked.hpp"
 #include "present/report/gradebook.hpp"
 
 namespace alembert {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "derivation/marked.hpp"
+#include "check/derivation/marked.hpp"
 #include "present/report/ink.hpp"
 #include "present/report/json.hpp"
 

@@ -3,7 +3,7 @@
 
 /// A marked derivation as text and as JSON.
 
-#include "derivation/marked.hpp"
+#include "check/derivation/marked.hpp"
 #include "present/report/ink.hpp"
 #include "present/report/json.hpp"
 

@@ -6,7 +6,7 @@
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "check/slip_words.hpp"
-#include "derivation/written/read.hpp"
+#include "check/written/read.hpp"
 #include "present/report/html.hpp"
 #include "present/report/marked.hpp"
 #include "present/report/page.hpp"

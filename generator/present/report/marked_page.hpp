@@ -4,7 +4,7 @@
 /// A marked derivation as one HTML page that needs nothing else: typeset as written, line by line with its
 /// verdict, the wrong term in colour, the right line beside it. And the pages of a class.
 
-#include "derivation/marked.hpp"
+#include "check/derivation/marked.hpp"
 #include "present/report/gradebook.hpp"
 
 namespace alembert {

@@ -10,7 +10,7 @@
 
 #include <string>
 
-#include "derivation/written/math.hpp"
+#include "check/written/math.hpp"
 
 namespace alembert {
 

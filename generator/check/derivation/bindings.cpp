@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/bindings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace alembert {
+
+namespace {
+
+struct Place3 {
+    std::string name;
+    bool named = false;
+};
+
+std::string plain(const std::string& text) {
+    std::string result;
+    for (const char c : text)
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
+/// Does the index name the k-th thing of this name?
+bool names(const std::string& index, const std::string& name, std::size_t k) {
+    const std::string word = plain(index);
+    if (word.empty()) return false;
+    const std::string full = plain(name);
+    return word == full || word == std::to_string(k + 1) || (!full.empty() && full.substr(0, 1) == word) ||
+           (full.size() > 1 && full.substr(1) == word);
+}
+
+/// The things of the scene, those that the index names alone if there are any.
+std::vector<Place3> matching(const std::vector<std::string>& things, const std::string& index) {
+    std::vector<Place3> result;
+    for (const bool exactly : {true, false}) {
+        for (std::size_t k = 0; k < things.size(); ++k)
+            if (exactly ? plain(index) == plain(things[k]) : names(index, things[k], k))
+                result.push_back({things[k], true});
+        if (!result.empty()) return result;
+    }
+    for (const std::string& thing : things) result.push_back({thing, things.size() == 1});
+    return result;
+}
+
+std::vector<std::string> masses_of(const Scene& scene) {
+    std::vector<std::string> result;
+    for (const Particle& p : scene.particles) result.push_back(p.name.text);
+    for (const Body& b : scene.bodies) result.push_back(b.name.text);
+    return result;
+}
+
+std::vector<Place3> points_for(const std::string& index, const Scene& scene) {
+    const std::vector<std::string> masses = masses_of(scene);
+    std::vector<Place3> result = matching(masses, index);
+    const bool named = !result.empty() && result[0].named;
+    if (named && !plain(index).empty()) return result;
+    std::vector<std::string> points;
+    for (const Point& p : scene.points) points.push_back(p.name.text);
+    const std::vector<Place3> others = matching(points, index);
+    if (!plain(index).empty() && !others.empty() && others[0].named) return others;
+    for (Place3 other : others) {
+        other.named = false;
+        result.push_back(other);
+    }
+    return result;
+}
+
+/// "x" of an index "x" or "1x": the component that it speaks of, and the rest of it.
+std::pair<int, std::string> component_in(const std::string& index) {
+    std::string rest = index;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t at = rest.find("xyz"[axis]);
+        if (at == std::string::npos) continue;
+        rest.erase(at, 1);
+        while (!rest.empty() && (rest.back() == ',' || rest.back() == ' ')) rest.pop_back();
+        if (!rest.empty() && rest.front() == ',') rest.erase(0, 1);
+        return {axis, rest};
+    }
+    return {-1, index};
+}
+
+constexpr const char* axis_names[] = {"ex", "ey", "ez"};
+
+void add_component(std::vector<Binding>& to, const Place3& point, const char* vector, int axis) {
+    const std::string text = fmt::format("dot({}({}),{}(N))", vector, point.name, axis_names[axis]);
+    to.push_back({.text = text, .named = point.named, .reversed = false});
+    to.push_back({.text = "-" + text, .named = point.named, .reversed = true});
+}
+
+}  // namespace
+
+std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
+    std::vector<Binding> result;
+    if (!letter.raised.empty()) return result;
+    const std::string& base = letter.base;
+    const std::size_t axis = base.size() == 1 ? std::string("xyz").find(base[0]) : std::string::npos;
+    const std::size_t capital = base.size() == 1 ? std::string("XYZ").find(base[0]) : std::string::npos;
+    if (axis != std::string::npos || capital != std::string::npos)
+        for (const Place3& point : points_for(letter.index, scene))
+            add_component(result, point, "pos", static_cast<int>(axis != std::string::npos ? axis : capital));
+    const auto [component, rest] = component_in(letter.index);
+    if (base == "v" || base == "a" || base == "r")
+        for (const Place3& point : points_for(component < 0 ? letter.index : rest, scene)) {
+            const char* const vector = base == "v" ? "vel" : base == "a" ? "acc" : "pos";
+            if (component >= 0)
+                add_component(result, point, vector, component);
+            else
+                result.push_back({.text = fmt::format("sqrt(dot({0}({1}),{0}({1})))", vector, point.name),
+                                  .named = point.named});
+        }
+    std::vector<std::string> bodies;
+    for (const Body& b : scene.bodies) bodies.push_back(b.name.text);
+    if (base == "omega" || base == "Omega")
+        for (const Place3& body : matching(bodies, component < 0 ? letter.index : rest)) {
+            const std::string text =
+                fmt::format("dot(omega({0}),{1}({2}))", body.name, axis_names[component < 0 ? 2 : component],
+                            component < 0 ? "N" : body.name);
+            result.push_back({.text = text, .named = body.named});
+            result.push_back({.text = "-" + text, .named = body.named, .reversed = true});
+        }
+    return result;
+}
+
+std::vector<VectorBinding> vector_bindings_of(const Letter& letter, const Scene& scene) {
+    std::vector<VectorBinding> result;
+    const std::string& base = letter.base;
+    const char* const vector = base == "r" || base == "R" || base == "x" || base == "p" || base == "OP" ? "pos"
+                               : base == "v" || base == "V"                                             ? "vel"
+                               : base == "a"                                                            ? "acc"
+                                                                                                        : nullptr;
+    if (vector == nullptr) return result;
+    for (const Place3& point : points_for(letter.index, scene)) {
+        VectorBinding binding{.component = {}, .named = point.named};
+        for (int axis = 0; axis < 3; ++axis)
+            binding.component[axis] = fmt::format("dot({}({}),{}(N))", vector, point.name, axis_names[axis]);
+        result.push_back(std::move(binding));
+    }
+    return result;
+}
+
+}  // namespace alembert

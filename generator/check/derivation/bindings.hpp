@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What a letter that the scene does not have may stand for: a coordinate or velocity of a point, an angular
+/// velocity, a moment of inertia.
+///
+///     for (const Binding& b : bindings_of({.base = "x", .index = "1"}, scene))
+///         b.text                    // "dot(pos(M1),ex(N))"
+///
+/// Those whose point is named by the index, or has its number, come first and alone.
+
+#include <string>
+#include <vector>
+
+#include "check/written/math.hpp"
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+struct Binding {
+    std::string text;       ///< in the language of claims
+    bool named = false;     ///< whether the index names the point or body, or there is only one
+    bool reversed = false;  ///< whether the axis points the other way: y downwards for y upwards
+};
+
+std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene);
+
+/// The points that a vector letter may stand for, \vec r_1 or \mathbf{v}_C: three components each.
+struct VectorBinding {
+    std::string component[3];
+    bool named = false;
+};
+std::vector<VectorBinding> vector_bindings_of(const Letter& letter, const Scene& scene);
+
+}  // namespace alembert

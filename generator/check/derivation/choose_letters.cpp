@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/choose_letters.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "base/language/say.hpp"
+#include "check/derivation/claim_text.hpp"
+#include "check/derivation/marker.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr std::size_t most_trials = 240;
+
+std::string shown(const Letter& letter) {
+    Math math{.kind = Math::Kind::letter};
+    math.letter = letter;
+    return latex(math);
+}
+
+/// The letter that the user means: "\\ell", "θ_1".
+Letter letter_in(const std::string& text) {
+    const Written written = read_derivation("$" + text + " = 0$", "--letters");
+    if (written.statements.size() == 1 && written.statements[0].sides.size() == 2) {
+        const Math& side = *written.statements[0].sides[0];
+        if (side.kind == Math::Kind::letter) return side.letter;
+    }
+    throw SceneError(say("'{}' is not one letter; expected such as \\ell or \\theta_1", text), {});
+}
+
+/// Letters of the derivation that nothing gives a meaning: they stand in no scene, and no line introduces them.
+struct OpenLetters {
+    std::vector<Letter> moving, constant;
+};
+
+OpenLetters open_letters(const Written& written, const Letters& letters) {
+    std::map<Letter, int> all;
+    std::set<Letter> introduced;
+    for (const WrittenStatement& statement : written.statements)
+        for (std::size_t k = 0; k < statement.sides.size(); ++k) {
+            const Math* side = statement.sides[k].get();
+            collect_letters(*side, all);
+            if (side->kind == Math::Kind::power) side = side->args[0].get();
+            if (side->kind == Math::Kind::letter && side->dots == 0 && statement.sides.size() > 1)
+                introduced.insert(side->letter);
+        }
+    OpenLetters result;
+    for (const auto& [letter, dots] : all) {
+        if (letters.name_of(letter) || introduced.contains(letter)) continue;
+        (dots > 0 ? result.moving : result.constant).push_back(letter);
+    }
+    return result;
+}
+
+/// Names of the scene that no letter of the derivation is.
+std::vector<std::string> unused(const std::vector<std::string>& names, const Written& written,
+                                const Letters& letters) {
+    std::map<Letter, int> all;
+    for (const WrittenStatement& statement : written.statements)
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+    std::set<std::string> used;
+    for (const auto& [letter, dots] : all)
+        if (const auto name = letters.name_of(letter)) used.insert(*name);
+    std::vector<std::string> result;
+    for (const std::string& name : names)
+        if (!used.contains(name)) result.push_back(name);
+    return result;
+}
+
+using Assignment = std::vector<std::pair<Letter, std::string>>;
+
+/// All ways to give each letter another name, as long as there are not too many.
+std::vector<Assignment> assignments(const std::vector<Letter>& letters, const std::vector<std::string>& names) {
+    std::vector<Assignment> result{{}};
+    for (const Letter& letter : letters) {
+        std::vector<Assignment> longer;
+        for (const Assignment& begun : result) {
+            for (const std::string& name : names) {
+                const bool taken =
+                    std::any_of(begun.begin(), begun.end(), [&](const auto& pair) { return pair.second == name; });
+                if (taken) continue;
+                longer.push_back(begun);
+                longer.back().emplace_back(letter, name);
+            }
+            longer.push_back(begun);  // or none
+        }
+        if (longer.size() > most_trials) return result;
+        result = std::move(longer);
+    }
+    return result;
+}
+
+/// Letters of mechanics that stand in an equation of motion as forces do: the tension T in m y'' = T − m g.
+std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) {
+    std::set<Letter> result;
+    for (const WrittenStatement& statement : written.statements) {
+        if (std::none_of(statement.sides.begin(), statement.sides.end(),
+                         [](const MathPtr& side) { return is_accelerated(*side); }))
+            continue;
+        std::map<Letter, int> here;
+        for (const MathPtr& side : statement.sides) collect_letters(*side, here);
+        for (const auto& [letter, dots] : here)
+            if (const auto name = letters.name_of(letter);
+                name && quantity_of(letter) && !letters.is_of_scene(*name))
+                result.insert(letter);
+    }
+    return result;
+}
+
+double score_of(DerivedSystem& system, const Written& written, const Letters& letters) {
+    Marker marker(system, written, letters);
+    marker.run();
+    return marker.score();
+}
+
+/// Whether a user may give a letter this name: one of the scene, its rate, or an energy.
+bool is_name(const std::string& name, const Letters& letters) {
+    const std::string stem = name.substr(0, name.find('\''));
+    const bool is_energy = name.size() == 1 && std::string_view("TVLEH").find(name) != std::string_view::npos;
+    return is_energy || letters.is_of_scene(stem);
+}
+
+std::string without_lines(std::string name) {
+    std::erase(name, '_');
+    return name;
+}
+
+/// Tells of letters that are written in another hand than the scene's: \ell for l.
+void tell_hands(ChosenLetters& chosen, const Written& written) {
+    std::map<Letter, int> all;
+    for (const WrittenStatement& statement : written.statements)
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+    for (const auto& [letter, dots] : all) {
+        const auto name = chosen.letters.name_of(letter);
+        if (name && chosen.letters.is_of_scene(*name) &&
+            without_lines(identifier_of(letter)) != without_lines(*name))
+            chosen.told.emplace(shown(letter), *name);
+    }
+}
+
+Letters with(Letters letters, const Assignment& assignment) {
+    for (const auto& [letter, name] : assignment) letters.bind(letter, name);
+    return letters;
+}
+
+}  // namespace
+
+ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
+                             const std::map<std::string, std::string>& given) {
+    ChosenLetters result{.letters = Letters(system.scene()), .told = {}, .remarks = {}};
+    const Scene& scene = system.scene();
+    for (const auto& [text, name] : given) {
+        if (!is_name(name, result.letters))
+            throw SceneError(say("the letter {} is said to be '{}', and the scene has no such name; it has {}",
+                                 text, name, fmt::join(result.letters.scene_names(), ", ")),
+                             {});
+        result.letters.bind(letter_in(text), name);
+        result.told[text] = name;
+    }
+    for (const Letter& letter : perhaps_forces(written, result.letters)) {
+        Letters otherwise = result.letters;
+        otherwise.leave_open(letter);
+        if (score_of(system, written, otherwise) <= score_of(system, written, result.letters)) continue;
+        result.letters = std::move(otherwise);
+        result.remarks.push_back(say("{} is a force here, no energy or momentum", shown(letter)));
+    }
+    const OpenLetters open = open_letters(written, result.letters);
+    std::vector<std::string> parameters;
+    for (const Parameter& p : scene.parameters) parameters.push_back(p.name.text);
+    for (const Input& i : scene.inputs) parameters.push_back(i.name.text);
+    for (const GiNaC::symbol& multiplier : system.equations().lambda) parameters.push_back(multiplier.get_name());
+    Assignment best;
+    for (const auto& [letters, names] :
+         {std::pair(open.moving, unused(result.letters.coordinates(), written, result.letters)),
+          std::pair(open.constant, unused(parameters, written, result.letters))}) {
+        if (letters.empty() || names.empty()) continue;
+        double most = -1e9;
+        Assignment chosen;
+        for (const Assignment& trial : assignments(letters, names)) {
+            Assignment whole = best;
+            whole.insert(whole.end(), trial.begin(), trial.end());
+            const double score = score_of(system, written, with(result.letters, whole));
+            if (score > most) most = score, chosen = whole;
+        }
+        best = chosen;
+    }
+    result.letters = with(std::move(result.letters), best);
+    for (const auto& [letter, name] : best) result.told[shown(letter)] = name;
+    tell_hands(result, written);
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/claim_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/language/say.hpp"
+#include "scene/unit_text.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// How strongly a text holds together: what stands in a power must be an atom, in a product at least a product.
+enum class Bond { sum, product, power, atom };
+
+class Writer {
+public:
+    explicit Writer(const ClaimWriting& writing) : how_(writing) {}
+
+    ClaimText write(const Math& math) {
+        if (how_.alone_is_quantity && math.kind == Kind::letter) {
+            letter(math, true);
+            result_.parts.push_back({0, out().size(), math.offset, math.length});
+        } else {
+            term(math);
+        }
+        return std::move(result_);
+    }
+
+private:
+    using Kind = Math::Kind;
+
+    std::string& out() { return result_.text; }
+
+    [[noreturn]] void refuse(const Math& math, std::string reason) const {
+        throw NoMeaning{.reason = std::move(reason), .offset = math.offset, .length = math.length};
+    }
+
+    static Bond bond(const Math& math) {
+        switch (math.kind) {
+            case Kind::sum:
+            case Kind::negate:
+                return Bond::sum;
+            case Kind::product:
+            case Kind::quotient:
+            case Kind::quantity:
+            case Kind::applied:  // perhaps a product that was written without a sign
+                return Bond::product;
+            case Kind::power:
+                return math.args[0]->kind == Kind::applied ? Bond::product : Bond::power;
+            default:
+                return Bond::atom;
+        }
+    }
+
+    /// In parentheses if it would fall apart.
+    void inside(const Math& math, Bond least) {
+        const bool loose = bond(math) < least;
+        if (loose) out() += '(';
+        term(math);
+        if (loose) out() += ')';
+    }
+
+    void term(const Math& math) {
+        const std::size_t begin = out().size();
+        plain_term(math);
+        if (how_.steps != nullptr && may_be_step(math)) {
+            const std::string key =
+                claim_text(math, {.letters = how_.letters, .displacements = how_.displacements}).text;
+            if (const auto step = how_.steps->find(key); step != how_.steps->end()) {
+                out().resize(begin);
+                std::erase_if(result_.parts, [&](const ClaimText::Part& part) { return part.begin >= begin; });
+                out() += step->second;
+                result_.names.insert(step->second);
+            }
+        }
+        result_.parts.push_back({begin, out().size(), math.offset, math.length});
+    }
+
+    static bool may_be_step(const Math& math) {
+        return math.kind == Kind::rate || math.kind == Kind::partial ||
+               (math.kind == Kind::letter && math.dots > 0);
+    }
+
+    void plain_term(const Math& math) {
+        switch (math.kind) {
+            case Kind::number:
+                out() += math.text;
+                return;
+            case Kind::letter:
+                return letter(math, false);
+            case Kind::call:
+                return call(math);
+            case Kind::applied:
+                return applied(math);
+            case Kind::sum:
+                return sum(math);
+            case Kind::product:
+                for (std::size_t k = 0; k < math.args.size(); ++k) {
+                    if (k > 0) out() += '*';
+                    inside(*math.args[k], Bond::product);
+                }
+                return;
+            case Kind::negate:
+                out() += '-';
+                return inside(*math.args[0], Bond::product);
+            case Kind::quotient:
+                inside(*math.args[0], Bond::product);
+                out() += '/';
+                return inside(*math.args[1], Bond::power);
+            case Kind::power:
+                return power(math);
+            case Kind::rate:
+                out() += '(';
+                term(*math.args[0]);
+                out() += ')' + std::string(static_cast<std::size_t>(math.dots), '\'');
+                return;
+            case Kind::partial:
+                return partial(math);
+            case Kind::variation:
+                return variation(math);
+            case Kind::quantity:
+                return quantity(math);
+            case Kind::vector:
+            case Kind::matrix:
+                refuse(math, say("a vector stands where a number is expected"));
+        }
+    }
+
+    std::string name(const Math& math, bool as_quantity) const {
+        if (const auto known = how_.letters.name_of(math.letter, as_quantity)) return *known;
+        throw NoMeaning{.reason = say("the letter {} is neither a name of the scene nor defined before",
+                                      fmt::format("'{}'", identifier_of(math.letter))),
+                        .offset = math.offset,
+                        .length = math.length,
+                        .unknown = math.letter,
+                        .dots = math.dots};
+    }
+
+    void letter(const Math& math, bool as_quantity) {
+        const std::string known = name(math, as_quantity);
+        result_.names.insert(known);
+        if (math.dots > 0 && !how_.letters.moves(known) && how_.letters.is_of_scene(known))
+            refuse(math, say("'{}' is constant in this scene, and has no rate", known));
+        out() += known + std::string(static_cast<std::size_t>(math.dots), '\'');
+    }
+
+    void call(const Math& math) {
+        static const std::map<std::string, std::string> renamed{{"ln", "log"}, {"sgn", "sign"}};
+        static const std::map<std::string, std::string> inverted{{"cot", "tan"}, {"sec", "cos"}, {"csc", "sin"}};
+        if (const auto of = inverted.find(math.text); of != inverted.end()) {
+            out() += "(1/" + of->second + '(';
+            term(*math.args[0]);
+            out() += "))";
+            return;
+        }
+        const auto other = renamed.find(math.text);
+        arguments(other == renamed.end() ? math.text : other->second, math);
+    }
+
+    void arguments(const std::string& function, const Math& math) {
+        out() += function + '(';
+        for (std::size_t k = 0; k < math.args.size(); ++k) {
+            if (k > 0) out() += ',';
+            term(*math.args[k]);
+        }
+        out() += ')';
+    }
+
+    /// F(t), V(r), L(q, q', t), or a product m(g + a).
+    void applied(const Math& math) {
+        const std::string known = name(math, false);
+        if (how_.letters.is_function(known)) {
+            result_.names.insert(known);
+            return arguments(known, math);
+        }
+        const bool of_scene = how_.letters.is_of_scene(known);
+        const bool is_state = std::all_of(math.args.begin(), math.args.end(), [&](const MathPtr& arg) {
+            if (arg->kind != Kind::letter) return false;
+            const auto name = how_.letters.name_of(arg->letter);
+            return name == "t" || (math.args.size() > 1 || !of_scene);
+        });
+        if (is_state || math.args.size() != 1) return letter(math, false);
+        letter(math, false);
+        out() += '*';
+        inside(*math.args[0], Bond::atom);
+    }
+
+    void sum(const Math& math) {
+        for (std::size_t k = 0; k < math.args.size(); ++k) {
+            const bool minus = math.args[k]->kind == Kind::negate;
+            if (k > 0) out() += minus ? " - " : " + ";
+            if (minus && k == 0) out() += '-';
+            if (minus) {
+                const std::size_t begin = out().size();
+                inside(*math.args[k]->args[0], Bond::product);
+                result_.parts.push_back({begin, out().size(), math.args[k]->offset, math.args[k]->length});
+            } else {
+                inside(*math.args[k], Bond::product);
+            }
+        }
+    }
+
+    void power(const Math& math) {
+        const Math& base = *math.args[0];
+        if (base.kind == Kind::letter && base.dots == 0 && base.letter.base == "e" && base.letter.index.empty() &&
+            !how_.letters.name_of(base.letter)) {
+            out() += "exp(";
+            term(*math.args[1]);
+            out() += ')';
+            return;
+        }
+        if (base.kind == Kind::applied)
+            term(base);  // m (a + b)^2 is a product in which the parentheses are squared
+        else
+            inside(base, Bond::atom);
+        out() += '^';
+        inside(*math.args[1], Bond::atom);
+    }
+
+    /// ∂v/∂u = Σ ∂v/∂q' ∂q'/∂u, the coordinates being held. Returns false if it is by no generalized speed.
+    bool partial_by_speed(const Math& math) {
+        if (how_.speeds == nullptr || math.args.size() != 2 || math.args[1]->kind != Kind::letter) return false;
+        const auto by = how_.letters.name_of(math.args[1]->letter);
+        const auto speed = by ? how_.speeds->find(*by) : how_.speeds->end();
+        if (speed == how_.speeds->end() || math.args[1]->dots > 0) return false;
+        out() += '(';
+        for (std::size_t k = 0; k < speed->second.size(); ++k) {
+            const auto& [rate, slope] = speed->second[k];
+            out() += k > 0 ? " + diff(" : "diff(";
+            term(*math.args[0]);
+            out() += "," + rate + ")*" + slope;
+        }
+        out() += ')';
+        return true;
+    }
+
+    void partial(const Math& math) {
+        if (partial_by_speed(math)) return;
+        out() += "diff(";
+        const Math& of = *math.args[0];
+        if (of.kind == Kind::letter || of.kind == Kind::applied)
+            letter(of, true);
+        else
+            term(of);
+        for (std::size_t k = 1; k < math.args.size(); ++k) {
+            out() += ',';
+            if (math.args[k]->kind != Kind::letter)
+                refuse(*math.args[k], say("expected a letter to differentiate by"));
+            letter(*math.args[k], false);
+        }
+        out() += ')';
+    }
+
+    void variation(const Math& math) {
+        const Math& of = *math.args[0];
+        if (how_.displacements != nullptr && of.kind == Kind::letter)
+            if (const auto known = how_.letters.name_of(of.letter))
+                if (const auto value = how_.displacements->find(*known); value != how_.displacements->end()) {
+                    out() += std::to_string(value->second);
+                    return;
+                }
+        refuse(
+            math,
+            say("a virtual displacement has a meaning in the virtual work only, for a coordinate of the scene"));
+    }
+
+    void quantity(const Math& math) {
+        const auto unit = meaning_of_unit(math.text);
+        if (!unit) refuse(math, say("the unit '{}' is not known", math.text));
+        inside(*math.args[0], Bond::product);
+        if (!unit->exact.empty()) out() += "*(" + unit->exact + ')';
+    }
+
+    const ClaimWriting& how_;
+    ClaimText result_;
+};
+
+}  // namespace
+
+ClaimText claim_text(const Math& math, const ClaimWriting& writing) {
+    return Writer(writing).write(math);
+}
+
+bool is_accelerated(const Math& math) {
+    return math.dots > 1 || std::any_of(math.args.begin(), math.args.end(),
+                                        [](const MathPtr& arg) { return is_accelerated(*arg); });
+}
+
+void collect_letters(const Math& math, std::map<Letter, int>& to) {
+    if (math.kind == Math::Kind::letter || math.kind == Math::Kind::applied) {
+        int& most = to[math.letter];
+        most = std::max(most, math.dots);
+    }
+    for (const MathPtr& arg : math.args) collect_letters(*arg, to);
+}
+
+}  // namespace alembert

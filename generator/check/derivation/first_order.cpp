@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/first_order.hpp"
+
+#include "check/slip.hpp"
+#include "model/energy.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double longest = 20000;
+constexpr int most_changes = 100;  // of a line that are tried
+
+}  // namespace
+
+std::vector<BaseState> base_states(const Scene& scene) {
+    BaseState zero, start;
+    bool differ = false;
+    for (const Coordinate& c : scene.coordinates) {
+        const std::string initial = c.initial.text.empty() ? "0" : c.initial.text;
+        zero.values.emplace_back(c.name.text, "0");
+        start.values.emplace_back(c.name.text, initial);
+        differ = differ || initial != "0";
+    }
+    std::vector<BaseState> result{zero};
+    if (differ) result.push_back(start);
+    for (BaseState& base : result)
+        for (const auto& [name, value] : base.values)
+            base.text += (base.text.empty() ? "" : ", ") + name + " = " + value;
+    return result;
+}
+
+bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_constant,
+              const DerivedSystem& system) {
+    const Mechanism& m = system.mechanism();
+    if (m.z->tree_size(residual) > longest) return false;
+    World world(system.scene(), m, system.sheets());
+    const GiNaC::symbol small("small");
+    GiNaC::exmap near;
+    for (int i = 0; i < m.size(); ++i) {
+        ex value = 0;
+        for (const auto& [name, text] : base.values)
+            if (name == m.q[i].get_name()) value = m.z->expand(world.value(text));
+        near[m.q[i]] = value + small * m.q[i];
+        near[m.qdot[i]] = small * m.qdot[i];
+        near[m.qddot[i]] = small * m.qddot[i];
+    }
+    ex along = m.z->expand(residual).subs(near, GiNaC::subs_options::no_pattern);
+    for (int k = 0; k <= order; ++k) {
+        const ex at = along.subs(small == 0, GiNaC::subs_options::no_pattern);
+        if ((k > 0 || !up_to_constant) && !is_identically_zero(at, m)) return false;
+        if (k < order) along = along.diff(small);
+    }
+    return true;
+}
+
+std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
+                                         const std::map<std::string, ex>& known) {
+    LineClaim near = line;
+    near.near = base.values;
+    std::vector<CheckedClaim> verdicts = system.check({near}, known);
+    if (verdicts.empty() || verdicts[0].verdict == Verdict::undecided) return std::nullopt;
+    return std::move(verdicts[0]);
+}
+
+std::optional<Slip> slip_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
+                              const std::map<std::string, ex>& known) {
+    std::vector<Diagnostic> mistakes;
+    Claim claim;
+    claim.equation = parse_equality(line.lhs + " = " + line.rhs, {}, mistakes);
+    if (!mistakes.empty()) return std::nullopt;
+    int left = most_changes;
+    const EquationTerms terms = equation_terms(system.mechanism(), system.equations());
+    const Judge judge{.is_right =
+                          [&](const Claim& changed) {
+                              if (--left < 0) return false;
+                              const LineClaim other{.lhs = changed.equation.lhs.text,
+                                                    .rhs = changed.equation.rhs.text};
+                              const auto checked = checked_near(other, base, system, known);
+                              return checked && checked->verdict == Verdict::proved;
+                          },
+                      .vanishes = [](const Expression&) { return false; },
+                      .terms = [&]() -> const EquationTerms& { return terms; },
+                      .absent = [] { return std::vector<AbsentTerm>(); }};
+    return likely_slip(claim, 0, system.mechanism(), system.equations(), judge);
+}
+
+}  // namespace alembert

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Lines that hold for small deviations only: sin θ ≈ θ, V ≈ m g l θ²/2, linearized equations.
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/derivation/system.hpp"
+
+namespace alembert {
+
+/// A state about which a derivation may linearize: coordinates with their values, at rest.
+struct BaseState {
+    std::vector<std::pair<std::string, std::string>> values;
+    std::string text;  ///< "theta = 0"
+};
+
+/// All coordinates zero, and those of the scene's start if these are others.
+std::vector<BaseState> base_states(const Scene& scene);
+
+/// Whether `residual`, as a function of the state alone, vanishes up to this order in the deviations from the base
+/// state. `up_to_constant`: its value there does not matter.
+bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool up_to_constant,
+              const DerivedSystem& system);
+
+/// Whether the line holds on every motion near the state, to first order; nothing if that cannot be told (the
+/// state is no equilibrium).
+std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
+                                         const std::map<std::string, GiNaC::ex>& known);
+
+/// The smallest change of a line that makes it right near the state; nothing if none was found.
+std::optional<Slip> slip_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,
+                              const std::map<std::string, GiNaC::ex>& known);
+
+}  // namespace alembert

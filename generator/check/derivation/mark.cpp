@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/marked.hpp"
+
+#include <algorithm>
+
+#include "base/language/say.hpp"
+#include "check/derivation/choose_letters.hpp"
+#include "check/derivation/marker.hpp"
+
+namespace alembert {
+
+const char* name_of(LineStatus status) {
+    switch (status) {
+        case LineStatus::right:
+            return "right";
+        case LineStatus::right_near:
+            return "right_near";
+        case LineStatus::right_up_to_constant:
+            return "right_up_to_constant";
+        case LineStatus::right_up_to_derivative:
+            return "right_up_to_derivative";
+        case LineStatus::definition:
+            return "definition";
+        case LineStatus::mistake:
+            return "mistake";
+        case LineStatus::follows:
+            return "follows";
+        case LineStatus::unfounded:
+            return "unfounded";
+        case LineStatus::undecided:
+            return "undecided";
+        case LineStatus::not_understood:
+            return "not_understood";
+        case LineStatus::not_about_scene:
+            return "not_about_scene";
+    }
+    return "undecided";
+}
+
+Marked mark(Scene scene, Written written, const MarkOptions& options) {
+    DerivedSystem derived{std::move(scene), options.by};
+    return mark(derived, std::move(written), options);
+}
+
+Marked mark(DerivedSystem& system, Written written, const MarkOptions& options) {
+    Marked result{.written = std::move(written)};
+    std::map<std::string, std::string> letters = options.letters;
+    for (const WrittenLetter& letter : system.scene().letters)
+        letters.emplace(letter.written.text, letter.name.text);
+    const ChosenLetters chosen = choose_letters(system, result.written, letters);
+    Marker marker(system, result.written, chosen.letters);
+    marker.run();
+    marker.verify();
+    result.missing = marker.missing();
+    result.complete = result.missing.empty();
+    result.lines = std::move(marker.lines);
+    result.letters = chosen.told;
+    result.remarks = chosen.remarks;
+    const auto first = std::find_if(result.lines.begin(), result.lines.end(),
+                                    [](const MarkedLine& line) { return line.status == LineStatus::mistake; });
+    if (first != result.lines.end()) result.first_mistake = static_cast<std::size_t>(first - result.lines.begin());
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/marker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/language/say.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+namespace {
+
+bool is_virtual_work(const Math& math) {
+    return math.kind == Kind::variation && math.args[0]->kind == Kind::letter && math.args[0]->letter.base == "W";
+}
+
+}  // namespace
+
+std::set<std::string> Marker::Sides::own_names() const {
+    std::set<std::string> result = own_left.names;
+    result.insert(own_right.names.begin(), own_right.names.end());
+    return result;
+}
+
+Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
+    : system_(system),
+      written_(written),
+      letters_(std::move(letters)),
+      truth_(system.scene(), system.mechanism(), system.sheets()),
+      own_(system, letters_) {
+    for (const auto& [name, value] : own_.values()) {  // nothing is stated yet
+        known_[name] = value;
+        truth_.know(name, value);
+    }
+    const Mechanism& m = system_.mechanism();
+    for (std::size_t k = 0; k < m.speeds.size(); ++k) {
+        const std::vector<ex> slopes = system_.rates_by_speed(k);
+        const std::string speed = m.speeds[k].u.get_name();
+        for (std::size_t i = 0; i < slopes.size(); ++i) {
+            if (slopes[i].is_zero()) continue;
+            const std::string q = m.q[i].get_name(), name = letters_.free_name("d" + q + "_d" + speed);
+            known_[name] = slopes[i];
+            truth_.know(name, slopes[i]);
+            own_.state(name, slopes[i], {});
+            speeds_[speed].emplace_back(q + "'", name);
+        }
+    }
+}
+
+void Marker::run() {
+    for (std::size_t s = 0; s < written_.statements.size(); ++s) {
+        statement_ = &written_.statements[s];
+        speaks_of_small_ = speaks_of_small_ || statement_->first_order;
+        hear(statement_->words);
+        if (statement_->sides.empty()) {
+            MarkedLine line{.status = LineStatus::not_understood, .statement = s};
+            line.offset = statement_->offset;
+            line.length = statement_->length;
+            line.line = written_.line(line.offset);
+            line.column = written_.column(line.offset);
+            line.source = written_.text.substr(line.offset, line.length);
+            line.reason = statement_->reason;
+            lines.push_back(std::move(line));
+            notes_.emplace_back();
+            continue;
+        }
+        for (std::size_t k = 0; k + 1 < statement_->sides.size(); ++k) line(s, k);
+    }
+}
+
+void Marker::line(std::size_t s, std::size_t k) {
+    const Math &lhs = *statement_->sides[k], &rhs = *statement_->sides[k + 1];
+    MarkedLine line{.status = LineStatus::undecided, .statement = s};
+    line.offset = k == 0 ? lhs.offset : rhs.offset;
+    line.length = rhs.offset + rhs.length - line.offset;
+    line.line = written_.line(line.offset);
+    line.column = written_.column(line.offset);
+    line.source = written_.text.substr(lhs.offset, rhs.offset + rhs.length - lhs.offset);
+    notes_.emplace_back();
+    speaks_of_small_ = speaks_of_small_ || statement_->relations[k] == Relation::approximately;
+    try {
+        judge(line, lhs, rhs, statement_->relations[k]);
+    } catch (const NoMeaning& not_understood) {
+        const bool general = not_understood.unknown && !statement_->displayed && has_several_unknown(lhs, rhs);
+        line.status = general ? LineStatus::not_about_scene : LineStatus::not_understood;
+        line.reason = general ? say("a formula in letters that the scene does not have") : not_understood.reason;
+    }
+    lines.push_back(std::move(line));
+    if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
+        take_in(s, k);
+}
+
+bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
+    std::map<Letter, int> all;
+    collect_letters(lhs, all);
+    collect_letters(rhs, all);
+    return std::count_if(all.begin(), all.end(), [&](const auto& item) { return !letters_.name_of(item.first); }) >
+           1;
+}
+
+void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
+    if (relation == Relation::proportional) {
+        line.status = LineStatus::not_understood;
+        line.reason = say("only equations are judged");
+        return;
+    }
+    if (speaks_of_law_in_general(lhs) || speaks_of_law_in_general(rhs)) {
+        line.status = LineStatus::not_about_scene;
+        line.reason = say("a law in general coordinates");
+        at_rest_of_rates_ = lhs.kind == Kind::letter && lhs.dots == 2 && rhs.kind == Kind::number;
+        return;
+    }
+    if (is_virtual_work(lhs)) return judge_work(line, rhs);
+    if (judge_vector(line, lhs, rhs)) return;
+    if (speaks_of_period_ && lhs.kind == Kind::letter && is_frequency(line, lhs, rhs, 1)) return;
+    if (introduce(line, lhs, rhs) || introduce(line, rhs, lhs)) return;
+    try {
+        judge_pair(line, lhs, rhs);
+    } catch (const NoMeaning& reason) {
+        if (reason.unknown && introduce_ahead(*reason.unknown)) return judge(line, lhs, rhs, relation);
+        if (!reason.unknown || !find_meaning(line, lhs, rhs, *reason.unknown)) throw;
+    }
+}
+
+Marker::Sides Marker::sides_of(const Math& lhs, const Math& rhs) const {
+    const ClaimWriting as_is = as_written(), own = as_derived();
+    return {
+        &lhs, &rhs, claim_text(lhs, as_is), claim_text(rhs, as_is), claim_text(lhs, own), claim_text(rhs, own)};
+}
+
+ClaimWriting Marker::as_written() const {
+    return {.letters = letters_, .speeds = &speeds_, .alone_is_quantity = notes_.back().alone_is_quantity};
+}
+
+ClaimWriting Marker::as_derived() const {
+    return {.letters = letters_,
+            .steps = &own_.steps(),
+            .speeds = &speeds_,
+            .alone_is_quantity = notes_.back().alone_is_quantity};
+}
+
+ex Marker::own_residual(const Sides& sides) {
+    return own_.value(sides.own_left.text) - own_.value(sides.own_right.text);
+}
+
+void Marker::judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    const Sides sides = sides_of(lhs, rhs);
+    line.claim = sides.left.text + " = " + sides.right.text;
+    notes_.back().claim = {.lhs = sides.left.text, .rhs = sides.right.text};
+    notes_.back().left = sides.left;
+    notes_.back().right = sides.right;
+    const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+    const std::optional<bool> holds = system_.rows().holds(row);
+    if (!holds) {
+        line.reason = say("it could not be evaluated");
+        return;
+    }
+    if (*holds)
+        judge_true(line, sides, row);
+    else
+        judge_false(line, sides, row);
+}
+
+/// d/dt ∂L/∂q' = ∂L/∂q is right, and gives no equation of motion that is written out.
+bool Marker::repeats_law(const Sides& sides) const {
+    const auto is_law = [&](const std::string& name) {
+        const auto is = [&](MechanicalQuantity quantity) { return name == letters_.name_of(quantity); };
+        return name.starts_with("Q_") || is(MechanicalQuantity::kinetic) || is(MechanicalQuantity::potential) ||
+               is(MechanicalQuantity::lagrangian) || is(MechanicalQuantity::energy) ||
+               is(MechanicalQuantity::hamiltonian);
+    };
+    return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_law) ||
+           std::any_of(sides.right.names.begin(), sides.right.names.end(), is_law);
+}
+
+bool Marker::has_quantities(const Sides& sides) const {
+    const auto is_own = [&](const std::string& name) { return known_.contains(name); };
+    return std::any_of(sides.left.names.begin(), sides.left.names.end(), is_own) ||
+           std::any_of(sides.right.names.begin(), sides.right.names.end(), is_own);
+}
+
+void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row) {
+    line.status = LineStatus::right;
+    MotionRows& rows = system_.rows();
+    const bool is_identity = rows.is_identity(row) == true;
+    const MotionRow own = rows.row(own_residual(sides));
+    if (!is_identity && !repeats_law(sides)) notes_.back().equation = row;
+    const std::optional<std::size_t> wrong = own_.wrong_in(sides.own_names());
+    const bool founded =
+        is_identity ? !wrong || rows.is_identity(own) == true : own_.founds(own) || own_.founds(row);
+    if (founded) return;
+    line.status = LineStatus::unfounded;
+    line.follows_from = wrong;
+    line.reason = say("it is right, but it does not follow from what stands above");
+}
+
+void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
+    if (is_of_quantity(line, sides) || is_equilibrium(line, sides) || is_given_value(line, sides) ||
+        is_assumption(line, sides) || holds_with_all_forces(line, sides) ||
+        holds_up_to(line, sides, row.residual) || holds_at_rest(line, sides) ||
+        holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
+        return;
+    line.status = LineStatus::mistake;
+    if (speaks_of_small_) notes_.back().near = near_;
+    if (own_.wrong_in(sides.own_names())) notes_.back().own = own_.values();
+}
+
+bool Marker::follows(MarkedLine& line, const Sides& sides) {
+    MotionRows& rows = system_.rows();
+    const MotionRow own = rows.row(own_residual(sides));
+    line.follows_from = rows.is_identity(own) == true ? own_.wrong_in(sides.own_names())
+                                                      : own_.explained_by(own, speaks_of_small_);
+    if (!line.follows_from) line.follows_from = own_.explained_by_relations(own.residual);
+    if (!line.follows_from) return false;
+    line.status = LineStatus::follows;
+    line.reason = say("it follows from line {}", lines[*line.follows_from].line);
+    return true;
+}
+
+/// δW = Σ Q_q δq: one claim for each coordinate.
+void Marker::judge_work(MarkedLine& line, const Math& rhs) {
+    const Mechanism& m = system_.mechanism();
+    std::vector<std::string> texts;
+    std::vector<ex> own, truth;
+    for (int i = -1; i < m.size(); ++i) {  // −1: without displacements there is no work
+        std::map<std::string, int> displacements;
+        for (int j = 0; j < m.size(); ++j) displacements[m.q[j].get_name()] = i == j ? 1 : 0;
+        const ClaimText text = claim_text(rhs, {.letters = letters_, .displacements = &displacements});
+        if (i < 0) {
+            if (!truth_.value(text.text).is_zero())
+                throw NoMeaning{.reason = say("each term of a virtual work holds one virtual displacement")};
+            continue;
+        }
+        texts.push_back(text.text);
+        truth.push_back(truth_.value(text.text));
+        own.push_back(own_.value(text.text));
+    }
+    MotionRows& rows = system_.rows();
+    const auto first_wrong = [&](bool all) -> std::optional<std::size_t> {
+        const std::vector<ex> forces = system_.forces(all);
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            if (rows.is_identity(rows.row(truth[i] - forces[i])) != true) return i;
+        return std::nullopt;
+    };
+    std::optional<std::size_t> wrong = first_wrong(all_forces_);
+    if (wrong && !first_wrong(!all_forces_)) {
+        use_all_forces(!all_forces_);
+        wrong.reset();
+    }
+    line.status = wrong ? LineStatus::mistake : LineStatus::right;
+    const std::string name = "Q_" + m.q[wrong ? static_cast<int>(*wrong) : 0].get_name();
+    const std::string& text = texts[wrong.value_or(0)];
+    line.claim = name + " = " + text;
+    notes_.back().claim = {.lhs = name, .rhs = text};
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const std::string force = "Q_" + m.q[i].get_name();
+        const bool same = rows.is_identity(rows.row(own[i] - truth_.value(force))) == true;
+        own_.state(force, own[i], same ? std::nullopt : std::optional(lines.size()));
+    }
+}
+
+bool Marker::speaks_of_law_in_general(const Math& math) const {
+    std::map<Letter, int> letters;
+    collect_letters(math, letters);
+    return std::any_of(letters.begin(), letters.end(), [&](const auto& item) {
+        const Letter& letter = item.first;
+        const bool general = letter.base == "q" || letter.base == "Q" || letter.base == "p";
+        const bool open = letter.index.empty() || letter.index == "i" || letter.index == "j" ||
+                          letter.index == "k" || letter.index == "r" || letter.index == "s" ||
+                          letter.index == "q" || letter.index == "alpha";
+        return general && open && !letters_.name_of(letter);
+    });
+}
+
+}  // namespace alembert

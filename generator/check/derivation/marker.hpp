@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Goes through a derivation line by line.
+///
+///     Marker marker(system, written, letters);
+///     marker.run();
+///     marker.lines[0].status
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/derivation/bindings.hpp"
+#include "check/derivation/claim_text.hpp"
+#include "check/derivation/first_order.hpp"
+#include "check/derivation/marked.hpp"
+#include "check/derivation/own_world.hpp"
+
+namespace alembert {
+
+/// What was found about a line while it was judged.
+struct LineNotes {
+    LineClaim claim = {};  ///< empty where there is none
+    ClaimText left = {}, right = {};
+    bool alone_is_quantity = false;          ///< as in ClaimWriting
+    std::optional<BaseState> near = {};      ///< about which the derivation linearizes there
+    std::optional<MotionRow> equation = {};  ///< set if it is a right equation of motion, written out
+    /// Names with the values that the derivation has stated, if some that stand in the line are wrong.
+    std::map<std::string, GiNaC::ex> own = {};
+};
+
+class Marker {
+public:
+    Marker(DerivedSystem& system, const Written& written, Letters letters);
+    Marker(const Marker&) = delete;
+    Marker& operator=(const Marker&) = delete;
+
+    /// The marks, without the verdicts of the check.
+    void run();
+    /// Asks the check about each line: proved or refuted, and the slip of a mistake.
+    void verify();
+    /// The coordinates whose equation of motion no right line gives.
+    std::vector<std::string> missing();
+
+    std::vector<MarkedLine> lines;
+    const Letters& letters() const { return letters_; }
+    /// How much of it makes sense: the measure by which letters are chosen.
+    double score() const;
+
+private:
+    /// A line while it is judged.
+    struct Sides {
+        const Math *lhs = nullptr, *rhs = nullptr;
+        ClaimText left, right;          ///< as the system has it
+        ClaimText own_left, own_right;  ///< with the derivation's own steps
+        std::set<std::string> own_names() const;
+    };
+    using Components = std::vector<MathPtr>;
+
+    void line(std::size_t statement, std::size_t side);
+    void judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation);
+    void judge_pair(MarkedLine& line, const Math& lhs, const Math& rhs);
+    void judge_work(MarkedLine& line, const Math& rhs);
+    Sides sides_of(const Math& lhs, const Math& rhs) const;
+    ClaimWriting as_written() const;
+    ClaimWriting as_derived() const;
+    bool is_of_quantity(MarkedLine& line, const Sides& sides);
+    bool follows_with_all_forces(MarkedLine& line, const Sides& sides);
+    GiNaC::ex own_residual(const Sides& sides);
+
+    void judge_true(MarkedLine& line, const Sides& sides, const MotionRow& row);
+    void judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row);
+    bool holds_with_all_forces(MarkedLine& line, const Sides& sides);
+    bool holds_up_to(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
+    bool is_given_value(MarkedLine& line, const Sides& sides);
+    bool is_assumption(MarkedLine& line, const Sides& sides) const;
+    bool holds_near(MarkedLine& line, const Sides& sides, const GiNaC::ex& residual);
+    bool is_equilibrium(MarkedLine& line, const Sides& sides);
+    bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    bool holds_at_rest(MarkedLine& line, const Sides& sides);
+    bool follows(MarkedLine& line, const Sides& sides);
+
+    bool introduce(MarkedLine& line, const Math& lhs, const Math& rhs);
+    bool is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text);
+    bool bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    void define(MarkedLine& line, const Math& letter, const Math& rhs, int power);
+    std::vector<Binding> bindings(const Letter& letter) const;
+    void hear(const std::string& words);
+    bool introduce_ahead(const Letter& letter);
+    bool bind_to_part(const Letter& letter);
+    bool find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    bool determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
+    std::string bind(const Letter& letter, const GiNaC::ex& truth);
+
+    bool judge_vector(MarkedLine& line, const Math& lhs, const Math& rhs);
+    std::optional<Components> components(const Math& math) const;
+    bool is_column(MarkedLine& line, const Math& lhs, const Math& rhs) const;
+    bool bind_vector(const Math& letter, const Components& value);
+
+    void take_in(std::size_t statement, std::size_t side);
+    bool repeats_law(const Math& value) const;
+    void take_in_as(const Math& what, const Math& value);
+    void use_all_forces(bool all);
+    bool has_several_unknown(const Math& lhs, const Math& rhs) const;
+    bool speaks_of_law_in_general(const Math& math) const;
+    bool has_quantities(const Sides& sides) const;
+    bool repeats_law(const Sides& sides) const;
+    bool speaks_of_quantity(const LineNotes& notes) const;
+    std::optional<CheckedClaim> with_other_forces(const LineClaim& claim);
+    void locate_term(MarkedLine& line, const LineNotes& notes) const;
+    void adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict);
+
+    DerivedSystem& system_;
+    const Written& written_;
+    Letters letters_;
+    World truth_;
+    OwnWorld own_;
+    std::map<std::string, GiNaC::ex> known_;  ///< names beside those of the scene, as they are in the system
+    std::map<Letter, Components> vectors_;    ///< letters that are vectors, with the letters of their components
+    std::vector<LineNotes> notes_;            ///< one for each line
+    std::map<std::string, std::vector<std::pair<std::string, std::string>>> speeds_;  ///< as in ClaimWriting
+    std::set<Letter> ahead_;    ///< letters that a later line introduces, and that were used before it
+    std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
+    std::string spoken_;        ///< the body of which the words speak
+    bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
+         speaks_of_period_ = false;
+    const WrittenStatement* statement_ = nullptr;
+    std::optional<BaseState> near_;  ///< about which the derivation linearizes, once a line has shown it
+    bool speaks_of_small_ = false;   ///< whether the derivation has begun to linearize
+    bool all_forces_ = false;        ///< whether its generalized forces contain those of the potential
+};
+
+}  // namespace alembert

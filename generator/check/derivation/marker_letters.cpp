@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Letters that a derivation introduces: points and velocities of the scene, constants of the motion,
+// abbreviations.
+#include "check/derivation/marker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <functional>
+
+#include "base/language/say.hpp"
+#include "check/derivation/bindings.hpp"
+#include "check/derivation/parts.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+namespace {
+
+/// A letter alone on a side, or its square.
+struct Lone {
+    const Math* letter = nullptr;
+    int power = 1;
+};
+
+Lone lone_letter(const Math& side) {
+    if (side.kind == Kind::letter && side.dots == 0) return {&side, 1};
+    const bool is_power = side.kind == Kind::power && side.args[0]->kind == Kind::letter &&
+                          side.args[0]->dots == 0 && side.args[1]->kind == Kind::number &&
+                          side.args[1]->text == "2";
+    return is_power ? Lone{side.args[0].get(), 2} : Lone{};
+}
+
+bool is_word_for_constant(const Letter& letter) {
+    return letter.base == "const" || letter.base == "constant";
+}
+
+}  // namespace
+
+std::string Marker::bind(const Letter& letter, const ex& truth) {
+    const std::string name = letters_.free_name(identifier_of(letter));
+    letters_.bind(letter, name);
+    known_[name] = system_.mechanism().z->name(truth);
+    truth_.know(name, known_[name]);
+    own_.state(name, known_[name], {});
+    return name;
+}
+
+/// Those of the body of which the words before the line speak, if they speak of one.
+std::vector<Binding> Marker::bindings(const Letter& letter) const {
+    std::vector<Binding> all = bindings_of(letter, system_.scene());
+    if (spoken_.empty()) return all;
+    std::vector<Binding> own;
+    for (Binding& binding : all)
+        if (binding.text.find("(" + spoken_ + ")") != std::string::npos) {
+            binding.named = true;
+            own.push_back(binding);
+        }
+    return own.empty() ? all : own;
+}
+
+/// The body or particle that stands in the words before a statement. Letters such as v_x that had been found for
+/// another one are open again then.
+void Marker::hear(const std::string& words) {
+    if (std::none_of(words.begin(), words.end(),
+                     [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }))
+        return;
+    std::string spoken;
+    const auto look_for = [&](const std::string& name) {
+        const auto is_part_of_word = [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+        };
+        for (std::size_t at = words.find(name); at != std::string::npos; at = words.find(name, at + 1)) {
+            const std::size_t end = at + name.size();
+            const bool alone =
+                name.size() > 1 || (at > 4 && (words.compare(at - 5, 5, "body ") == 0 ||
+                                               (at > 8 && words.compare(at - 9, 9, "particle ") == 0)));
+            if (alone && (at == 0 || !is_part_of_word(words[at - 1])) &&
+                (end == words.size() || !is_part_of_word(words[end])))
+                spoken = name;
+        }
+    };
+    for (const Particle& p : system_.scene().particles) look_for(p.name.text);
+    for (const Body& b : system_.scene().bodies) look_for(b.name.text);
+    if (spoken.empty() && !statement_->displayed) spoken = spoken_;  // the sentence goes on
+    if (spoken != spoken_) {
+        for (const Letter& letter : roaming_) letters_.release(letter);
+        roaming_.clear();
+    }
+    spoken_ = spoken;
+    const auto says = [&](std::initializer_list<const char*> list) {
+        return std::any_of(list.begin(), list.end(),
+                           [&](const char* part) { return words.find(part) != std::string::npos; });
+    };
+    at_rest_of_rates_ = false;
+    speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
+    speaks_of_period_ = says({"period", "Period", "周期"});
+    speaks_of_rest_ = says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡"});
+}
+
+/// "…, where M = m_1 + m_2": a letter that a later line introduces.
+bool Marker::introduce_ahead(const Letter& letter) {
+    if (ahead_.contains(letter)) return false;
+    const bool of_motion = std::any_of(statement_->sides.begin(), statement_->sides.end(),
+                                       [](const MathPtr& side) { return is_accelerated(*side); });
+    const auto is_constant = [&](const Math& value) {
+        std::map<Letter, int> all;
+        collect_letters(value, all);
+        return std::none_of(all.begin(), all.end(), [&](const auto& item) {
+            const auto name = letters_.name_of(item.first);
+            return !name || letters_.moves(*name);
+        });
+    };
+    for (const WrittenStatement& statement : written_.statements) {
+        if (&statement <= statement_) continue;
+        for (std::size_t k = 0; k + 1 < statement.sides.size(); ++k)
+            for (const bool turned : {false, true}) {
+                const Math &side = *statement.sides[turned ? k + 1 : k],
+                           &value = *statement.sides[turned ? k : k + 1];
+                const Lone lone = lone_letter(side);
+                if (lone.letter == nullptr || lone.letter->letter != letter) continue;
+                if (of_motion && !is_constant(value)) continue;  // a force, which the equation itself determines
+                try {
+                    MarkedLine there;
+                    define(there, *lone.letter, value, lone.power);
+                    ahead_.insert(letter);
+                    return true;
+                } catch (const NoMeaning&) {
+                    continue;
+                }
+            }
+    }
+    return false;
+}
+
+/// T of one body, V of gravity: what the scene has a part for. In an equation of motion T_1 is a force.
+bool Marker::bind_to_part(const Letter& letter) {
+    const bool of_motion = std::any_of(statement_->sides.begin(), statement_->sides.end(),
+                                       [](const MathPtr& side) { return is_accelerated(*side); });
+    const bool starred = letter.raised == "*" || letter.base == "F" || letter.base == "E";
+    if (of_motion && !starred) return false;
+    const std::optional<ex> part = part_named(letter, letters_, system_);
+    if (!part) return false;
+    const std::string name = bind(letter, *part);
+    const bool of_force = letter.base == "Q" && !letter.raised.empty() && letter.raised != "*";
+    const std::string whole =
+        letter.base == "T" || letter.base == "K"   ? letters_.name_of(MechanicalQuantity::kinetic)
+        : letter.base == "V" || letter.base == "U" ? letters_.name_of(MechanicalQuantity::potential)
+        : of_force                                 ? "Q_" + letters_.coordinate_of(letter.index)
+                                                   : "";
+    if (!whole.empty()) own_.count_as_part(name, whole, *part);
+    return true;
+}
+
+/// A letter alone on one side may be introduced here. Returns whether it was; then the line is judged.
+bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
+    const Lone lone = lone_letter(lhs);
+    if (lone.letter == nullptr) return false;
+    if (const auto name = letters_.name_of(lone.letter->letter)) {  // introduced here, and used before
+        if (!ahead_.contains(lone.letter->letter) || !known_.contains(*name)) return false;
+        ahead_.erase(lone.letter->letter);
+        judge_pair(line, lhs, rhs);
+        if (line.status == LineStatus::right) line.status = LineStatus::definition;
+        return true;
+    }
+    if (bind_to_part(lone.letter->letter)) return false;
+    const ClaimText text = claim_text(rhs, {.letters = letters_});
+    if (lone.power == 1 && is_constant_of_motion(line, *lone.letter, text)) return true;
+    if (bind_to_scene(line, *lone.letter, rhs, lone.power)) return true;
+    if (is_frequency(line, *lone.letter, rhs, lone.power)) return true;
+    define(line, *lone.letter, rhs, lone.power);
+    return true;
+}
+
+/// T + V = const: an expression that changes with the state and keeps its value.
+bool Marker::is_constant_of_motion(MarkedLine& line, const Math& letter, const ClaimText& text) {
+    const Mechanism& m = system_.mechanism();
+    const ex value = truth_.value(text.text);
+    if (m.z->depends(value, m.qddot) || (!m.z->depends(value, m.qdot) && !is_word_for_constant(letter.letter)))
+        return false;
+    const MotionRow rate = system_.rows().row(m.time_derivative({value})[0]);
+    const bool holds = system_.rows().holds(rate) == true;
+    if (!holds && !is_word_for_constant(letter.letter)) return false;
+    const std::string name = letters_.free_name(identifier_of(letter.letter));
+    line.claim = text.text + " = " + name;
+    notes_.back().claim = {.lhs = text.text, .rhs = name, .constants = {name}};
+    notes_.back().left = text;
+    line.status = holds ? LineStatus::right : LineStatus::mistake;
+    if (holds && !is_word_for_constant(letter.letter)) bind(letter.letter, value);
+    return true;
+}
+
+/// x_1 = l sin θ: a letter for a point's place, a speed, an angular velocity. Right if one of those of the scene
+/// is this; wrong if the index says which one it is and it is not.
+bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
+    const ClaimText text = claim_text(rhs, {.letters = letters_}),
+                    own = claim_text(rhs, {.letters = letters_, .steps = &own_.steps()});
+    const ex value = truth_.value(text.text);
+    MotionRows& rows = system_.rows();
+    std::optional<ex> named;
+    const auto tell = [&](const ex& truth, bool right) {
+        const ex stated = own_.value(own.text);
+        roaming_.insert(letter.letter);
+        const std::string name = bind(letter.letter, truth);
+        own_.state(name, GiNaC::pow(stated, GiNaC::numeric(1, power)),
+                   right ? std::nullopt : std::optional(lines.size()));
+        line.status = right ? LineStatus::right : LineStatus::mistake;
+        const std::string left = power == 1 ? name : name + "^2";
+        line.claim = left + " = " + text.text;
+        notes_.back().claim = {.lhs = left, .rhs = text.text};
+        notes_.back().right = text;
+        return true;
+    };
+    for (const Binding& binding : bindings(letter.letter)) {
+        const ex here = truth_.value(binding.text),
+                 truth = at_rest_of_rates_ ? system_.without_accelerations(here) : here;
+        const ex power_of_truth = power == 1 ? truth : GiNaC::pow(truth, power);
+        if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, true);
+        if (binding.named && !named) named = truth;
+    }
+    if (!named) return false;
+    if (const auto wrong = own_.wrong_in(own.names)) {  // the derivation's own lengths explain it, perhaps
+        tell(*named, false);
+        line.follows_from = wrong;
+        return true;
+    }
+    return tell(*named, false);
+}
+
+/// A letter that stands among others: one of the scene's places and speeds with which the line is right, or a
+/// force that the line determines.
+bool Marker::find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    if (bind_to_part(letter)) {
+        judge(line, lhs, rhs, Relation::equal);
+        return true;
+    }
+    const Letters before = letters_;
+    for (const Binding& binding : bindings(letter)) {
+        const std::string name = bind(letter, truth_.value(binding.text));
+        try {
+            const Sides sides = sides_of(lhs, rhs);
+            const MotionRow row =
+                system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+            if (system_.rows().holds(row) == true || (binding.named && !spoken_.empty())) {
+                roaming_.insert(letter);
+                judge_pair(line, lhs, rhs);
+                return true;
+            }
+        } catch (const NoMeaning&) {  // another letter is not known either
+        }
+        known_.erase(name);
+        letters_ = before;
+    }
+    return determine(line, lhs, rhs, letter);
+}
+
+/// M x'' = F + S sin θ determines S. What follows must agree with it.
+bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter) {
+    const Letters before = letters_;
+    const std::string name = bind(letter, 0);
+    const auto give_up = [&] {
+        known_.erase(name);
+        letters_ = before;
+        return false;
+    };
+    Sides sides;
+    try {
+        sides = sides_of(lhs, rhs);
+    } catch (const NoMeaning&) {
+        return give_up();
+    }
+    const Mechanism& m = system_.mechanism();
+    const auto solved = [&](const std::function<ex(const ex&)>& residual) -> std::optional<ex> {
+        const ex none = residual(0), slope = residual(1) - none;
+        if (!system_.rows().is_identity(system_.rows().row(residual(2) - none - 2 * slope)).value_or(false))
+            return std::nullopt;
+        if (m.z->name(slope).is_zero() || m.z->depends(slope, m.qddot)) return std::nullopt;
+        return m.z->name(-none / slope);
+    };
+    const auto truth = solved([&](const ex& value) {
+        truth_.know(name, value);
+        return truth_.value(sides.left.text) - truth_.value(sides.right.text);
+    });
+    if (!truth) return give_up();
+    const auto own = solved([&](const ex& value) {
+        own_.state(name, value, {});
+        return own_residual(sides);
+    });
+    known_[name] = *truth;
+    truth_.know(name, *truth);
+    own_.state(name, own.value_or(*truth), own_.wrong_in(sides.own_names()));
+    line.status = LineStatus::right;
+    line.claim = sides.left.text + " = " + sides.right.text;
+    line.reason = say("it determines {}", name);
+    return true;
+}
+
+void Marker::define(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
+    const ClaimText text = claim_text(rhs, {.letters = letters_}),
+                    own = claim_text(rhs, {.letters = letters_, .steps = &own_.steps()});
+    const GiNaC::numeric exponent(1, power);
+    const ex truth = GiNaC::pow(truth_.value(text.text), exponent),
+             stated = GiNaC::pow(own_.value(own.text), exponent);
+    const std::optional<std::size_t> wrong = own_.wrong_in(own.names);
+    const std::string name = bind(letter.letter, truth);
+    own_.state(name, stated, wrong);
+    line.status = LineStatus::definition;
+    line.claim = (power == 1 ? name : name + "^2") + " = " + text.text;
+}
+
+}  // namespace alembert

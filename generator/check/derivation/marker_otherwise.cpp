@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lines that are right in another sense: up to a constant, of all forces, of a quantity that shares its letter.
+#include "check/derivation/marker.hpp"
+
+#include <algorithm>
+
+#include "base/language/say.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+/// T = ½ m v² in a scene whose string pulls with T: what stands alone may be the kinetic energy.
+bool Marker::is_of_quantity(MarkedLine& line, const Sides& sides) {
+    if (notes_.back().alone_is_quantity) return false;
+    const auto differs = [&](const Math& side) {
+        if (side.kind != Kind::letter || side.dots > 0) return false;
+        const auto quantity = letters_.name_of(side.letter, true);
+        return quantity && known_.contains(*quantity) && quantity != letters_.name_of(side.letter);
+    };
+    if (!differs(*sides.lhs) && !differs(*sides.rhs)) return false;
+    notes_.back().alone_is_quantity = true;
+    judge_pair(line, *sides.lhs, *sides.rhs);
+    return true;
+}
+
+/// l = 2 m: a number for a parameter of the scene says nothing about its mechanics.
+bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
+    const auto is_lone = [&](const Math& math) { return math.kind == Kind::letter && math.dots == 0; };
+    const bool left = is_lone(*sides.lhs) && sides.right.names.empty();
+    const bool right = is_lone(*sides.rhs) && sides.left.names.empty();
+    if (!left && !right) return false;
+    const std::string name = left ? sides.left.text : sides.right.text;
+    if (!letters_.is_of_scene(name) || letters_.moves(name)) return false;
+    line.status = LineStatus::not_about_scene;
+    line.reason = say("a value of {}; lines are judged for all values", name);
+    return true;
+}
+
+/// "In the mode θ₁ = θ₂", "at θ = 0": among words, coordinates alone or with numbers describe a state.
+bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
+    const auto is_plain = [&](const Math& math) {
+        const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
+        return inner.kind == Kind::number || inner.kind == Kind::letter;
+    };
+    if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
+    const auto moves = [&](const ClaimText& side) {
+        return std::any_of(side.names.begin(), side.names.end(),
+                           [&](const std::string& name) { return letters_.moves(name); });
+    };
+    if (!moves(sides.left) && !moves(sides.right)) return false;
+    line.status = LineStatus::not_about_scene;
+    line.reason = say("it describes a state; lines are judged for all motions");
+    return true;
+}
+
+bool Marker::holds_with_all_forces(MarkedLine& line, const Sides& sides) {
+    const auto speaks = [](const std::set<std::string>& names) {
+        return std::any_of(names.begin(), names.end(),
+                           [](const std::string& name) { return name.starts_with("Q_"); });
+    };
+    if (!speaks(sides.left.names) && !speaks(sides.right.names)) return false;
+    const bool before = all_forces_;
+    use_all_forces(!before);
+    const MotionRow row = system_.rows().row(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+    if (system_.rows().holds(row) == true) {
+        judge_true(line, sides, row);
+        if (line.reason.empty())
+            line.reason = all_forces_ ? say("here generalized forces are those of all forces, with those of V")
+                                      : say("here generalized forces are those of forces that are not in V");
+        return true;
+    }
+    use_all_forces(before);
+    return false;
+}
+
+bool Marker::follows_with_all_forces(MarkedLine& line, const Sides& sides) {
+    const std::set<std::string> names = sides.own_names();
+    if (std::none_of(names.begin(), names.end(), [](const std::string& name) { return name.starts_with("Q_"); }))
+        return false;
+    use_all_forces(!all_forces_);
+    if (follows(line, sides)) return true;
+    use_all_forces(!all_forces_);
+    return false;
+}
+
+void Marker::use_all_forces(bool all) {
+    all_forces_ = all;
+    own_.count_potential_forces(all);
+    const std::vector<ex> forces = system_.forces(all);
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+        const std::string name = "Q_" + system_.mechanism().q[i].get_name();
+        if (!known_.contains(name)) continue;
+        known_[name] = forces[i];
+        truth_.know(name, forces[i]);
+    }
+}
+
+/// A potential has any zero, and the derivative of a function of coordinates and time changes nothing in a
+/// Lagrangian.
+bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residual) {
+    const auto speaks_of = [&](std::initializer_list<MechanicalQuantity> list) {  // as what is said to be equal
+        return std::any_of(list.begin(), list.end(), [&](MechanicalQuantity quantity) {
+            const std::string name = letters_.name_of(quantity);
+            return sides.left.text == name || sides.right.text == name;
+        });
+    };
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    if (m.z->depends(residual, m.qddot)) return false;
+    if (speaks_of({MechanicalQuantity::potential, MechanicalQuantity::energy, MechanicalQuantity::hamiltonian,
+                   MechanicalQuantity::lagrangian})) {
+        const ex rate = m.time_derivative({residual})[0];
+        if (rows.is_identity(rows.row(rate)) == true) {
+            line.status = LineStatus::right_up_to_constant;
+            return true;
+        }
+    }
+    if (!speaks_of({MechanicalQuantity::lagrangian})) return false;
+    for (const ex& row : system_.euler_lagrange(residual))
+        if (rows.is_identity(rows.row(row)) != true) return false;
+    line.status = LineStatus::right_up_to_derivative;
+    return true;
+}
+
+}  // namespace alembert

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Lines about states of rest and about small deviations from them.
+#include "check/derivation/marker.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/language/say.hpp"
+#include "check/frequency.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Kind = Math::Kind;
+
+namespace {
+
+bool holds_letters_only(const std::set<std::string>& names, const Scene& scene) {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+        return std::any_of(scene.parameters.begin(), scene.parameters.end(),
+                           [&](const Parameter& p) { return p.name.text == name; });
+    });
+}
+
+Expression parsed(const std::string& text) {
+    std::vector<Diagnostic> mistakes;
+    return parse_expression(text, {}, mistakes);
+}
+
+std::vector<std::pair<std::string, Expression>> parsed(const BaseState& base) {
+    std::vector<std::pair<std::string, Expression>> result;
+    for (const auto& [name, value] : base.values) result.emplace_back(name, parsed(value));
+    return result;
+}
+
+}  // namespace
+
+/// ω² = g/l, T = 2π √(l/g): a letter for a frequency or a period, in parameters. Judged if the words say so, or
+/// once the derivation has linearized; before that, ω₀² = g/l only gives a name.
+bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power) {
+    const std::string& base = letter.letter.base;
+    const bool of_period = (base == "T" || base == "tau" || base == "P") && speaks_of_period_;
+    const bool of_turns = (base == "f" || base == "nu") && speaks_of_frequency_;
+    const bool of_angle = base == "omega" || base == "Omega" || base == "lambda";
+    if (!of_period && !of_turns && !(of_angle && (speaks_of_frequency_ || speaks_of_small_))) return false;
+    const ClaimText text = claim_text(rhs, as_written());
+    if (!holds_letters_only(text.names, system_.scene())) return false;
+    std::string omega = power == 2 ? text.text : "(" + text.text + ")^2";
+    if (of_period) omega = "4*pi^2/(" + omega + ")";
+    if (of_turns) omega = "4*pi^2*(" + omega + ")";
+    const Expression square = parsed(omega);
+    if (!square) return false;
+    bool known = false;
+    for (const BaseState& state : near_ ? std::vector<BaseState>{*near_} : base_states(system_.scene())) {
+        const CheckedFrequency found =
+            check_frequency({system_.scene(), system_.mechanism(), parsed(state), system_.sheets()}, square);
+        if (found.verdict == Verdict::undecided) continue;
+        known = true;
+        line.checked = found;
+        if (found.verdict != Verdict::proved) continue;
+        line.status = LineStatus::right_near;
+        line.reason = say("a frequency of small vibrations about {}", state.text);
+        break;
+    }
+    if (!known || (line.status != LineStatus::right_near && !speaks_of_frequency_ && !speaks_of_period_))
+        return false;
+    if (line.status != LineStatus::right_near) {
+        line.follows_from = own_.explains_frequency(truth_.value(omega));
+        line.status = line.follows_from ? LineStatus::follows : LineStatus::mistake;
+        line.reason = line.follows_from ? say("it follows from line {}", lines[*line.follows_from].line)
+                                        : say("it is no frequency of small vibrations");
+    }
+    const LineStatus status = line.status;
+    const std::string reason = line.reason;
+    const bool is_open = !letters_.name_of(letter.letter);
+    if (is_open) define(line, letter, rhs, power);
+    line.status = status;
+    line.reason = reason;
+    if (line.claim.empty())
+        line.claim = identifier_of(letter.letter) + (power == 2 ? "^2" : "") + " = " + text.text;
+    return true;
+}
+
+/// Equilibria: θ = 0, or an equation that holds there.
+bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
+    if (!speaks_of_rest_ && !statement_->displayed) return false;
+    const auto is_state = [&](const Math& a, const ClaimText& b) {
+        return a.kind == Kind::letter && a.dots == 0 && letters_.moves(letters_.name_of(a.letter).value_or("")) &&
+               holds_letters_only(b.names, system_.scene());
+    };
+    const bool left = is_state(*sides.lhs, sides.right), right = is_state(*sides.rhs, sides.left);
+    if (!left && !right) return false;
+    const std::string name = left ? sides.left.text : sides.right.text,
+                      value = left ? sides.right.text : sides.left.text;
+    const CheckedClaim found =
+        check_equilibrium({system_.scene(), system_.mechanism(), {{name, parsed(value)}}, system_.sheets()});
+    if (found.verdict == Verdict::undecided || (found.verdict != Verdict::proved && !speaks_of_rest_))
+        return false;
+    line.checked = found;
+    notes_.back().claim = {};
+    line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::mistake;
+    line.reason = found.verdict == Verdict::proved ? say("an equilibrium") : found.reason;
+    return true;
+}
+
+bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {
+    if (at_rest_of_rates_) {
+        const ex residual = truth_.value(sides.left.text) - truth_.value(sides.right.text);
+        MotionRows& rows = system_.rows();
+        if (rows.is_identity(rows.row(system_.without_accelerations(residual))) == true) {
+            line.status = LineStatus::right;
+            line.reason = say("where the accelerations of the coordinates are zero");
+            notes_.back().claim = {};
+            return true;
+        }
+    }
+    if (!speaks_of_rest_) return false;
+    LineClaim claim = notes_.back().claim;
+    claim.at_rest = true;
+    if (has_quantities(sides)) return false;
+    try {
+        const std::vector<CheckedClaim> verdicts = system_.check({claim}, known_);
+        const auto& other = verdicts[0].other_branch;
+        const bool on_a_branch = other && other->verdict == Verdict::proved;
+        if (verdicts[0].verdict != Verdict::proved && verdicts[0].verdict != Verdict::vacuous && !on_a_branch)
+            return false;
+    } catch (const std::exception&) {
+        return false;
+    }
+    notes_.back().claim = claim;
+    line.status = LineStatus::right;
+    line.reason = say("of states of rest");
+    return true;
+}
+
+bool Marker::holds_near(MarkedLine& line, const Sides& sides, const ex& residual) {
+    if (!speaks_of_small_) return false;
+    const auto speaks_of = [&](MechanicalQuantity quantity) {
+        const std::string name = letters_.name_of(quantity);
+        return sides.left.names.contains(name) || sides.right.names.contains(name);
+    };
+    const bool of_potential = speaks_of(MechanicalQuantity::potential) ||
+                              speaks_of(MechanicalQuantity::lagrangian) || speaks_of(MechanicalQuantity::energy);
+    const int order = of_potential || speaks_of(MechanicalQuantity::kinetic) ? 2 : 1;
+    std::vector<BaseState> bases = near_ ? std::vector<BaseState>{*near_} : base_states(system_.scene());
+    for (const BaseState& base : bases) {
+        bool holds = is_small(residual, base, order, of_potential, system_);
+        if (!holds && order == 1) {
+            const auto checked = checked_near(notes_.back().claim, base, system_, known_);
+            holds = checked && checked->verdict == Verdict::proved;
+            if (checked) near_ = base;
+        }
+        if (!holds) continue;
+        line.status = LineStatus::right_near;
+        line.reason = say("to first order near {}", base.text);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace alembert

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What the check says of each line, and where in the document the wrong term stands.
+#include "check/derivation/marker.hpp"
+
+#include <algorithm>
+
+#include "base/language/say.hpp"
+
+namespace alembert {
+
+namespace {
+
+bool is_checked(LineStatus status) {
+    return status == LineStatus::right || status == LineStatus::mistake || status == LineStatus::unfounded ||
+           status == LineStatus::undecided;
+}
+
+/// The verdicts together; where that fails, of each claim alone.
+std::vector<CheckedClaim> verdicts_on(const std::vector<LineClaim>& claims,
+                                      const std::map<std::string, GiNaC::ex>& known, const DerivedSystem& system) {
+    if (claims.empty()) return {};
+    try {
+        return system.check(claims, known);
+    } catch (const std::exception& error) {
+        if (claims.size() == 1) {
+            CheckedClaim open;
+            open.reason = error.what();
+            return {open};
+        }
+    }
+    std::vector<CheckedClaim> result;
+    for (const LineClaim& claim : claims) result.push_back(std::move(verdicts_on({claim}, known, system)[0]));
+    return result;
+}
+
+}  // namespace
+
+void Marker::verify() {
+    std::vector<LineClaim> claims;
+    std::vector<std::size_t> asked;
+    for (std::size_t k = 0; k < lines.size(); ++k)
+        if (is_checked(lines[k].status) && !notes_[k].claim.lhs.empty()) {
+            claims.push_back(notes_[k].claim);
+            asked.push_back(k);
+        }
+    std::vector<CheckedClaim> verdicts = verdicts_on(claims, known_, system_);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        LineNotes& notes = notes_[asked[i]];
+        if (verdicts[i].verdict == Verdict::undecided && !system_.scene().unilateral.empty()) {
+            notes.claim.open = true;  // a quantity is what it is whether contacts are closed or not
+            if (speaks_of_quantity(notes)) verdicts[i] = verdicts_on({notes.claim}, known_, system_)[0];
+        }
+        adopt(lines[asked[i]], notes, std::move(verdicts[i]));
+        MarkedLine& line = lines[asked[i]];
+        const bool unknown = !line.checked.likely || line.checked.likely->kind == "unknown";
+        if (line.status != LineStatus::mistake || !unknown) continue;
+        if (const auto other = with_other_forces(notes.claim)) {  // which forces Q means was not clear yet
+            adopt(line, notes, *other);
+            continue;
+        }
+        if (notes.near) {
+            CheckedClaim near = line.checked;
+            near.likely = slip_near(notes.claim, *notes.near, system_, known_);
+            if (near.likely) adopt(line, notes, std::move(near));
+            continue;
+        }
+        if (notes.own.empty()) continue;
+        // A second slip is one against what the derivation itself had before.
+        std::vector<CheckedClaim> own = verdicts_on({notes.claim}, notes.own, system_);
+        if (!own[0].likely || own[0].likely->kind == "unknown") continue;
+        adopt(line, notes, std::move(own[0]));
+    }
+}
+
+bool Marker::speaks_of_quantity(const LineNotes& notes) const {
+    const auto is_own = [&](const std::string& name) { return known_.contains(name); };
+    return is_own(notes.claim.lhs) || is_own(notes.claim.rhs);
+}
+
+/// The verdict on a claim about generalized forces where these are the others; nothing if it shows no slip.
+std::optional<CheckedClaim> Marker::with_other_forces(const LineClaim& claim) {
+    if (!claim.lhs.starts_with("Q_") && !claim.rhs.starts_with("Q_")) return std::nullopt;
+    use_all_forces(!all_forces_);
+    std::vector<CheckedClaim> verdicts = verdicts_on({claim}, known_, system_);
+    use_all_forces(!all_forces_);
+    const bool shows =
+        verdicts[0].verdict == Verdict::refuted && verdicts[0].likely && verdicts[0].likely->kind != "unknown";
+    return shows ? std::optional(std::move(verdicts[0])) : std::nullopt;
+}
+
+void Marker::adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict) {
+    line.checked = std::move(verdict);
+    switch (line.checked.verdict) {
+        case Verdict::refuted:
+            if (line.status != LineStatus::unfounded) line.status = LineStatus::mistake;
+            break;
+        case Verdict::undecided:
+            line.status = LineStatus::undecided;
+            if (line.reason.empty()) line.reason = line.checked.reason;
+            return;
+        case Verdict::proved:
+        case Verdict::vacuous:
+            if (line.status == LineStatus::mistake || line.status == LineStatus::undecided)
+                line.status = LineStatus::right;
+            return;
+    }
+    if (line.checked.likely) {
+        line.term = line.checked.likely->term;
+        line.right = line.checked.likely->repair;
+    }
+    if (line.right.empty()) line.right = line.checked.nearest;
+    locate_term(line, notes);
+}
+
+void Marker::locate_term(MarkedLine& line, const LineNotes& notes) const {
+    if (line.term.empty() || line.checked.likely->kind == "missing_term") return;
+    const auto without_blanks = [](const std::string& text) {
+        std::string result = text;
+        std::erase(result, ' ');
+        return result;
+    };
+    const std::string term = without_blanks(line.term);
+    for (const ClaimText* side : {&notes.left, &notes.right})
+        for (const ClaimText::Part& part : side->parts) {
+            if (without_blanks(side->text.substr(part.begin, part.end - part.begin)) != term) continue;
+            line.term_offset = part.offset;
+            line.term_length = part.length;
+            return;
+        }
+}
+
+std::vector<std::string> Marker::missing() {
+    MotionRows& rows = system_.rows();
+    std::vector<const MotionRow*> right;
+    for (std::size_t k = 0; k < lines.size(); ++k)
+        if (notes_[k].equation &&
+            (lines[k].status == LineStatus::right || lines[k].status == LineStatus::unfounded))
+            right.push_back(&*notes_[k].equation);
+    std::vector<std::string> result;
+    if (rows.determine(right)) return result;
+    const Mechanism& m = system_.mechanism();
+    const Equations& e = system_.equations();
+    for (int i = 0; i < e.size(); ++i) {
+        GiNaC::exvector terms{-e.forcing(i), -system_.reaction(i)};
+        for (int j = 0; j < e.size(); ++j) terms.push_back(e.M(i, j) * m.qddot[j]);
+        if (!rows.follows(rows.row(GiNaC::add(std::move(terms))), right)) result.push_back(m.q[i].get_name());
+    }
+    return result;
+}
+
+double Marker::score() const {
+    double result = 0;
+    for (const MarkedLine& line : lines) switch (line.status) {
+            case LineStatus::right:
+            case LineStatus::right_near:
+            case LineStatus::right_up_to_constant:
+            case LineStatus::right_up_to_derivative:
+                result += 1;
+                break;
+            case LineStatus::follows:
+            case LineStatus::unfounded:
+                result += 0.5;
+                break;
+            case LineStatus::definition:
+                result += 0.1;
+                break;
+            case LineStatus::not_understood:
+            case LineStatus::undecided:
+                result -= 0.5;
+                break;
+            case LineStatus::mistake:
+                result -= 0.25;
+                break;
+            case LineStatus::not_about_scene:
+                break;
+        }
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/derivation/system.hpp"
+
+#include "analysis/state/force_balance.hpp"
+#include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
+#include "model/formalism/routh.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+DerivedSystem::DerivedSystem(Scene scene, const std::string& by)
+    : derived_(derived(std::move(scene), {.by = by, .on_sheets = true})), by_(by) {
+    derived_.scene.claims.clear();
+    const Mechanism bound = with_force_balances(derived_.mechanism, routh);
+    e_ = routh(bound);
+    m_ = in_terms_of(e_, bound);
+    claims_ = std::make_unique<Claims>(derived_.scene, m_, e_, derived_.sheets, by_);
+    rows_ = std::make_unique<MotionRows>(
+        m_, e_, [this](Program& program, const std::vector<ex>& list) { return claims_->lower(program, list); });
+}
+
+std::vector<ex> DerivedSystem::forces(bool with_potential) const {
+    std::vector<ex> result = m_.generalized_forces(false);
+    const std::vector<ex> dissipative = m_.generalized_forces(true);
+    const std::vector<ex> slopes =
+        with_potential ? m_.z->pull_back({{m_.potential_energy(), 1}}, m_.q) : std::vector<ex>(m_.q.size(), 0);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = m_.z->name(result[i] + dissipative[i] - slopes[i]);
+    return result;
+}
+
+ex DerivedSystem::reaction(int i) const {
+    GiNaC::exvector terms;
+    for (std::size_t k = 0; k < e_.A.size(); ++k)
+        terms.push_back(e_.A[k][static_cast<std::size_t>(i)] * e_.lambda[k]);
+    for (const Mechanism::Constraint* c : m_.undetermined())
+        terms.push_back(c->row[static_cast<std::size_t>(i)] * c->multiplier);
+    return m_.z->name(GiNaC::add(std::move(terms)));
+}
+
+std::vector<ex> DerivedSystem::euler_lagrange(const ex& function) const {
+    const std::vector<ex> momenta = m_.z->pull_back({{function, 1}}, m_.qdot);
+    const std::vector<ex> rates = m_.time_derivative(momenta), slopes = m_.z->pull_back({{function, 1}}, m_.q);
+    std::vector<ex> result;
+    for (std::size_t i = 0; i < rates.size(); ++i) result.push_back(m_.z->name(rates[i] - slopes[i]));
+    return result;
+}
+
+// The rows of the speeds and of the constraints, as far as they are independent in this order, are a square
+// matrix.
+std::vector<ex> DerivedSystem::rates_by_speed(std::size_t speed) const {
+    constexpr std::size_t most = 7;
+    const std::size_t n = m_.q.size();
+    if (n > most || m_.speeds.size() + e_.A.size() < n) return {};
+    GiNaC::matrix rows(static_cast<unsigned>(n), static_cast<unsigned>(n)), unit(static_cast<unsigned>(n), 1);
+    for (std::size_t k = 0; k < n; ++k) {
+        const bool of_speed = k < m_.speeds.size();
+        const std::vector<ex>& row = of_speed ? m_.speeds[k].row : e_.A[k - m_.speeds.size()];
+        for (std::size_t i = 0; i < n; ++i)
+            rows(static_cast<unsigned>(k), static_cast<unsigned>(i)) = m_.z->expand(row[i]);
+        unit(static_cast<unsigned>(k), 0) = k == speed ? 1 : 0;
+    }
+    try {
+        const GiNaC::matrix inverse = rows.inverse();
+        std::vector<ex> result;
+        for (unsigned i = 0; i < n; ++i) result.push_back(m_.z->name(inverse.mul(unit)(i, 0)));
+        return result;
+    } catch (const std::exception&) {  // singular
+        return {};
+    }
+}
+
+ex DerivedSystem::without_accelerations(const ex& e) const {
+    GiNaC::exmap none;
+    for (const GiNaC::symbol& acceleration : m_.qddot) none[acceleration] = 0;
+    return substitute(*m_.z, {e}, none)[0];
+}
+
+std::vector<CheckedClaim> DerivedSystem::check(const std::vector<LineClaim>& claims,
+                                               const std::map<std::string, ex>& known) const {
+    Scene scene = derived_.scene;
+    Mechanism mechanism = derived_.mechanism;
+    mechanism.z = m_.z;
+    for (const auto& [name, value] : known) mechanism.definitions.push_back({name, value});
+    std::vector<Diagnostic> mistakes;
+    for (const LineClaim& line : claims) {
+        Claim claim;
+        claim.equation = parse_equality(line.lhs + " = " + line.rhs, {}, mistakes);
+        for (const std::string& name : line.constants) claim.constants.push_back({name, {}});
+        if (line.open) scene.unilateral.clear();
+        if (line.at_rest) claim.at = Claim::At::rest;
+        for (const auto& [name, value] : line.near) {
+            claim.at = Claim::At::near;
+            claim.near.emplace_back(Name{name, {}}, parse_expression(value, {}, mistakes));
+        }
+        scene.claims.push_back(std::move(claim));
+    }
+    if (!mistakes.empty()) throw SceneError(mistakes[0].message, mistakes);
+    return alembert::check(scene, mechanism, derived_.sheets, by_).claims;
+}
+
+}  // namespace alembert

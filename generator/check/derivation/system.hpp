@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The system that a derivation is about: its quantities, its motions, and the verdict on claims about it.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/derive/derived.hpp"
+#include "check/check.hpp"
+#include "check/claims.hpp"
+#include "check/derivation/letters.hpp"
+#include "check/derivation/motion_rows.hpp"
+#include "check/derivation/world.hpp"
+
+namespace alembert {
+
+/// A line in the language of claims.
+struct LineClaim {
+    std::string lhs, rhs;
+    std::vector<std::string> constants = {};  ///< names that it claims to be constant
+    /// Near this state it is to hold to first order; empty if it is to hold exactly.
+    std::vector<std::pair<std::string, std::string>> near = {};
+    bool at_rest = false;  ///< whether it speaks of states of rest
+    bool open = false;     ///< whether it is about motions with open contacts only
+};
+
+class DerivedSystem {
+public:
+    /// Throws what `derived` throws.
+    DerivedSystem(Scene scene, const std::string& by);
+    DerivedSystem(const DerivedSystem&) = delete;
+    DerivedSystem& operator=(const DerivedSystem&) = delete;
+
+    const Scene& scene() const { return derived_.scene; }
+    const Mechanism& mechanism() const { return m_; }
+    const Equations& equations() const { return e_; }
+    const std::shared_ptr<RootSheets>& sheets() const { return derived_.sheets; }
+    MotionRows& rows() { return *rows_; }
+
+    /// Generalized forces: of the loads that have no potential, or of all.
+    std::vector<GiNaC::ex> forces(bool with_potential) const;
+    /// Σ λ ∂f/∂q of the constraints along coordinate i.
+    GiNaC::ex reaction(int i) const;
+    /// d/dt ∂L/∂q'_i − ∂L/∂q_i of any function of the state.
+    std::vector<GiNaC::ex> euler_lagrange(const GiNaC::ex& function) const;
+
+    /// ∂q'/∂u of the generalized speed at this place in Mechanism::speeds, along motions that the constraints
+    /// allow; empty if the speeds do not determine the rates.
+    std::vector<GiNaC::ex> rates_by_speed(std::size_t speed) const;
+    /// The expression without accelerations: at q'' = 0.
+    GiNaC::ex without_accelerations(const GiNaC::ex& e) const;
+
+    /// The verdicts of the check, with slips; `known` are further names with their values.
+    std::vector<CheckedClaim> check(const std::vector<LineClaim>& claims,
+                                    const std::map<std::string, GiNaC::ex>& known) const;
+
+private:
+    Derived derived_;
+    std::string by_;
+    Mechanism m_;
+    Equations e_;
+    std::unique_ptr<Claims> claims_;
+    std::unique_ptr<MotionRows> rows_;
+};
+
+}  // namespace alembert

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/written/words.hpp"
+
+#include <algorithm>
+
+#include "base/language/greek.hpp"
+#include "check/written/commands.hpp"
+
+namespace alembert {
+
+namespace {
+
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c | 0x20);
+    return lower;
+}
+
+/// Whether one of `phrases`, separated by |, stands in the text as whole words (a phrase that ends with * may go
+/// on).
+bool has_phrase(const std::string& text, std::string_view phrases) {
+    const auto is_letter_at = [&](std::size_t k) { return k < text.size() && text[k] >= 'a' && text[k] <= 'z'; };
+    while (!phrases.empty()) {
+        const std::size_t end = std::min(phrases.find('|'), phrases.size());
+        std::string_view phrase = phrases.substr(0, end);
+        phrases.remove_prefix(std::min(end + 1, phrases.size()));
+        const bool may_go_on = phrase.ends_with('*');
+        if (may_go_on) phrase.remove_suffix(1);
+        for (std::size_t at = text.find(phrase); at != std::string::npos; at = text.find(phrase, at + 1))
+            if ((at == 0 || !is_letter_at(at - 1)) && (may_go_on || !is_letter_at(at + phrase.size())))
+                return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool begins_condition(std::string_view words) {
+    const std::string lower = in_lower_case(words);
+    for (const std::string_view word :
+         {"if", "for", "when", "whenever", "otherwise", "provided", "as long as", "while", "wenn", "für", "falls"})
+        if (lower.starts_with(word) &&
+            (lower.size() == word.size() || lower[word.size()] == ' ' || lower[word.size()] == ','))
+            return true;
+    return false;
+}
+
+bool speaks_of_consequence(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "therefore|hence|so|thus|consequently|it follows|implies|gives|yields|we get|we obtain|"
+        "we find|results in|leads to|then|因此*|所以*|故*|得*|于是*|从而*|即*|also|folglich|daher|somit");
+}
+
+bool speaks_of_first_order(std::string_view words) {
+    return has_phrase(
+        in_lower_case(words),
+        "small angle*|small oscillation*|small-angle*|small displacement*|small motion*|small amplitude*|"
+        "small deflection*|small vibration*|small perturbation*|for small*|lineari*|first order|first-order|"
+        "near equilibrium|near the equilibrium|about the equilibrium|higher order|higher-order|"
+        "second order terms|quadratic terms|小角*|微小*|小振动*|小摆*|线性化*|小幅*|一阶近似*|kleine winkel*|"
+        "kleine auslenkung*|kleine schwingung*");
+}
+
+bool is_word_for_letter(std::string_view word) {
+    if (word.empty() || word.size() > 40) return false;
+    static constexpr std::string_view no_names[] = {
+        "and",       "or",        "where",  "with",    "for",       "if",   "when",  "so",  "thus", "hence",
+        "therefore", "otherwise", "then",   "since",   "because",   "at",   "as",    "in",  "on",   "is",
+        "are",       "gives",     "yields", "implies", "similarly", "also", "while", "but", "by",   "from",
+        "let",       "using",     "we",     "that",    "which",     "und",  "oder",  "mit", "also", "wo"};
+    if (std::find(std::begin(no_names), std::end(no_names), in_lower_case(word)) != std::end(no_names))
+        return false;
+    return std::all_of(word.begin(), word.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+               c == '.' || c == '-';
+    });
+}
+
+bool is_prose(std::string_view word) {
+    static constexpr std::string_view short_words[] = {
+        "a",   "an",   "the",  "is",   "are",   "be",   "of",    "to",    "in",   "on",    "at",    "by",
+        "for", "from", "with", "and",  "or",    "so",   "we",    "it",    "as",   "if",    "let",   "get",
+        "has", "have", "this", "that", "then",  "thus", "hence", "where", "when", "which", "gives", "yields",
+        "its", "our",  "here", "us",   "now",   "was",  "were",  "can",   "will", "both",  "also",  "since",
+        "not", "no",   "but",  "use",  "using", "set",  "find",  "take",  "per",  "via",   "into",  "I"};
+    if (std::find(std::begin(short_words), std::end(short_words), word) != std::end(short_words)) return true;
+    const std::string lower = in_lower_case(word);
+    if (std::find(std::begin(short_words), std::end(short_words), lower) != std::end(short_words) &&
+        lower != "i" && lower != "a")
+        return true;
+    if (word.size() < 4) return false;
+    if (!std::all_of(lower.begin(), lower.end(), [](char c) { return c >= 'a' && c <= 'z'; })) return false;
+    return greek_named(word) == nullptr && function_named(word).empty() && !lower.ends_with("dot") &&
+           command_named(word) == nullptr;
+}
+
+}  // namespace alembert
