@@ -197,11 +197,11 @@ def steps(program, options):
 
 GREEK = r"\\(?:theta|varphi|phi|psi|alpha|beta|gamma|lambda|omega|xi|eta|chi|mu|sigma|tau|zeta|delta)"
 LETTER = rf"(?:{GREEK}|\\mathrm{{\w+}}|[A-Za-z])"
-DOTTED = re.compile(rf"\\(d?dot)\{{({LETTER})\}}(_\{{[^{{}}]*\}})?(\^\{{(\d+)\}})?")
+DOTTED = re.compile(rf"\\(d?dot)\{{({LETTER})\}}(_\{{[^{{}}]*\}})?(\(t\))?(\^\{{(\d+)\}})?")
 
 
 def in_fractions(found):
-    letter, index, power = found.group(2), found.group(3) or "", found.group(5)
+    letter, index, power = found.group(2), found.group(3) or "", found.group(6)
     name = letter + index
     if found.string[:found.start()].endswith(r"\partial "):  # nobody writes a fraction there
         return found.group()
@@ -210,14 +210,14 @@ def in_fractions(found):
 
 
 def in_primes(found):
-    letter, index, power = found.group(2), found.group(3) or "", found.group(5)
+    letter, index, power = found.group(2), found.group(3) or "", found.group(6)
     primes = "'" if found.group(1) == "dot" else "''"
     rate = f"{letter}{index}{primes}"
     return f"({rate})^{power} " if power else rate + " "
 
 
 def in_short(found):
-    letter, index, power = found.group(2), found.group(3) or "", found.group(5)
+    letter, index, power = found.group(2), found.group(3) or "", found.group(6)
     short = rf"\{found.group(1)} {letter}" if letter.startswith("\\") is False else rf"\{found.group(1)}{letter}"
     return short + index.replace("{", "").replace("}", "") * (len(index) <= 4) + index * (len(index) > 4) + (
         f"^{power} " if power else " ")
@@ -242,7 +242,7 @@ class Hand:
 
     def write(self, formula):
         if DOTS[self.dots]:
-            formula = DOTTED.sub(DOTS[self.dots], formula)
+            formula = DOTTED.sub(DOTS[self.dots], formula).rstrip()
         if self.ell:
             formula = re.sub(r"(?<![A-Za-z\\])l(?![A-Za-z])", r"\\ell ", formula)
         if self.energies == "KU":

@@ -204,7 +204,7 @@ private:
         const std::set<Letter> all = needed();
         for (const Letter& letter : all) letters_.bind(letter, name_for(letter));
         SceneDraft draft;
-        draft.set("title", say("drafted from {}"));
+        draft.set("title", say("drafted from {}", written_.file));
         std::vector<std::string> coordinates, parameters, inputs;
         double start = first_coordinate;
         for (const Letter& letter : all) {
