@@ -390,7 +390,8 @@ void DocumentReader::environment() {
         const bool keeps_frame = name == "cases" || name == "array" || name.ends_with("matrix");
         if (name.starts_with("alignat") && at_ < end && text_[at_] == '{')
             at_ = std::min(text_.find('}', at_) + 1, end);
-        formula(keeps_frame ? begin : at_, keeps_frame ? after : end, WrittenNotation::latex, true, is_matter_of_rows);
+        formula(keeps_frame ? begin : at_, keeps_frame ? after : end, WrittenNotation::latex, true,
+                is_matter_of_rows);
     }
     at_ = after;
 }

@@ -39,8 +39,8 @@ struct Math {
                  ///< (t, 2))
         call,  ///< text: sin, cos, tan, cot, sec, csc, asin, acos, atan, atan2, sinh, cosh, tanh, sqrt, exp, ln,
                ///< abs, sign; args
-        applied,  ///< letter with arguments that is no such function: F(t), V(r), L(q, \dot q, t), or a product
-                  ///< m(g+a) that was written without a sign (only the names of the scene tell which); args
+        applied,   ///< letter with arguments that is no such function: F(t), V(r), L(q, \dot q, t), or a product
+                   ///< m(g+a) that was written without a sign (only the names of the scene tell which); args
         sum,       ///< args, at least two; a difference has `negate` nodes in it
         product,   ///< args, at least two
         negate,    ///< one arg
