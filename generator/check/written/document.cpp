@@ -60,7 +60,8 @@ bool has_marks_of_latex(std::string_view text) {
 }
 
 bool has_enclosed_latex(std::string_view text) {
-    if (has_display(text) || text.find("\\(") != std::string_view::npos || text.find("$$") != std::string_view::npos)
+    if (has_display(text) || text.find("\\(") != std::string_view::npos ||
+        text.find("$$") != std::string_view::npos)
         return true;
     for (std::size_t at = text.find("\\begin{"); at != std::string_view::npos;
          at = text.find("\\begin{", at + 1)) {
