@@ -81,7 +81,9 @@ bool has_prose(const std::string& text) {
         const std::string line = text.substr(begin, end - begin);
         begin = end + 1;
         const std::size_t first = line.find_first_not_of(" \t\r");
-        if (first == std::string::npos || line[first] == '#' || line.find('=') != std::string::npos) continue;
+        if (first == std::string::npos || line[first] == '#' || line.find('=') != std::string::npos ||
+            line.find("＝") != std::string::npos)
+            continue;
         static constexpr const char* modes[] = {"unknowns", "constants", "rest",   "impact",   "motion",
                                                 "solution", "near",      "closed", "sticking", "where"};
         const std::string word = line.substr(first, line.find_first_of(" \t\r", first) - first);

@@ -95,7 +95,7 @@ void Marker::hear(const std::string& words) {
         return std::any_of(list.begin(), list.end(),
                            [&](const char* part) { return words.find(part) != std::string::npos; });
     };
-    at_rest_of_rates_ = false;
+    at_rest_of_rates_ = says({"q'' = 0"});
     speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
     speaks_of_period_ = says({"period", "Period", "周期"});
     speaks_of_rest_ = says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡"});
