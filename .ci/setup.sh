@@ -66,6 +66,7 @@ install_missing() {
 set_up() {
     mkdir -p build || fail "cannot make the folder $PWD/build"
     install_missing
+    [ -f "build/$1/build.ninja" ] || printf 'building %s for the first time, which takes minutes; the log is build/%s-build.log\n' "$2" "$1"
     logged "build/$1-configure.log" cmake --preset "$1"
     build=(cmake --build "build/$1" --target "$2")
     if [ -t 1 ]; then

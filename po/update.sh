@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 template=${1-}
 [ -n "$template" ] || { template=$(mktemp) && trap 'rm -f "$template"' EXIT; }
 
-find generator -name '*.?pp' ! -path 'generator/peers/*' ! -path 'generator/base/language/say.hpp' | LC_ALL=C sort |
+find generator -name '*.?pp' ! -path 'generator/plugins/*' ! -path 'generator/base/language/say.hpp' | LC_ALL=C sort |
     xgettext --files-from=- --language=C++ --from-code=UTF-8 --output="$template" --add-location=file --no-wrap \
         --package-name=alembert --keyword --keyword=say:1 --keyword=say_on:2 --keyword=to_say:1 \
         --flag=say:1:no-c-format --flag=say_on:2:no-c-format --flag=to_say:1:no-c-format

@@ -289,6 +289,7 @@ Answer do_emit(Scene scene, const Asked& asked) {
                                  .language = asked.text("language") == "c" ? CodeLanguage::c : CodeLanguage::cpp,
                                  .functions = asked.texts("functions"),
                                  .frames = asked.texts("frames"),
+                                 .wrenches = asked.texts("wrenches"),
                                  .standalone = asked.flag("standalone"),
                                  .casadi = asked.flag("casadi")});
     Answer answer{.json = {}, .warnings = e.warnings};
@@ -365,11 +366,18 @@ Answer do_sweep(Scene scene, const Asked& asked) {
 }
 
 Answer do_bench(Scene scene, const Asked& asked) {
-    return drawn(bench(std::move(scene), {.wishes = asked.run_options(), .peers = asked.flag("peers")}));
+    BenchOptions options{.wishes = asked.run_options(), .peers = asked.flag("peers")};
+    options.most_seconds = asked.number("run_seconds", options.most_seconds);
+    options.reference_seconds = asked.number("reference_seconds", options.reference_seconds);
+    return drawn(bench(std::move(scene), options));
 }
 
 Answer do_report(Scene scene, const Asked& asked) {
-    OverviewOptions options{.by = asked.by(), .wishes = asked.run_options(), .moves = asked.flag("motion")};
+    OverviewOptions options{.by = asked.by(),
+                            .wishes = asked.run_options(),
+                            .moves = asked.flag("motion"),
+                            .section = asked.text("poincare"),
+                            .measures = asked.flag("bench")};
     options.wishes.budget = static_cast<long>(asked.number("budget", 3'000'000));
     const Overview all = overview(std::move(scene), options);
     return {.json = Json::object(),

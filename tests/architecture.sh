@@ -36,7 +36,7 @@ for chamber in "${chambers[@]}"; do
     mapfile -t inside < <(files "generator/$chamber" -maxdepth 1)
     forbid "$chamber includes a later chamber" "#include \"($later)/[a-z_0-9]+\.hpp\"" "${inside[@]}"
 done
-for folder in $(find generator -mindepth 1 -type d ! -path 'generator/peers*'); do
+for folder in $(find generator -mindepth 1 -type d ! -path 'generator/plugins*'); do
     [[ " ${chambers[*]} " == *" ${folder#generator/} "* || " ${rooms[*]} " == *" ${folder#generator/} "* ]] ||
         { echo "$folder is not in generator/rooms.txt"; failed=1; }
 done
@@ -106,7 +106,7 @@ for struct in $(sed -n "s/^struct \([a-z_]*\) {/\1/p" lib/alembert/native/abi.hp
     [ "$(words $struct lib/alembert/native/abi.hpp)" = "$(words $struct templates/solver.cpp.mustache)" ] ||
         { echo "templates/solver.cpp.mustache and lib/alembert/native/abi.hpp disagree about $struct"; failed=1; }
 done
-missing=$(files lib generator tests | xargs grep -L 'SPDX-License-Identifier')
+missing=$(files lib generator tools tests | xargs grep -L 'SPDX-License-Identifier')
 [ -z "$missing" ] || { printf 'no licence line in:\n%s\n' "$missing"; failed=1; }
 
 # Functions of at most 80 lines and 6 parameters, files of at most 700 lines.

@@ -44,7 +44,8 @@ by_method() {
     alembert simulate $scene --duration 1 --method "$1" --json | grep -q "\"method\": \"$1\""
 }
 rivals() {
-    alembert bench $scene --peers --method dop853 --duration 0.1 >"$work/rivals" &&
+    cmake --build build/release --target alembert-peers >/dev/null &&
+        alembert bench $scene --peers --method dop853 --duration 0.1 >"$work/rivals" &&
         for rival in cvode arkode ida gsl odeint; do grep -q "^$rival " "$work/rivals" || return; done
 }
 in_chinese() {

@@ -35,7 +35,7 @@ def sources(root):
     for place in PLACES:
         for path in sorted((root / place).rglob("*")):
             name = path.relative_to(root).as_posix()
-            if path.suffix in KINDS and not name.startswith("generator/peers/"):
+            if path.suffix in KINDS and not name.startswith("generator/plugins/"):
                 yield name, path.read_text(encoding="utf-8")
 
 

@@ -25,7 +25,7 @@ except ImportError:
 
 import alembert
 
-from python_shared import PENDULUM, SCENES, TESTS, program, scene_file
+from python_shared import PENDULUM, PROGRAM, SCENES, TESTS, program, scene_file
 from python_numbers import *  # noqa: F403 (unittest finds the tests of all three files here)
 from python_examples import *  # noqa: F403
 
@@ -159,6 +159,27 @@ class Verbs(unittest.TestCase):
                     has = [p for p in inspect.signature(getattr(ours, method.name)).parameters if p != "self"]
                     self.assertEqual(has, said, f"{name}.{method.name}")
                     self.assertTrue(method.name.startswith("_") or is_there.__doc__ or is_there.__func__.__doc__)
+
+    def test_methods_take_the_options_of_their_verbs(self):
+        """Every option of the program is a keyword, unless Python has another form for it; and no keyword is another's."""
+        ways = {"output", "json", "strict", "language", "help", "format", "svg", "csv", "plot", "show"}  # of showing
+        others = {"derive": {"steps", "dimensions", "draw"},  # all steps are in .steps; Scene.draw
+                  "check": {"complete"},
+                  "equilibrium": {"follow"},  # Scene.branches
+                  "linearize": {"modes"},
+                  "stability": {"modes", "over", "locus", "exponents", "duration"},  # stability_chart, root_locus, exponents
+                  "emit": {"frame", "wrench"},  # frames=[…], wrenches=[…]
+                  "sweep": {"vary", "vary_from", "chunk"}}
+        forms = {"check": {"claims"}, "emit": {"folder", "language", "frames", "wrenches"}, "fmu": {"path"},
+                 "report": {"path"}, "sweep": {"values", "grid", "path"}}
+        for verb in ("derive agree audit check eval equilibrium linearize stability kinematics inertia identify inverse "
+                     "impact emit fmu simulate sweep bench report").split():
+            page = subprocess.run([PROGRAM, "--language", "en", "man", verb], capture_output=True, text=True, check=True)
+            options = {re.sub(r"^no_", "", name.replace("\\-", "_")) for name in
+                       re.findall(r"^\\fB(?:\\-\w\\fR, \\fB)?\\-\\-([a-z\\-]+)\\f", page.stdout, re.M)}
+            self.assertIn("strict", options, verb)
+            keywords = set(inspect.signature(getattr(alembert.Scene, verb)).parameters) - {"self"}
+            self.assertEqual(options - ways - others.get(verb, set()), keywords - forms.get(verb, set()), verb)
 
     def test_the_fields_of_stubs_are_those_of_the_values(self):
         hoop = alembert.Scene(scene_file("textbook/rotating_hoop.toml"))

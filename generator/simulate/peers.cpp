@@ -41,10 +41,11 @@ std::filesystem::path new_file() {
 Peers measure_peers(const PeerRequest& request, const std::function<double(const std::vector<double>&)>& judge) {
     const std::filesystem::path program = beside_this_program("alembert-peers");
     if (program.empty())
-        return {.runs = {},
-                .missing = say(
-                    "alembert-peers is not beside this program; it is built where CMake finds libsundials-dev, "
-                    "libgsl-dev or libboost-dev (Debian)")};
+        return {
+            .runs = {},
+            .missing = say(
+                "alembert-peers is not beside this program; cmake --build build/release --target alembert-peers "
+                "makes it, where libsundials-dev, libgsl-dev or libboost-dev are installed (Debian)")};
     const Leftover task(new_file());
     {
         std::ofstream out(task.path());

@@ -2,7 +2,7 @@
 #pragma once
 
 /// Measures integrators of other libraries on the same emitted function. A separate program (`alembert-peers`,
-/// generator/peers), which is built with those of SUNDIALS, GSL and Boost.odeint that CMake found, loads the same
+/// tools/peers), which is built with those of SUNDIALS, GSL and Boost.odeint that CMake found, loads the same
 /// object file.
 ///
 ///     const Peers peers = measure_peers({.object = object, …});

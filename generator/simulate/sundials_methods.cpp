@@ -8,7 +8,7 @@
 #include "alembert/base/error.hpp"
 #include "alembert/native/process.hpp"
 #include "base/language/say.hpp"
-#include "peers/backend.hpp"
+#include "plugins/backend.hpp"
 
 namespace alembert {
 

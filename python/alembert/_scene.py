@@ -199,10 +199,13 @@ class Scene:
         warn(said)
         return Swept(_json.loads(json), text, columns, table, shape)
 
-    def bench(self, duration=None, *, method="", budget=10_000_000, peers=False, by=""):
-        """Speed against error of every method; `.figure` is the diagram."""
-        return self._ask("bench", Drawn, method=method, peers=peers, by=by,
-                         budget=int(budget), **numbers(duration=duration))
+    def bench(self, duration=None, *, method="", max_step=None, budget=10_000_000, code="", run_seconds=2.0,
+              reference_seconds=30.0, peers=False, by=""):
+        """Speed against error of every method; `.figure` is the diagram. `run_seconds` is the processor time of the
+        slowest runs that are of interest, `reference_seconds` that of each of the reference's methods."""
+        return self._ask("bench", Drawn, method=method, code=code, peers=peers, by=by, budget=int(budget),
+                         **numbers(duration=duration, max_step=max_step, run_seconds=run_seconds,
+                                   reference_seconds=reference_seconds))
 
     # For other programs
 
@@ -216,14 +219,14 @@ class Scene:
         return Robot(self, functions, frames, by)
 
     def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
-             frames=(), batch=False, casadi=False, by=""):
+             frames=(), wrenches=(), batch=False, casadi=False, by=""):
         """The C++ (or C) of the system: `.sources`; written into a folder if one is named, and then `.files`."""
         if language not in ("cpp", "c"):
             raise ValueError(f"language={language!r}: there are 'cpp' and 'c'")
         place = "" if folder is None else _os.path.join(_os.fspath(folder), "")
         found = self._ask("emit", Sources, folder=place, language=language, standalone=standalone, fold=fold,
-                          jacobian=jacobian, functions=list(functions), frames=list(frames), batch=batch,
-                          casadi=casadi, by=by)
+                          jacobian=jacobian, functions=list(functions), frames=list(frames), wrenches=list(wrenches),
+                          batch=batch, casadi=casadi, by=by)
         if folder is not None:
             _os.makedirs(folder, exist_ok=True)
             for name, text in found.sources.items():
@@ -238,10 +241,12 @@ class Scene:
         write(path, unit._files["fmu"])
         return unit
 
-    def report(self, path, *, duration=None, motion=True, by=""):
-        """Writes the page of the scene, with the figure that moves, to this HTML file."""
+    def report(self, path, *, duration=None, budget=3_000_000, motion=True, poincare="", bench=False, by=""):
+        """Writes the page of the scene, with the figure that moves, to this HTML file; with `bench`, the speed and error
+        of every method too."""
         _alembert.need_form(_os.fspath(path), "page")
-        page = self._ask("report", motion=motion, by=by, **numbers(duration=duration))
+        page = self._ask("report", motion=motion, poincare=poincare, bench=bench, by=by, budget=int(budget),
+                         **numbers(duration=duration))
         write(path, page._files["html"])
 
     def _repr_latex_(self):
