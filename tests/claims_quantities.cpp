@@ -7,7 +7,9 @@
 #include <cmath>
 #include <random>
 
+#include "algebra/notation/readable.hpp"
 #include "algebra/notation/text.hpp"
+#include "algebra/symbolic/fourier.hpp"
 #include "analysis/derive/derive.hpp"
 #include "check/frequency.hpp"
 #include "checked.hpp"
@@ -129,9 +131,16 @@ L = m*l^2*theta'^2/2 + m*g*l*cos(theta) + 3*m*l^2*theta'*cos(theta) + m*g*l
 L = m*l^2*theta'^2/2 + m*g*l*cos(theta) + m*l^2*theta'^2*cos(theta)
 T = m*l^2*theta'^2/2 + m*g*l
 V = -m*g*l*sin(theta)
+V = V + m*g*l
+theta*V = -m*g*l*theta*cos(theta) + m*g*l
+2*E = m*l^2*theta'^2 - 2*m*g*l*cos(theta) + m*g*l
+m*g*l*cos(theta) + m*g*l = -V
 )"));
-    check_verdicts(result, {Verdict::proved, Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted,
-                            Verdict::refuted});
+    check_verdicts(result,
+                   {Verdict::proved, Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted,
+                    Verdict::refuted, Verdict::refuted, Verdict::refuted, Verdict::proved, Verdict::proved});
+    REQUIRE(result.claims[9].up_to);
+    CHECK(result.claims[9].up_to->text == "-m*g*l");
     REQUIRE(result.claims[0].up_to);
     CHECK(result.claims[0].up_to->kind == UpTo::Kind::constant);
     CHECK(result.claims[0].up_to->text == "m*g*l");
@@ -186,6 +195,8 @@ TEST_CASE("claims: slips in quantities are named as in equations of motion, and 
     };
     CHECK(slip("pendulum", "T = m*l^2*theta'^2") == "factor");
     CHECK(slip("pendulum", "V = m*g*l*cos(theta)") == "sign");
+    CHECK(slip("pendulum", "V = m*g*l*(1 + cos(theta))") == "sign");
+    CHECK(slip("pendulum", "E = m*l*theta'^2/2 - m*g*l*cos(theta)") == "wrong_arm");
     CHECK(slip("double_pendulum", "p_theta1 = (m1+m2)*l1^2*theta1' - m2*l1*l2*theta2'*cos(theta1-theta2)") ==
           "sign");
     CHECK(slip("double_pendulum", "T = (m1+m2)*l1^2*theta1'^2/2 + m2*l2^2*theta2'^2/2") == "missing_term");
@@ -422,6 +433,86 @@ TEST_CASE("claims: slips made on the energies and derivatives of textbook scenes
     INFO("seed " << seed << "\n" << misnamed << rightly << " of " << all);
     CHECK(10 * rightly >= 9 * all);
     CHECK(all >= test::at_least(60));
+}
+
+// By Newton's law of both bodies together, and of the one below.
+TEST_CASE("claims: reactions of joints and of what rolls go by the names that derive shows") {
+    const Checked result = checked("double_pendulum_joints", R"(
+F_x_hook = m1*dot(acc(upper), ex(N)) + m2*dot(acc(lower), ex(N))
+F_y_hook = m1*dot(acc(upper), ey(N)) + m2*dot(acc(lower), ey(N)) - (m1 + m2)*g
+F_x_elbow = m2*dot(acc(lower), ex(upper)) - m2*g*sin(q1)
+M_z_elbow = 0
+F_x_hook = m1*dot(acc(upper), ex(N))
+)");
+    check_verdicts(result, {Verdict::proved, Verdict::proved, Verdict::proved, Verdict::proved, Verdict::refuted});
+    check_verdicts(checked("rolling_disc_in_space",
+                           "N_rim = m*g - m*r*theta''*sin(theta) - m*r*theta'^2*cos(theta)\n"
+                           "N_rim = m*g - m*r*theta''*sin(theta)\n"),
+                   {Verdict::proved, Verdict::refuted});
+}
+
+// The oracle differentiates the printed ∂T/∂q' on Taylor series of motions in 60 digits.
+TEST_CASE(
+    "claims: time derivatives of momenta, as they are written out, are proved and agree with series in time") {
+    int compared = 0;
+    for (const std::string& file : test::every_third(test::scenes_in("scenes/textbook"), 0)) {
+        CAPTURE(file);
+        const Scene scene = read_scene(file);
+        if (declares_a_letter(scene)) continue;
+        const Mechanism m = prepared(scene).mechanism;
+        if (m.given_lagrangian) continue;
+        const Equations e = routh(m);
+        const test::Oracle oracle(scene, m, e, 5);
+        const std::vector<GiNaC::ex> p = m.z->pull_back({{m.kinetic_energy(), 1}}, m.qdot);
+        std::string claims;
+        for (int i = 0; i < m.size() && i < 3; ++i) {
+            const GiNaC::ex rate = m.time_derivative({p[i]})[0];
+            if (rate.is_zero() || m.z->tree_size(rate) > 1000) continue;
+            const auto momentum = fourier(m.z->expand(p[i]), *m.symbols, 100),
+                       written = fourier(m.z->expand(rate), *m.symbols, 100);
+            if (!momentum || !written) continue;
+            const std::string right = text(readable(*written));
+            std::vector<Diagnostic> mistakes;
+            const Equality by_series =
+                parse_equality("(" + text(readable(*momentum)) + ")' = " + right, {}, mistakes);
+            CAPTURE(right);
+            CHECK(oracle.holds(by_series).value_or(true));
+            claims += fmt::format("(diff(T, {}'))' = {}\n", m.q[i].get_name(), right);
+        }
+        if (claims.empty()) continue;
+        for (const CheckedClaim& c : checked(with_claims(scene, claims, "rates.txt")).claims) {
+            CHECK(c.verdict == Verdict::proved);
+            ++compared;
+        }
+    }
+    CHECK(compared >= test::at_least(25));
+}
+
+// x'' m = 2 x λ: with T = m v² it becomes 2 m x'' = 2 x λ, and with V = −m g y the weight is turned over.
+TEST_CASE("claims: stated quantities go into equations with multipliers and into what follows from these") {
+    const Scene scene = read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml"));
+    const Mechanism m = prepared(scene).mechanism;
+    std::vector<Diagnostic> none;
+    const auto value = [&](const std::string& text) {
+        Formulas formulas(scene, m);
+        return formulas.value(parse_expression(text, {}, none));
+    };
+    const auto verdicts = [&](const Mechanism& world, const std::string& claims) {
+        std::vector<Verdict> result;
+        for (const CheckedClaim& c : check(with_claims(scene, claims, "claims.txt"), world).claims)
+            result.push_back(c.verdict);
+        return result;
+    };
+    using enum Verdict;
+    const std::string claims =
+        "2*m*x'' = 2*x*lambda_rod\nm*y'' - m*g = 2*y*lambda_rod\nE = m*(x'^2+y'^2)\nE' = 0\nH = E\n"
+        "m*l^2*x''*y - m*l^2*x*y'' = m*g*x*l^2\nx^2 + y^2 = l^2\n";
+    CHECK(verdicts(m, claims) == std::vector{refuted, refuted, refuted, proved, proved, proved, proved});
+    const Mechanism heavy = with_own(m, {.kinetic = value("m*(x'^2+y'^2)"), .potential = GiNaC::ex(0)});
+    CHECK(verdicts(heavy, claims) == std::vector{proved, refuted, proved, proved, proved, refuted, proved});
+    const Mechanism turned = with_own(m, {.potential = value("-m*g*y")});
+    CHECK(verdicts(turned, claims) == std::vector{refuted, proved, refuted, proved, proved, refuted, proved});
+    CHECK(verdicts(m, claims)[0] == refuted);  // the mechanism itself has not changed
 }
 
 TEST_CASE("claims: equilibria, frequencies and modes") {

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
+#include <ctime>
 #include <random>
 #include <string>
 #include <vector>
@@ -199,6 +199,7 @@ const std::vector<Row> latex_rows = {
     {R"x(L(q_1,\dots,q_n,t))x", R"x(L\left(q_{1}, \mathrm{dots}, q_{n}, t\right))x"},
     {R"x(\dot\theta(t))x", R"x(\dot{\theta})x"},
     {R"x(x(t=0))x", R"x(x\left(0\right))x"},
+    {R"x(x_1[0] + \bold{U})x", R"x(x_{1}\left(0\right) + \mathbf{U})x"},
     {R"x(m(g+a))x", R"x(m\left(g + a\right))x"},
     {R"x(m(g+a)^2)x", R"x(m\left(g + a\right)^{2})x"},
     {R"x(T^{\text{particle M1}})x", R"x(T^{\text{particle M1}})x"},
@@ -346,6 +347,8 @@ const std::vector<Row> plain_rows = {
      R"x(x_{1} = l_{1} \sin\left(\theta_{1}\right) | y_{1} = l_{1} \cos\left(\theta_{1}\right))x"},
     {R"x(g = 9.81 m/s^2, m = 2 kg)x", R"x(g = 9.81\,\mathrm{m/s^2} | m = 2\,\mathrm{kg})x"},
     {R"x(x = 2 m)x", R"x(x = 2 m)x"},
+    {R"x(mLθ'' + mgLsinθ - ak(θ1 - θ2) = 0)x",
+     R"x(\mathrm{mL} \ddot{\theta} + \mathrm{mgL} \sin\left(\theta\right) - \mathrm{ak}\left(\theta_{1} - \theta_{2}\right) = 0)x"},
     {R"x(force = mass * acceleration)x", R"x(\mathrm{force} = \mathrm{mass} \mathrm{acceleration})x"},
     {R"x(T = a +)x", R"x(not: the end of the formula was found; expected a term)x"},
 };
@@ -630,9 +633,9 @@ TEST_CASE("derivation: hostile text is refused in bounded time, and nothing is r
     for (const std::string& text : texts)
         for (const char* file : {"a.tex", "a.md"}) {
             CAPTURE(text.substr(0, 60));
-            const auto begin = std::chrono::steady_clock::now();
+            const std::clock_t begin = std::clock();
             all(text, file);
-            CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(5));
+            CHECK(std::clock() - begin < 2 * CLOCKS_PER_SEC);
         }
     CHECK(all("\\input{/etc/passwd} $x=1$").starts_with("not: '\\input' is refused"));
     CHECK(all("$x = \\write18{ls}$").starts_with("not: '\\write' is refused"));

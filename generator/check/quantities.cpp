@@ -9,6 +9,7 @@
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
 #include "check/any_motion.hpp"
+#include "check/claim_tree.hpp"
 #include "check/open_rows.hpp"
 #include "check/total_derivative.hpp"
 #include "check/vanishing.hpp"
@@ -32,29 +33,48 @@ bool is_book_call_of(const Tree& tree, const Mechanism& m) {
                         [&](const GiNaC::symbol& f) { return f.get_name() == tree.text; });
 }
 
-/// `is_term`: whether it is no part of what is differentiated.
-void listen(const Tree& tree, bool is_term, const Claims& read, SpokenLetters& spoken) {
+/// Whether it is made of numbers and parameters.
+bool is_steady_tree(const Tree& tree, const Mechanism& m) {
+    if (tree.kind == Tree::Kind::name) {
+        const auto is_it = [&](const auto& parameter) { return parameter.symbol.get_name() == tree.text; };
+        return tree.text == "pi" || std::any_of(m.parameters.begin(), m.parameters.end(), is_it);
+    }
+    return tree.kind != Tree::Kind::call && tree.kind != Tree::Kind::derivative &&
+           std::all_of(tree.args.begin(), tree.args.end(),
+                       [&](const TreePtr& arg) { return is_steady_tree(*arg, m); });
+}
+
+/// Whether a part of this tree that is a term of a sum makes the tree such a term, but for a steady factor.
+bool keeps_terms(const Tree& tree, const Mechanism& m) {
+    if (tree.kind == Tree::Kind::sum || tree.kind == Tree::Kind::negate) return true;
+    const auto changes = [&](const TreePtr& arg) { return !is_steady_tree(*arg, m); };
+    return tree.kind == Tree::Kind::product && std::count_if(tree.args.begin(), tree.args.end(), changes) == 1;
+}
+
+/// `sign`: with which it is a term of left − right; 0 if it has a factor; nothing if it is no term.
+void listen(const Tree& tree, std::optional<int> sign, const Claims& read, SpokenLetters& spoken) {
     const std::string& text = tree.text;
-    if (tree.kind == Tree::Kind::name && read.is_letter(text)) {
-        const bool is_virtual = !after_prefix(text, "delta_").empty(), is_force = text.starts_with("Q_");
+    const bool is_letter = tree.kind == Tree::Kind::name && read.is_letter(text);
+    if (is_letter || (tree.kind == Tree::Kind::call && is_book_call_of(tree, read.mechanism()))) {
         spoken.any = true;
-        spoken.forces = spoken.forces || is_force || text == "deltaW";
-        spoken.displacements = spoken.displacements || is_virtual || text == "deltaW";
-        if (!is_term || tree.primes > 0) return;
+        if (is_letter) {
+            spoken.forces = spoken.forces || text.starts_with("Q_") || text == "deltaW";
+            spoken.displacements =
+                spoken.displacements || !after_prefix(text, "delta_").empty() || text == "deltaW";
+        }
+        if (!sign || tree.primes > 0) return;
+        const bool is_free = text == "V" || text == "E" || text == "H" || text == "L";
+        if (is_free && !spoken.constant && !spoken.derivative) spoken.sign = *sign;
         spoken.constant = spoken.constant || text == "V" || text == "E" || text == "H";
         spoken.derivative = spoken.derivative || text == "L";
         spoken.kinetic = spoken.kinetic || text == "T";
+        spoken.terms.push_back(plain_text_of(tree));
         return;
     }
-    if (tree.kind == Tree::Kind::call && is_book_call_of(tree, read.mechanism())) {
-        spoken.any = true;
-        spoken.constant = spoken.constant || (is_term && text == "V");
-        spoken.kinetic = spoken.kinetic || (is_term && text == "T");
-        return;
-    }
-    const bool differentiates =
-        tree.kind == Tree::Kind::derivative || (tree.kind == Tree::Kind::call && text == "diff");
-    for (const TreePtr& arg : tree.args) listen(*arg, is_term && !differentiates, read, spoken);
+    if (sign && !keeps_terms(tree, read.mechanism())) sign.reset();
+    if (sign && tree.kind == Tree::Kind::product) sign = 0;
+    if (sign && tree.kind == Tree::Kind::negate) sign = -*sign;
+    for (const TreePtr& arg : tree.args) listen(*arg, sign, read, spoken);
 }
 
 /// Are these values, one for each coordinate, a combination of the rows of the constraints at all states?
@@ -120,8 +140,11 @@ AnyStates::AnyStates(const Mechanism& m, const Equations& e, int halvings) {
 
 SpokenLetters letters_in(const Claim& claim, const Claims& read) {
     SpokenLetters spoken;
-    listen(*claim.equation.lhs.tree, true, read, spoken);
-    listen(*claim.equation.rhs.tree, true, read, spoken);
+    listen(*claim.equation.lhs.tree, 1, read, spoken);
+    listen(*claim.equation.rhs.tree, -1, read, spoken);
+    std::sort(spoken.terms.begin(), spoken.terms.end());
+    if (std::adjacent_find(spoken.terms.begin(), spoken.terms.end()) != spoken.terms.end())
+        spoken.constant = spoken.derivative = false;  // V = V + c leaves nothing open
     return spoken;
 }
 
@@ -210,12 +233,10 @@ bool LetterClaim::holds_for_allowed(const ClaimForm& form) {
     return states != nullptr && are_reactions(now_, *values, *states, c_.failure);
 }
 
-/// What is claimed minus the quantity, whose letter stands on the left or on the right.
+/// What is claimed minus the quantity, if its letter has no factor; otherwise a multiple of it.
 ex LetterClaim::excess() const {
-    SpokenLetters left;
-    listen(*now_.scene.claims[k_].equation.lhs.tree, true, now_.claims, left);
     const ex& residual = now_.forms[k_].residual;
-    return left.constant || left.derivative ? now_.m.z->name(-residual) : residual;
+    return spoken_.sign > 0 ? now_.m.z->name(-residual) : residual;
 }
 
 bool LetterClaim::is_constant() {
@@ -226,7 +247,7 @@ bool LetterClaim::is_constant() {
     Program p;
     const int root = now_.claims.lower(p, {rate})[0];
     if (!p.is_zero(root) && (states == nullptr || vanishes_at(*states, p, root, c_.failure) != true)) return false;
-    std::string constant = is_steady(delta) ? shown(delta, now_.m).value_or("") : "";
+    std::string constant = spoken_.sign != 0 && is_steady(delta) ? shown(delta, now_.m).value_or("") : "";
     c_.reason = constant.empty() ? say("right up to a constant")
                                  : say("right up to a constant; what is claimed is larger by {}", constant);
     c_.up_to = UpTo{.kind = UpTo::Kind::constant, .text = std::move(constant)};
@@ -250,7 +271,7 @@ bool LetterClaim::is_derivative() {
     const std::vector<ex> equations = euler_operator(delta, now_.m);
     ExactStates* const states = any(delta);
     if (states == nullptr || !are_reactions(now_, equations, *states, c_.failure)) return false;
-    const auto source = source_of_derivative(delta, now_.m);
+    const auto source = spoken_.sign != 0 ? source_of_derivative(delta, now_.m) : std::nullopt;
     std::string F = source ? shown(*source, now_.m).value_or("") : "";
     c_.reason = F.empty() ? say("right up to the time derivative of a function of coordinates and time, which "
                                 "changes no equation of motion")

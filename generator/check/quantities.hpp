@@ -19,9 +19,11 @@ namespace alembert {
 /// What the letters in a claim leave open.
 struct SpokenLetters {
     bool any = false, forces = false, displacements = false;
-    bool constant = false;    ///< V, E or H as a term
-    bool derivative = false;  ///< L as a term
-    bool kinetic = false;     ///< T as a term
+    bool constant = false;                ///< V, E or H as a term, perhaps with a steady factor
+    bool derivative = false;              ///< L likewise
+    bool kinetic = false;                 ///< T likewise
+    std::vector<std::string> terms = {};  ///< each of these, as it is written
+    int sign = 0;  ///< with which the first of V, E, H, L stands in left − right; 0 if it has a factor
 };
 SpokenLetters letters_in(const Claim& claim, const Claims& read);
 

@@ -19,6 +19,7 @@ import collections
 import copy
 import json
 import math
+import multiprocessing
 import os
 import random
 import re
@@ -380,6 +381,7 @@ def parsed():
     parser.add_argument("--seed", type=int, default=1, help="the first")
     parser.add_argument("--scenes", type=int, help="how many; otherwise as many as --seconds allow")
     parser.add_argument("--seconds", type=float, default=120)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes that share the scenes")
     parser.add_argument("--scene", help="one that was kept (.json)")
     parser.add_argument("--only", default="states,motions,claims")
     parser.add_argument("--compiled", type=float, default=0.15, help="share of scenes that are also compiled")
@@ -400,9 +402,33 @@ def main():
         failure = examined(options, kept["scene"], kept["seed"], counts)
         print(f"{failure.kind}: {failure}" if failure else "no difference")
         return 1 if failure else 0
-    done = 0
-    while done < options.scenes if options.scenes else time.monotonic() - begun < options.seconds:
-        seed = options.seed + done
+    fork = multiprocessing.get_context("fork")
+    queue = fork.SimpleQueue()
+    jobs = [fork.Process(target=share, args=(options, first, queue)) for first in range(options.jobs)]
+    for job in jobs:
+        job.start()
+    done, broken = 0, 0
+    for job in jobs:
+        job.join()
+        broken += job.exitcode != 0
+    while not queue.empty():
+        share_counts, share_failures, share_done = queue.get()
+        counts, failures, done = counts + share_counts, failures + share_failures, done + share_done
+    for name, count in sorted(counts.items()):
+        print(f"{count:6} {name}")
+    print(f"{done} scenes, {failures} failures, {time.monotonic() - begun:.0f} s")
+    if broken:
+        print(f"{broken} of {options.jobs} processes ended with an error of their own")
+    return 1 if failures or broken else 0
+
+
+def share(options, first, queue):
+    """The scenes first, first + jobs, ... of those that are asked for."""
+    counts, failures, done, begun = collections.Counter(), 0, 0, time.monotonic()
+    place = first
+    while place < options.scenes if options.scenes else time.monotonic() - begun < options.seconds:
+        seed = options.seed + place
+        place += options.jobs
         kind, scene = scenes.make(seed)
         failure = examined(options, scene, seed, counts)
         done += 1
@@ -411,10 +437,7 @@ def main():
             failures += 1
             keep(options, kind, *_small(options, scene, seed, failure))
     shutil.rmtree(os.path.join(options.folder, f"work-{os.getpid()}"), ignore_errors=True)
-    for name, count in sorted(counts.items()):
-        print(f"{count:6} {name}")
-    print(f"{done} scenes, {failures} failures, {time.monotonic() - begun:.0f} s")
-    return 1 if failures else 0
+    queue.put((counts, failures, done))
 
 
 def _small(options, scene, seed, failure):

@@ -62,7 +62,7 @@ void list_structure(CommandTable& table) {
     list_tokens(table, TokenKind::command, "widetilde", "tilde");
     list_tokens(table, TokenKind::command, "overline", "bar");
     list_tokens(table, TokenKind::command, "overrightarrow overrightharpoon vectorarrow vv va vva", "vec");
-    list_tokens(table, TokenKind::command, "boldsymbol bm pmb bf vb mathbfit symbf vectorbold", "mathbf");
+    list_tokens(table, TokenKind::command, "boldsymbol bm pmb bf bold vb mathbfit symbf vectorbold", "mathbf");
     list_tokens(table, TokenKind::command, "cal", "mathcal");
     list_tokens(table, TokenKind::command, "SIrange si unit", "unit");
 }

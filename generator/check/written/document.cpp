@@ -56,8 +56,11 @@ bool is_letter_of_command(char c) {
 }  // namespace
 
 bool has_marks_of_latex(std::string_view text) {
-    if (has_display(text) || text.find("\\(") != std::string_view::npos ||
-        text.find("\\frac") != std::string_view::npos || text.find("$$") != std::string_view::npos)
+    return has_enclosed_latex(text) || text.find("\\frac") != std::string_view::npos;
+}
+
+bool has_enclosed_latex(std::string_view text) {
+    if (has_display(text) || text.find("\\(") != std::string_view::npos || text.find("$$") != std::string_view::npos)
         return true;
     for (std::size_t at = text.find("\\begin{"); at != std::string_view::npos;
          at = text.find("\\begin{", at + 1)) {

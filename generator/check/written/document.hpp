@@ -82,5 +82,7 @@ bool has_display(std::string_view text);
 
 /// Whether text has $…$, \[, \(, a mathematical environment or \frac.
 bool has_marks_of_latex(std::string_view text);
+/// Whether it has formulas between signs of LaTeX: $…$, \[…\], an environment.
+bool has_enclosed_latex(std::string_view text);
 
 }  // namespace alembert

@@ -268,7 +268,13 @@ void WrittenLexer::character() {
         add(Kind::stray, begin, text_.substr(begin, at_ - begin));
         return;
     }
-    replace(marks(latex), begin);
+    std::string letter = marks(latex);
+    if (is_plain() && is_letter(c) && has_digit(at_)) {  // θ1
+        const std::size_t digits = at_;
+        while (has_digit(at_)) ++at_;
+        letter += "_{" + std::string(text_.substr(digits, std::min<std::size_t>(at_ - digits, 20))) + "}";
+    }
+    replace(letter, begin);
 }
 
 /// sin and cos without a backslash: a mistake in LaTeX that is often made.
@@ -306,6 +312,7 @@ void WrittenLexer::word() {
             return;
         }
     }
+    split_function(begin);
     const std::string text(text_.substr(begin, at_ - begin));
     if (!plain_word(begin, text)) {
         auto [letter, dots] = letter_of_word(text);
@@ -313,6 +320,15 @@ void WrittenLexer::word() {
         token.letter = std::move(letter);
         token.dots = dots;
     }
+}
+
+/// The letters before a function that is written together with them: mgLsinθ. The function is read next.
+void WrittenLexer::split_function(std::size_t begin) {
+    if (at_ - begin < 4 || !function_named(text_.substr(begin, at_ - begin)).empty()) return;
+    const char after = byte(at_);
+    if (after != '(' && static_cast<unsigned char>(after) < 0x80) return;
+    for (const std::string_view name : {"sin", "cos", "tan"})
+        if (text_.substr(begin, at_ - begin).ends_with(name)) at_ -= name.size();
 }
 
 /// Words of programs of computer algebra, functions, and differentials such as dtheta.

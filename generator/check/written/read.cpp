@@ -77,7 +77,7 @@ int Written::column(std::size_t offset) const {
 
 bool is_derivation(const std::string& text, const std::string& file) {
     return file.ends_with(".tex") || file.ends_with(".latex") || file.ends_with(".md") ||
-           file.ends_with(".markdown") || has_marks_of_latex(text);
+           file.ends_with(".markdown") || has_enclosed_latex(text);
 }
 
 Written read_derivation(std::string text, std::string file) {

@@ -219,7 +219,10 @@ bool MathParser::has_arguments(const Letter&) const {
         ++open;  // \theta{\left(t\right)}
     if (kind(open) != Kind::open || partner_[open] == no_partner || partner_[open] >= end_) return false;
     const std::string& sign = tokens_[open].text;
-    if (sign != "(" && !(sign == "[" && tokens_[open].upright)) return false;  // th'[t]
+    const bool is_value =
+        sign == "[" && partner_[open] == open + 2 &&  // x_1[0], x[t]
+        (kind(open + 1) == Kind::number || (kind(open + 1) == Kind::letter && token(open + 1).letter.base == "t"));
+    if (sign != "(" && !is_value && !(sign == "[" && tokens_[open].upright)) return false;  // th'[t]
     if (partner_[open] == open + 1) return false;
     if (!is_bare_) return true;
     return partner_[open] == open + 2 && kind(open + 1) == Kind::letter && token(open + 1).letter.base == "t";
