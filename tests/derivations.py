@@ -197,7 +197,7 @@ def steps(program, options):
 
 GREEK = r"\\(?:theta|varphi|phi|psi|alpha|beta|gamma|lambda|omega|xi|eta|chi|mu|sigma|tau|zeta|delta)"
 LETTER = rf"(?:{GREEK}|\\mathrm{{\w+}}|[A-Za-z])"
-DOTTED = re.compile(rf"\\(d?dot)\{{({LETTER})\}}(_\{{[^{{}}]*\}})?(\(t\))?(\^\{{(\d+)\}})?")
+DOTTED = re.compile(rf"\\(d?dot)\{{({LETTER})\}}(_\{{(?:[^{{}}]|\{{[^{{}}]*\}})*\}})?(\(t\))?(\^\{{(\d+)\}})?")
 
 
 def in_fractions(found):
@@ -217,6 +217,8 @@ def in_primes(found):
 
 
 def in_short(found):
+    if found.group(2).startswith(r"\mathrm"):
+        return found.group()
     letter, index, power = found.group(2), found.group(3) or "", found.group(6)
     short = rf"\{found.group(1)} {letter}" if letter.startswith("\\") is False else rf"\{found.group(1)}{letter}"
     return short + index.replace("{", "").replace("}", "") * (len(index) <= 4) + index * (len(index) > 4) + (
@@ -272,7 +274,7 @@ def formulas_of(text):
     """The lines of the displays that stand for themselves."""
     rows = []
     for words, display in re.findall(r"([^\n]*)\n\\begin{align\*}(.*?)\\end{align\*}", text, re.S):
-        if words.startswith("With all rates"):
+        if words.startswith(("With all rates", "with the roots")):
             continue
         whole = []
         for row in display.split("\\\\\n"):

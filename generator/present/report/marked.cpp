@@ -151,7 +151,7 @@ std::size_t count_right(const Marked& marked) {
 std::string words_of_status(const Marked& marked, const MarkedLine& line) {
     switch (line.status) {
         case LineStatus::right:
-            return say("right");
+            return say("right{}", "");  // in the catalogue, the word alone is a direction
         case LineStatus::right_near:
             return say("right to first order");
         case LineStatus::right_up_to_constant:
