@@ -161,8 +161,8 @@ std::string counts_of_slips(const Gradebook& book) {
 std::string table_of(const Gradebook& book) {
     std::string page;
     begin_table(page, say("{} derivations", book.rows.size()),
-                {say("file"), say("first mistake"), say("slip"), say("right{}", ""), say("mistakes"), say("following"),
-                 say("not judged"), say("missing")});
+                {say("file"), say("first mistake"), say("slip"), say("right{}", ""), say("mistakes"),
+                 say("following"), say("not judged"), say("missing")});
     for (std::size_t k = 0; k < book.rows.size(); ++k) {
         const GradedRow& row = book.rows[k];
         put(page, "<tr><th scope=\"row\"><a href=\"#derivation-{}\">{}</a></th>", k, html(row.file));
