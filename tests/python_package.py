@@ -169,6 +169,7 @@ class Verbs(unittest.TestCase):
                   "linearize": {"modes"},
                   "stability": {"modes", "over", "locus", "exponents", "duration"},  # stability_chart, root_locus, exponents
                   "emit": {"frame", "wrench"},  # frames=[…], wrenches=[…]
+                  "report": {"derivation"},  # the verb marks it on the command line
                   "sweep": {"vary", "vary_from", "chunk"}}
         forms = {"check": {"claims"}, "emit": {"folder", "language", "frames", "wrenches"}, "fmu": {"path"},
                  "report": {"path"}, "sweep": {"values", "grid", "path"}}
