@@ -9,6 +9,7 @@ needed="g++ cmake ninja-build pkg-config libginac-dev libcln-dev libeigen3-dev l
 # Without these a part of it is not built, or not tested.
 wanted="libcpp-httplib-dev pybind11-dev python3-dev python3-numpy libhdf5-dev libopenmpi-dev libsundials-dev libgsl-dev
     libboost-dev"
+[ "$(dpkg --print-architecture 2>/dev/null)" != amd64 ] || wanted="$wanted libxbyak-dev" # Debian has it for amd64 alone
 is_complete=no # whether all of them are there in the end
 
 # What failed is the environment, not the scene (shared with the exit codes of alembert).

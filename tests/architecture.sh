@@ -84,6 +84,8 @@ mapfile -t not_options < <(files lib generator | grep -v -e '^generator/commands
 forbid 'CLI11 outside the files that walk through all verbs' '#include.*CLI' "${not_options[@]}"
 mapfile -t not_urdf < <(files lib generator | grep -v '^generator/scene/import/')
 forbid 'urdfdom outside its reader' '#include.*(urdf_|tinyxml|console_bridge)' "${not_urdf[@]}"
+mapfile -t not_machine < <(files lib generator | grep -v '^generator/codegen/machine/encoder.hpp')
+forbid 'xbyak outside the encoder' '#include.*xbyak' "${not_machine[@]}"
 mapfile -t not_server < <(files lib generator | grep -v '^generator/commands/page_server.cpp')
 forbid 'cpp-httplib outside the server of pages' '#include.*httplib' "${not_server[@]}"
 mapfile -t not_executable < <(files lib generator | grep -v '^lib/alembert/native/executable.cpp')

@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/can_run.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"

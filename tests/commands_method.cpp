@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/can_run.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"

@@ -8,7 +8,7 @@
 #include "alembert/ode/energy_error.hpp"
 #include "analysis/state/prepared.hpp"
 #include "codegen/emit/emit.hpp"
-#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/can_run.hpp"
 #include "codegen/machine/memory_series.hpp"
 #include "codegen/machine/memory_series_packs.hpp"
 #include "codegen/machine/memory_solver.hpp"

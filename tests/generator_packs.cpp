@@ -13,7 +13,7 @@
 #include "alembert/native/compile.hpp"
 #include "analysis/state/prepared.hpp"
 #include "codegen/emit/emit.hpp"
-#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/can_run.hpp"
 #include "codegen/machine/memory_solver.hpp"
 #include "model/formalism/formalisms.hpp"
 #include "program/lower/choose.hpp"

@@ -17,7 +17,7 @@
 #include "analysis/state/assemble.hpp"
 #include "analysis/state/prepared.hpp"
 #include "codegen/emit/taylor.hpp"
-#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/can_run.hpp"
 #include "codegen/machine/memory_series.hpp"
 #include "codegen/machine/memory_series_packs.hpp"
 #include "model/formalism/formalisms.hpp"

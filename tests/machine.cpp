@@ -12,7 +12,7 @@
 #include "alembert/base/error.hpp"
 #include "alembert/native/simd_math.hpp"
 #include "analysis/state/prepared.hpp"
-#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/can_run.hpp"
 #include "codegen/machine/memory_solver.hpp"
 #include "machine_values.hpp"
 #include "model/formalism/formalisms.hpp"
@@ -88,7 +88,7 @@ int differences(const Program& p, const Module& module, const State<double>& sta
 /// The same with 16 registers, which every processor has, and with all that this one has.
 int differences(const Program& p, const State<double>& state) {
     int count = 0;
-    for (const int registers : std::set{16, machine::Encoder::registers_of_processor()}) {
+    for (const int registers : std::set{16, machine::registers_of_processor()}) {
         CAPTURE(registers);
         const auto solver = memory_solver(p, false, registers);
         REQUIRE(solver.has_value() == machine::can_run());

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "alembert/batch/packs.hpp"
-#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/can_run.hpp"
 #include "codegen/machine/memory_solver.hpp"
 #include "machine_values.hpp"
 #include "random_program.hpp"
@@ -80,7 +80,7 @@ int differences(const Program& p, const Module& module, const std::vector<State<
 /// With 16 registers and with all that this processor has.
 int differences(const Program& p, const std::vector<State<double>>& states) {
     int count = 0;
-    for (const int registers : std::set{16, machine::Encoder::registers_of_processor()}) {
+    for (const int registers : std::set{16, machine::registers_of_processor()}) {
         CAPTURE(registers);
         const auto solver = memory_solver(p, true, registers);
         REQUIRE(solver.has_value() == machine::can_run(lanes));

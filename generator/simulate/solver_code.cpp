@@ -6,7 +6,7 @@
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/taylor.hpp"
-#include "codegen/machine/encoder.hpp"
+#include "codegen/machine/can_run.hpp"
 
 namespace alembert {
 

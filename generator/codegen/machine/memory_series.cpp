@@ -124,7 +124,7 @@ private:
     template <typename Function>
     void begin(Function& place) {
         code_.align();
-        functions_.emplace_back(code_.size(), [&place](const std::uint8_t* at) {
+        functions_.emplace_back(code_.getSize(), [&place](const std::uint8_t* at) {
             place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
         });
     }
@@ -132,8 +132,9 @@ private:
     /// The table's function: `expand` with one more argument, in the register after those of the table's.
     void write_entry() {
         begin(running_->table.series);
-        code_.pointer(Base::r9, running_.get());
-        code_.jump(reinterpret_cast<const void*>(expand));
+        code_.mov(code_.r9, reinterpret_cast<std::uintptr_t>(running_.get()));
+        code_.mov(code_.rax, reinterpret_cast<std::uintptr_t>(expand));
+        code_.jmp(code_.rax);
     }
 
     SeriesSteps steps_;

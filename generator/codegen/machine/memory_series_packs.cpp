@@ -27,7 +27,7 @@ public:
     template <typename Function>
     void write(const Lines& lines, Function& place, std::size_t other = 0) {
         code_.align();
-        places_.emplace_back(code_.size(), [&place](const std::uint8_t* at) {
+        places_.emplace_back(code_.getSize(), [&place](const std::uint8_t* at) {
             place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
         });
         is_possible_ = is_possible_ && write_function(code_, lines, other);
@@ -36,7 +36,7 @@ public:
     /// The function that takes the place of another for large angles.
     std::size_t write_other(const Lines& lines) {
         code_.align();
-        const std::size_t begin = code_.size();
+        const std::size_t begin = code_.getSize();
         is_possible_ = is_possible_ && write_function(code_, lines);
         return begin;
     }

@@ -188,7 +188,7 @@ private:
         std::size_t other = 0;
         if (inside.largest >= 0) {
             code_.align();
-            other = code_.size();
+            other = code_.getSize();
             is_possible_ =
                 is_possible_ && write_function(code_, lines_of_packs(p_, words_, ready_, task, Sines::called));
         }
@@ -197,7 +197,7 @@ private:
     template <typename Function>
     void write(const Lines& lines, Function& place, std::size_t other = 0) {
         code_.align();
-        const std::size_t begin = code_.size();
+        const std::size_t begin = code_.getSize();
         is_possible_ = is_possible_ && write_function(code_, lines, other);
         functions_.emplace_back(begin, [&place](const std::uint8_t* at) {
             place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
@@ -236,7 +236,7 @@ std::optional<MemorySolver> memory_solver(const Program& program, bool with_pack
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
     std::shared_ptr<const alembert_pack_table> packs;
-    const int own = Encoder::registers_of_processor(), allowed = std::min(own, registers.value_or(own));
+    const int own = registers_of_processor(), allowed = std::min(own, registers.value_or(own));
     if (with_packs && !(packs = Building(program, lanes, allowed).packs())) return std::nullopt;
     return Building(program, 1, allowed).solver(std::move(packs));
 }

@@ -14,10 +14,16 @@ namespace alembert::machine {
 
 namespace {
 
+using Xbyak::Zmm;
+
 constexpr int never = std::numeric_limits<int>::max();
 constexpr std::int32_t largest_frame = 1 << 20;  ///< in bytes; a thread's stack has several times as much
 constexpr int soon = 200;  ///< lines; a value that is used again so soon is loaded into a register if one is free
 constexpr std::array bases{Base::rdi, Base::rsi, Base::rdx, Base::rcx, Base::r8, Base::r9};
+
+Xbyak::Reg64 pointer(Base base) {
+    return Xbyak::Reg64(static_cast<int>(base));
+}
 
 Instruction plus(Instruction first, int k) {
     return static_cast<Instruction>(static_cast<int>(first) + k);
@@ -46,23 +52,18 @@ public:
     }
 
     bool write() {
-        const std::size_t frame = is_packed() ? code_.lower_aligned_stack() : code_.lower_stack();
-        for (int k = 0; k < saved_; ++k) code_.store_pointer({Base::rsp, 8 * k}, bases[k]);
+        code_.enter();
+        for (int k = 0; k < saved_; ++k) code_.mov(code_.at({Base::rsp, 8 * k}), pointer(bases[k]));
         if (l_.takes_time && !is_packed()) code_.store({Base::rsp, time_}, 0);
         for (at_ = 0; at_ < static_cast<int>(l_.list.size()); ++at_) write(l_.list[at_]);
         if (l_.largest >= 0) {
             locked_ = 0;
             load(l_.largest);
-            code_.leave_and_return_unless_above(reg_[l_.largest], farthest_for_code, other_, frame, frame_);
+            code_.end_unless_above(reg_[l_.largest], farthest_for_code, other_, frame_);
             return frame_ <= largest_frame;
         }
-        if (is_packed()) {
-            code_.forget_upper_parts();
-            code_.leave_and_return(frame, frame_);
-            return frame_ <= largest_frame;
-        }
-        frame_ += frame_ % 16 == 8 ? 0 : 8;  // with the return address, a multiple of 16
-        code_.raise_stack_and_return(frame, frame_);
+        if (!is_packed()) frame_ += frame_ % 16 == 8 ? 0 : 8;  // with the return address, a multiple of 16
+        code_.end(frame_);
         return frame_ <= largest_frame;
     }
 
@@ -229,14 +230,18 @@ private:
                 load(line.of[0]);
                 load(line.of[1]);
                 const int x = reg_[line.of[0]], y = reg_[line.of[1]], to = target(line);
-                code_.larger_size(to, x, {.reg = y});
+                constexpr std::uint8_t largest_absolute = 3, sign_is_clear = 2 << 2;
+                code_.vrangepd(Zmm(to), Zmm(x), Zmm(y), largest_absolute | sign_is_clear);
                 return finish(line, to);
             }
             case Line::Kind::shift_left:
             case Line::Kind::shift_right: {
                 load(line.of[0]);
                 const int x = reg_[line.of[0]], to = target(line);
-                code_.shift(line.kind == Line::Kind::shift_left, to, x, line.place);
+                if (line.kind == Line::Kind::shift_left)
+                    code_.vpsllq(Zmm(to), Zmm(x), static_cast<std::uint8_t>(line.place));
+                else
+                    code_.vpsraq(Zmm(to), Zmm(x), static_cast<std::uint8_t>(line.place));
                 return finish(line, to);
             }
             case Line::Kind::select:
@@ -347,10 +352,12 @@ private:
             free_ &= ~(1U << r);
             code_.copy(r, reg_[a]);
         }
+        // The last byte lists the result for all bits of the three.
+        const Zmm second(reg_[line.of[1]]);
         if (line.kind == Line::Kind::select)
-            code_.select(r, reg_[line.of[1]], reg_[line.of[2]]);
+            code_.vpternlogq(Zmm(r), second, Zmm(reg_[line.of[2]]), 0xd8);
         else
-            code_.turn_sign(r, reg_[line.of[1]]);
+            code_.vpternlogq(Zmm(r), second, code_.at(Encoder::sign(), true), 0x78);
         finish(line, r);
     }
 
@@ -365,11 +372,12 @@ private:
             if (v >= 0 && next(v) != never) save(v);
     }
     void after_call(const void* function) {
-        if (is_packed()) code_.forget_upper_parts();
-        code_.call(function);
+        if (is_packed()) code_.vzeroupper();  // code of others would wait for the upper parts of registers
+        code_.mov(code_.rax, reinterpret_cast<std::uintptr_t>(function));
+        code_.call(code_.rax);
         for (int r = 0; r < static_cast<int>(holds_.size()); ++r)
             if (holds_[r] >= 0) release(r);
-        for (int k = 0; k < saved_; ++k) code_.load_pointer(bases[k], {Base::rsp, 8 * k});
+        for (int k = 0; k < saved_; ++k) code_.mov(pointer(bases[k]), code_.at({Base::rsp, 8 * k}));
     }
 
     void call_packed(const Line& line) {
@@ -378,8 +386,8 @@ private:
             code_.store({Base::rsp, time_ + unit_ * k}, reg_[line.of[k]]);
         }
         save_all();
-        code_.pointer(Base::rdi, line.function);
-        code_.address(Base::rsi, {Base::rsp, time_});
+        code_.mov(code_.rdi, reinterpret_cast<std::uintptr_t>(line.function));
+        code_.lea(code_.rsi, code_.at({Base::rsp, time_}));
         after_call(line.of[1] < 0 ? reinterpret_cast<const void*>(each_for_code)
                                   : reinterpret_cast<const void*>(each_pair_for_code));
         code_.load(0, {Base::rsp, time_});
@@ -428,8 +436,8 @@ private:
             store(k);
         }
         save_all();
-        code_.address(Base::rdi, {Base::rsp, block_ + unit_ * group.place});
-        code_.number(Base::rsi, count * l_.lanes);
+        code_.lea(code_.rdi, code_.at({Base::rsp, block_ + unit_ * group.place}));
+        code_.mov(code_.esi, count * l_.lanes);
         after_call(is_packed() ? reinterpret_cast<const void*>(sines_of_packs_for_code)
                                : reinterpret_cast<const void*>(sines_for_code));
         for (const int v : group.angles) drop(v);

@@ -4,7 +4,7 @@
 /// Writes the lines of a function as machine code.
 ///
 ///     Encoder code;
-///     const std::size_t begin = code.size();
+///     const std::size_t begin = code.getSize();
 ///     if (write_function(code, lines)) …      // the function begins at `begin`
 ///
 /// The function is called as System V's ABI for x86-64 says: t in xmm0, the arrays in rdi, rsi, rdx, rcx, r8, r9.

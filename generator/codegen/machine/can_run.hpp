@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Whether there is machine code in memory: on x86-64 with AVX2 and FMA, where xbyak was there for the build.
+///
+///     if (can_run()) …       // one system
+///     if (can_run(8)) …      // eight side by side, which take AVX-512
+
+namespace alembert::machine {
+
+bool can_run(int lanes = 1);
+
+/// How many the code may use: 16, with AVX-512 32.
+int registers_of_processor();
+
+}  // namespace alembert::machine
