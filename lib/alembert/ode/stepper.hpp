@@ -1,240 +1,106 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One step of a method without a tableau: the members that driver.hpp needs, around a formula that gives the
-/// change of the state.
+/// What the driver (driver.hpp) needs of a stepper: one step of a method after the other, from a state on.
 ///
-///     Stepper<Gauss> step(rhs, t, state, tolerance);      // the members are those of Step (explicit_rk.hpp)
+///     step.attempt(t + h);                     // a step that ends there
+///     if (step.misfit() <= tolerance)          // the largest error of a component
+///         if (step.finish())                   // the rate at the end; false: something is not finite
+///             step.interpolate(0.5, middle);   // the state anywhere in the step, θ = 0…1
+///     step.advance();                          // the end becomes the start
 ///
-/// A formula is a class with
-///
-///     static constexpr bool has_fixed_step;
-///     static constexpr Between between;                   // how states within a step are found
-///     Formula(const Ends& ends, double tolerance);
-///     int most_evaluations() const;                       // of an increment
-///     bool increment(Ends& ends, double h, double* change, double* end_rate);
-///
-/// `increment` writes y(t + h) − y(t), free of the rounding of the sum y + change, and returns false if its
-/// equations were not solved. A formula that obtains the rate at the end without further cost writes it to
-/// `end_rate` and sets Ends::knows_end_rate. Adaptive formulas write the error of each component to Ends::error
-/// and have `estimate_order`; those that find the rate at the end, after projection, in their own way have
-/// `evaluate_end(ends)`; those that remember past steps have `finished(ends)` and `advance(ends)`; those with a
-/// polynomial have `interpolate(ends, theta, out)`. If the steps of a formula obey the constraints by themselves,
-/// it declares `static constexpr bool keeps_constraints = true` and is not projected.
-///
-/// The state is the sum of two doubles as in explicit_rk.hpp, and errors are measured as in that file.
+/// `SomeStepper` is what every stepper has; each of the other concepts is an ability that some have, with what the
+/// driver does where it is missing. There are two kinds of steppers: Step (explicit_rk.hpp) of a tableau and
+/// Stepper (formula.hpp) of a formula. The table of methods (method_table.hpp) checks each of its rows.
 
-#include <algorithm>
-#include <cmath>
+#include <concepts>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 
-/// How states within a step are found: by the cubic Hermite polynomial; by a shorter step of the method to that
-/// time (with its full order, at its full cost); or by the method's own polynomial.
-enum class Between { hermite, shorter_step, own };
-
-/// The two ends of a step.
-struct Ends {
-    Ends(const Rhs& system, double time, std::span<const double> state)
-        : rhs(system),
-          size(system.dimension),
-          controlled(system.dimension - system.extra),
-          t(time),
-          y(state.begin(), state.end()),
-          rest(y.size()),
-          next(y.size()),
-          next_rest(y.size()),
-          rate(y.size()),
-          end_rate(y.size()),
-          error(y.size()) {
-        evaluate(t, y.data(), rate.data());
-    }
-
-    void evaluate(double time, const double* state, double* out) {
-        rhs(time, state, out);
-        ++evaluations;
-    }
-
-    /// The size relative to which an error of component i is measured.
-    double scale(int i) const {
-        const auto k = static_cast<std::size_t>(i);
-        return std::max({1.0, std::abs(y[k]), std::abs(next[k])});
-    }
-
-    /// The largest of |values_i| / max(1, |y_i|); infinite if one is not finite.
-    double norm(const double* values) const {
-        double largest = 0, zero = 0;
-        for (int i = 0; i < controlled; ++i) {
-            largest =
-                std::max(largest, std::abs(values[i]) / std::max(1.0, std::abs(y[static_cast<std::size_t>(i)])));
-            zero += values[i] * 0;
-        }
-        return zero == 0 ? largest : HUGE_VAL;
-    }
-
-    const Rhs& rhs;
-    int size, controlled;
-    double t, end = 0, h = 0;
-    double end_of_run = HUGE_VAL;  ///< a step that reaches it is the last one
-    double length_of_run = HUGE_VAL;
-    std::vector<double> y, rest, next, next_rest, rate, end_rate, error;
-    bool knows_end_rate = false;
-    long evaluations = 0;
+template <class S>
+concept SomeStepper = requires(S step, const S& now, const Rhs& rhs, std::span<const double> start, double number,
+                               double* state, const std::function<void(double, double*)>& project) {
+    // From the system, the time, the state and the tolerance.
+    S(rhs, number, start, number);
+    // Whether all steps have the length that is asked for, without an estimated error.
+    { S::has_fixed_step } -> std::convertible_to<bool>;
+    // The order of the error estimate, from which the first step follows; 1 with fixed steps.
+    { S::estimate_order } -> std::convertible_to<int>;
+    // The start of the step: time, state, rate. The pointers hold until the next `advance`.
+    { now.time() } -> std::same_as<double>;
+    { now.state() } -> std::same_as<const double*>;
+    { now.rate() } -> std::same_as<const double*>;
+    // Its end and its length, after `attempt`; the rate at the end after `finish`.
+    { now.end_time() } -> std::same_as<double>;
+    { now.length() } -> std::same_as<double>;
+    { now.end_state() } -> std::same_as<const double*>;
+    { now.end_rate() } -> std::same_as<const double*>;
+    // The system, the evaluations so far, and the most of one step.
+    { now.rhs() } -> std::same_as<const Rhs&>;
+    { now.evaluations() } -> std::same_as<long>;
+    { now.most_evaluations() } -> std::same_as<int>;
+    // Whether the first rate is finite; the component that is to blame for a failure.
+    { now.starts_finite() } -> std::same_as<bool>;
+    { now.worst_component() } -> std::same_as<int>;
+    step.attempt(number);
+    { step.misfit() } -> std::same_as<double>;
+    // Moves the end onto the constraints.
+    step.correct(project);
+    { step.finish() } -> std::same_as<bool>;
+    step.interpolate(number, state);
+    step.advance();
 };
 
-template <class Formula>
-class Stepper {
-public:
-    static constexpr bool has_fixed_step = Formula::has_fixed_step;
-    static constexpr int estimate_order = [] {
-        if constexpr (has_fixed_step)
-            return 1;
-        else
-            return Formula::estimate_order;
-    }();
+/// Chooses the length of the next step itself, together with other things: an order, or whether to keep a
+/// factorization. Others have StepSize (step_size.hpp).
+template <class S>
+concept ChoosesLength = requires(S step, bool accepted, double ratio) {
+    { step.next_length(accepted, ratio) } -> std::same_as<double>;
+};
 
-    Stepper(const Rhs& rhs, double t, std::span<const double> state, double tolerance)
-        : ends_(rhs, t, state),
-          formula_(ends_, tolerance),
-          change_(state.size()),
-          unused_(Formula::between == Between::shorter_step ? state.size() : 0) {}
+/// Knows the motion ahead as a power series. So it knows how long its first step may be, for which others need an
+/// evaluation; whether it has passed over something, which others are looked through for; and what one of its
+/// evaluations costs, where one of others costs as much as the right-hand side. It may also take fixed steps.
+template <class S>
+concept KnowsSeries = requires(S step, const S& now) {
+    { step.first_length() } -> std::same_as<double>;
+    { step.foresees_end() } -> std::same_as<bool>;
+    { now.effort() } -> std::same_as<double>;
+};
 
-    double time() const { return ends_.t; }
-    double end_time() const { return ends_.end; }
-    double length() const { return ends_.h; }
-    const double* state() const { return ends_.y.data(); }
-    const double* rate() const { return ends_.rate.data(); }
-    const double* end_state() const { return ends_.next.data(); }
-    const double* end_rate() const { return ends_.end_rate.data(); }
-    long evaluations() const { return ends_.evaluations; }
-    const Rhs& rhs() const { return ends_.rhs; }
-    int most_evaluations() const { return formula_.most_evaluations() + 1; }
-    bool solved() const { return solved_; }
-    double stable_interval() const requires requires(const Formula f) { f.stable_interval(); }
-    { return formula_.stable_interval(); }
+/// Knows −hλ up to which it is stable. That of others stands in the table of methods.
+template <class S>
+concept KnowsStableInterval = requires(const S& now) {
+    { now.stable_interval() } -> std::same_as<double>;
+};
 
-    double rounding() const requires requires(const Formula f) { f.rounding(); }
-    { return formula_.rounding(); }
-    double largest_eigenvalue() const requires requires(const Formula f) { f.largest_eigenvalue(); }
-    { return formula_.largest_eigenvalue(); }
-    double effort() const requires requires(const Formula f) { f.effort(); }
-    { return formula_.effort(); }
+/// Knows what part of its error estimate may be rounding. For others RoundingWatch finds it (rounding.hpp).
+template <class S>
+concept KnowsRounding = requires(const S& now) {
+    { now.rounding() } -> std::same_as<double>;
+};
 
-    void end_run_at(double t) {
-        ends_.end_of_run = t;
-        ends_.length_of_run = t - ends_.t;
-    }
+/// Knows the modulus of the largest eigenvalue of ∂f/∂y, by which a run may come back from it to an explicit
+/// method. Of others it counts as 0.
+template <class S>
+concept KnowsEigenvalue = requires(const S& now) {
+    { now.largest_eigenvalue() } -> std::same_as<double>;
+};
 
-    void attempt(double end) {
-        ends_.end = end;
-        ends_.h = end - ends_.t;
-        ends_.knows_end_rate = false;
-        solved_ = formula_.increment(ends_, ends_.h, change_.data(), ends_.end_rate.data());
-        for (std::size_t i = 0; i < change_.size(); ++i) {
-            const double change = change_[i] + ends_.rest[i];
-            const double next = ends_.y[i] + change;
-            const double taken = next - ends_.y[i];
-            ends_.next[i] = next;
-            ends_.next_rest[i] = (ends_.y[i] - (next - taken)) + (change - taken);
-        }
-    }
+/// Solves equations in a step, and tells whether that went well. Others fail only by numbers that are not finite.
+template <class S>
+concept SolvesEquations = requires(const S& now) {
+    { now.solved() } -> std::same_as<bool>;
+};
 
-    double misfit() {
-        if (!solved_) return HUGE_VAL;
-        double largest = 0, zero = 0;
-        for (int i = 0; i < ends_.controlled; ++i) {
-            double& error = ends_.error[static_cast<std::size_t>(i)];
-            error = std::abs(error) / ends_.scale(i);
-            largest = std::max(largest, error);
-            zero += (error + end_state()[i]) * 0;
-        }
-        return zero == 0 ? largest : HUGE_VAL;
-    }
-
-    void correct(const std::function<void(double t, double* state)>& project) {
-        if constexpr (requires { Formula::keeps_constraints; }) return;
-        change_ = ends_.next;
-        project(ends_.end, ends_.next.data());
-        for (std::size_t i = 0; i < change_.size(); ++i) {
-            if (ends_.next[i] == change_[i]) continue;
-            ends_.next_rest[i] = 0;
-            ends_.knows_end_rate = false;
-        }
-    }
-
-    bool finish() {
-        if constexpr (requires { formula_.evaluate_end(ends_); })
-            formula_.evaluate_end(ends_);
-        else if (!ends_.knows_end_rate)
-            ends_.evaluate(ends_.end, ends_.next.data(), ends_.end_rate.data());
-        if constexpr (requires { formula_.finished(ends_); }) formula_.finished(ends_);
-        return solved_ && is_finite(ends_.end_rate) && is_finite(ends_.next);
-    }
-
-    bool foresees_end() requires requires(Formula f, Ends e) { f.foresees_end(e); }
-    { return formula_.foresees_end(ends_); }
-
-    bool starts_finite() const { return is_finite(ends_.rate); }
-
-    int worst_component() const {
-        int worst = 0;
-        for (int i = 0; i < ends_.controlled; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            if (!std::isfinite(ends_.rate[k] + ends_.next[k] + ends_.end_rate[k] + ends_.error[k])) return i;
-            if (ends_.error[k] > ends_.error[static_cast<std::size_t>(worst)]) worst = i;
-        }
-        return worst;
-    }
-
-    void advance() {
-        if constexpr (requires { formula_.advance(ends_); }) formula_.advance(ends_);
-        std::swap(ends_.y, ends_.next);
-        std::swap(ends_.rest, ends_.next_rest);
-        std::swap(ends_.rate, ends_.end_rate);
-        ends_.t = ends_.end;
-    }
-
-    double next_length(bool accepted, double ratio) requires requires(Formula f, Ends e) {
-        f.next_length(e, accepted, ratio);
-    }
-    { return formula_.next_length(ends_, accepted, ratio); }
-
-    double first_length() requires requires(Formula f, Ends e) { f.first_length(e); }
-    { return formula_.first_length(ends_); }
-
-    void interpolate(double theta, double* out) {
-        if constexpr (Formula::between == Between::own) {
-            formula_.interpolate(ends_, theta, out);
-        } else if constexpr (Formula::between == Between::shorter_step) {
-            formula_.increment(ends_, theta * ends_.h, out, unused_.data());
-            for (std::size_t i = 0; i < ends_.y.size(); ++i) out[i] = ends_.y[i] + (out[i] + ends_.rest[i]);
-        } else {
-            const double other = 1 - theta;
-            for (std::size_t i = 0; i < ends_.y.size(); ++i) {
-                const double r1 = (ends_.next[i] - ends_.y[i]) + (ends_.next_rest[i] - ends_.rest[i]);
-                const double r2 = ends_.h * ends_.rate[i] - r1;
-                const double r3 = r1 - ends_.h * ends_.end_rate[i] - r2;
-                out[i] = ends_.y[i] + theta * (r1 + other * (r2 + theta * r3));
-            }
-        }
-    }
-
-private:
-    bool is_finite(const std::vector<double>& values) const {
-        double zero = 0;
-        for (int i = 0; i < ends_.controlled; ++i) zero += values[static_cast<std::size_t>(i)] * 0;
-        return zero == 0;
-    }
-
-    Ends ends_;
-    Formula formula_;
-    std::vector<double> change_, unused_;
-    bool solved_ = true;
+/// Is told where the run ends, because it makes use of it. Others need not know.
+template <class S>
+concept PlansToTheEnd = requires(S step, double end) {
+    step.end_run_at(end);
 };
 
 }  // namespace alembert
