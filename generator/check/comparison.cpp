@@ -45,7 +45,7 @@ Diagnosis diagnosis_of(Comparison& now, std::size_t claim, ExactStates& states) 
                      .claim = claim,
                      .in_motion = now.at == Claim::At::motion,
                      .at_impact = now.at == Claim::At::impact,
-                     .known = now.known},
+                     .known = *now.known},
                     states);
 } catch (const std::exception&) {
     words_of_arithmetic_error();  // the claim is refuted, with a state to see it, even if nothing explains it
