@@ -12,6 +12,7 @@
 #include "base/language/say.hpp"
 #include "check/zero.hpp"
 #include "model/parameter_values.hpp"
+#include "program/echelon.hpp"
 #include "program/lower/start.hpp"
 
 namespace alembert {
@@ -21,6 +22,28 @@ using GiNaC::ex;
 namespace {
 
 constexpr int most_coordinates = 5, most_unknowns = 8;  // with the multipliers
+
+/// Expressions in normal form; the pivot is the first entry that is surely not zero.
+struct NormalField {
+    using Number = ex;
+    static constexpr bool makes_ones = true;
+    const Mechanism& m;
+
+    std::optional<std::size_t> pivot(RowsOf<ex>& rows, std::size_t first, std::size_t column) const {
+        for (std::size_t r = first; r < rows.size(); ++r) {
+            const auto zero = zero_test(rows[r][column], m).zero;
+            if (!zero) return std::nullopt;
+            if (!*zero) return r;
+            rows[r][column] = 0;
+        }
+        return rows.size();
+    }
+    static bool is_zero(const ex& x) { return x.is_zero(); }
+    static void divide(std::vector<ex>& row, std::size_t from, const ex& by) {
+        for (std::size_t k = from; k < row.size(); ++k) row[k] = (row[k] / by).normal();
+    }
+    static void subtract(ex& from, const ex& factor, const ex& of) { from = (from - factor * of).normal(); }
+};
 
 class FirstOrder {
 public:
@@ -191,29 +214,7 @@ private:
     /// Reduced row echelon form over the first columns; the pivot's column for each row, or nothing where it could
     /// not be decided whether an entry is zero.
     std::optional<std::vector<std::size_t>> reduce(std::vector<std::vector<ex>>& rows, std::size_t columns) const {
-        std::vector<std::size_t> pivots;
-        for (std::size_t column = 0; column < columns && pivots.size() < rows.size(); ++column) {
-            std::size_t chosen = rows.size();
-            for (std::size_t r = pivots.size(); r < rows.size() && chosen == rows.size(); ++r) {
-                const auto zero = zero_test(rows[r][column], m_).zero;
-                if (!zero) return std::nullopt;
-                if (*zero) rows[r][column] = 0;
-                if (!*zero) chosen = r;
-            }
-            if (chosen == rows.size()) continue;
-            std::swap(rows[pivots.size()], rows[chosen]);
-            std::vector<ex>& pivot = rows[pivots.size()];
-            const ex lead = pivot[column];
-            for (ex& entry : pivot) entry = (entry / lead).normal();
-            for (std::size_t r = 0; r < rows.size(); ++r) {
-                const ex factor = rows[r][column];
-                if (r == pivots.size() || factor.is_zero()) continue;
-                for (std::size_t k = 0; k < rows[r].size(); ++k)
-                    rows[r][k] = (rows[r][k] - factor * pivot[k]).normal();
-            }
-            pivots.push_back(column);
-        }
-        return pivots;
+        return echelon(rows, columns, NormalField{m_});
     }
 
     /// The multipliers at the point.
