@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "check/check.hpp"
-#include "check/slip_words.hpp"
 #include "checked.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"

@@ -2,7 +2,7 @@
 #include "check/alien_force.hpp"
 
 #include "algebra/notation/readable.hpp"
-#include "algebra/notation/text.hpp"
+#include "algebra/notation/tree.hpp"
 
 namespace alembert {
 
@@ -44,9 +44,8 @@ std::vector<Edit> alien_forces(const Nearest& nearest, const Edits& edits, const
             for (const Fourier& other : forces_of(j, m, e)) {
                 const auto ratio = steady_ratio(other.terms()[0], alien.terms()[0]);
                 if (!ratio || !is_zero(alien - *ratio * other)) continue;
-                const TreePtr term = tree_of(text(readable(alien)));
-                const TreePtr instead = own ? tree_of(text(readable(Rational(-1) * *own))) : nullptr;
-                if (!term || (own && !instead)) continue;
+                const TreePtr term = tree_of(readable(alien));
+                const TreePtr instead = own ? tree_of(readable(Rational(-1) * *own)) : nullptr;
                 for (Edit& edit : edits.in_place_of(term, instead, size)) result.push_back(std::move(edit));
             }
         }

@@ -3,8 +3,8 @@
 
 /// Checks a hand derivation.
 ///
-///     const Checked result = check(scene, mechanism);          // the claims of the scene
-///     result.claims[0].verdict == Verdict::proved
+///     const CheckedScene result = check(scene);                // the claims of the scene
+///     result.checked.claims[0].verdict == Verdict::proved
 ///
 /// A claim is an equation in the names that the scene declares. It is right if it holds at every state that obeys
 /// the constraints and their derivatives, with the accelerations and multipliers that the equations give there; so
@@ -24,11 +24,12 @@
 ///
 /// A false claim gets a state at which it fails, in exact numbers (analysis/exact/real_state.hpp).
 
-#include "analysis/exact/real_state.hpp"
-#include "check/verdict.hpp"
-#include "scene/scene.hpp"
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "analysis/derive/derived.hpp"
+#include "check/verdict.hpp"
 
 namespace alembert {
 
@@ -39,9 +40,34 @@ struct Checked {
     int freedom = 0;
 };
 
-/// Throws SceneError for a claim that the mechanism cannot read.
-/// `sheets`: those on which the mechanism was built, if it was. `by`: the formalism whose intermediate symbols and
-/// speeds claims may hold, z1 and u1; empty: the one that `derive` would choose.
+/// Judges any number of claims about one scene. Its equations are derived once, and the exact states at which
+/// claims are compared with them are found once.
+///
+///     Checker checker(derived(scene, {.on_sheets = true}));
+///     checker.check(with_claims(scene, "m*x'' + k*x = 0", "line 1"));
+///     checker.check(with_claims(scene, "m*x'' - k*x = 0", "line 2"));
+class Checker {
+public:
+    /// `derived.by`: the formalism whose intermediate symbols and speeds claims may hold, z1 and u1; empty: the
+    /// one that `derive` would choose.
+    explicit Checker(const Derived& derived);
+    /// The same, of a scene whose equations are not known.
+    explicit Checker(Prepared prepared, const std::string& by = {});
+    Checker(Checker&&) noexcept;
+    ~Checker();
+
+    /// Judges the claims of `scene`, which is the same scene but for its claims. They are judged together: what
+    /// they leave open has the same name in all of them. Throws SceneError for a claim that the mechanism cannot
+    /// read.
+    Checked check(const Scene& scene);
+
+private:
+    class Modes;
+    std::unique_ptr<Modes> modes_;
+};
+
+/// The claims of `scene` alone. `sheets`: those on which the mechanism was built, if it was. Throws what Checker
+/// throws.
 Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets = {},
               const std::string& by = {});
 

@@ -61,20 +61,18 @@ void ClaimArithmetic::remember(const Tree& tree) {
         for (const TreePtr& arg : tree.args) remember(*arg);
 }
 
-ex ClaimArithmetic::reading(const std::string& text) {
-    std::vector<Diagnostic> mistakes;
-    const Expression parsed = parse_equality(text + " = 0", {}, mistakes, at_impact_).lhs;
-    if (!parsed.tree) throw SceneMistake{{}};
-    if (at_impact_) return claims_.read_at_impact(parsed);
-    return is_closed_ ? claims_.read_with_constants(parsed) : claims_.read(parsed);
+ex ClaimArithmetic::reading(const Tree& tree) {
+    const Expression whole = expression_of(tree);
+    if (at_impact_) return claims_.read_at_impact(whole);
+    return is_closed_ ? claims_.read_with_constants(whole) : claims_.read(whole);
 }
 
-ClaimArithmetic::Atom ClaimArithmetic::read(const std::string& text) {
+ClaimArithmetic::Atom ClaimArithmetic::read(const Tree& tree) {
     const Mechanism& m = claims_.mechanism();
     Atom result(points_.size());
     std::vector<ex> values;
     try {
-        values.push_back(reading(text));
+        values.push_back(reading(tree));
         std::vector<GiNaC::symbol> last = m.qddot;
         last.insert(last.end(), claims_.equations().lambda.begin(), claims_.equations().lambda.end());
         for (const Mechanism::Constraint* c : m.undetermined()) last.push_back(c->multiplier);
@@ -99,7 +97,7 @@ const ClaimArithmetic::Atom& ClaimArithmetic::atom(const Tree& tree) {
     if (const auto own = own_.find(&tree); own != own_.end()) return *own->second;
     const std::string text = plain_text_of(tree);
     const auto found = atoms_.find(text);
-    return found != atoms_.end() ? found->second : atoms_.emplace(text, read(text)).first->second;
+    return found != atoms_.end() ? found->second : atoms_.emplace(text, read(tree)).first->second;
 }
 
 std::optional<TimeValue> ClaimArithmetic::at(const Tree& tree, std::size_t point) {

@@ -56,8 +56,8 @@ private:
     /// A name or a call at each point.
     using Atom = std::vector<std::optional<TimeValue>>;
     const Atom& atom(const Tree& tree);
-    GiNaC::ex reading(const std::string& text);
-    Atom read(const std::string& text);
+    GiNaC::ex reading(const Tree& tree);
+    Atom read(const Tree& tree);
     void remember(const Tree& tree);
     std::optional<TimeValue> unscaled(const Tree& tree, std::size_t point);
 

@@ -24,12 +24,6 @@ std::string slice(const Tree& tree, const std::string& source) {
     return text;
 }
 
-TreePtr detached(const TreePtr& tree) {
-    std::vector<TreePtr> args;
-    for (const TreePtr& arg : tree->args) args.push_back(detached(arg));
-    return made(tree->kind, std::move(args), tree->text, tree->primes);
-}
-
 std::string in_parentheses(const Tree& tree, const std::string* source, bool needed) {
     const std::string text = written(tree, source);
     return needed ? "(" + text + ")" : text;
@@ -122,10 +116,23 @@ TreePtr name_tree(const std::string& name, int primes) {
     return made(Kind::name, {}, name, primes);
 }
 
-TreePtr tree_of(const std::string& text) {
-    std::vector<Diagnostic> mistakes;
-    const Expression parsed = parse_expression(text, {}, mistakes);
-    return parsed.tree ? detached(parsed.tree) : nullptr;
+TreePtr detached(const TreePtr& tree) {
+    std::vector<TreePtr> args;
+    for (const TreePtr& arg : tree->args) args.push_back(detached(arg));
+    return made(tree->kind, std::move(args), tree->text, tree->primes);
+}
+
+TreePtr product_of(std::vector<TreePtr> factors) {
+    return factors.size() == 1 ? factors[0] : made(Kind::product, std::move(factors));
+}
+
+std::vector<TreePtr> negated_first(std::vector<TreePtr> factors) {
+    factors[0] = made(Kind::negate, {factors[0]});
+    return factors;
+}
+
+Expression expression_of(const Tree& tree) {
+    return {.text = {}, .places = {}, .tree = TreePtr(TreePtr(), &tree)};
 }
 
 std::pair<TreePtr, bool> without_sign(const TreePtr& tree) {
@@ -168,13 +175,14 @@ TreePtr plus(const TreePtr& tree, const TreePtr& term, bool loose) {
 
 TreePtr with_part(const TreePtr& root, const Tree* part, const TreePtr& by, const std::string& source) {
     if (root.get() == part) return by;
-    std::vector<TreePtr> args;
-    bool changed = false;
-    for (const TreePtr& arg : root->args) {
-        args.push_back(with_part(arg, part, by, source));
-        changed = changed || args.back() != arg;
+    std::vector<TreePtr> args;  // copied when the first of them has changed: most parts of a tree have not
+    for (std::size_t k = 0; k < root->args.size(); ++k) {
+        TreePtr changed = with_part(root->args[k], part, by, source);
+        if (changed == root->args[k]) continue;
+        if (args.empty()) args = root->args;
+        args[k] = std::move(changed);
     }
-    if (!changed) return root;
+    if (args.empty()) return root;
     if (root->kind == Kind::negate && args[0]->kind == Kind::negate) return args[0]->args[0];
     if (root->kind != Kind::sum) return made(root->kind, std::move(args), root->text, root->primes);
     std::vector<TreePtr> terms;  // a sum in place of a term stands without parentheses

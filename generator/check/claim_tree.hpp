@@ -21,8 +21,16 @@ TreePtr made(Tree::Kind kind, std::vector<TreePtr> args, std::string text = {}, 
 TreePtr number_tree(long value);
 TreePtr name_tree(const std::string& name, int primes = 0);
 
-/// A tree that was parsed from another text; nothing if the text cannot be parsed.
-TreePtr tree_of(const std::string& text);
+/// The same tree without its place in a text.
+TreePtr detached(const TreePtr& tree);
+
+/// The product of factors; the factor itself if there is one.
+TreePtr product_of(std::vector<TreePtr> factors);
+/// The factors with a sign before the first.
+std::vector<TreePtr> negated_first(std::vector<TreePtr> factors);
+
+/// An expression without a text, for those who read trees. The tree must outlive it.
+Expression expression_of(const Tree& tree);
 
 /// The term without its sign, and whether it had one. A sign before a product belongs to its first factor.
 std::pair<TreePtr, bool> without_sign(const TreePtr& tree);

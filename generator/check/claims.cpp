@@ -7,8 +7,6 @@
 #include <functional>
 #include <utility>
 
-#include "algebra/notation/text.hpp"
-#include "analysis/derive/derive.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
 #include "model/held_functions.hpp"
@@ -31,14 +29,13 @@ int order_of(const ex& e, const Mechanism& m) {
 }
 
 Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& equations,
-               std::shared_ptr<RootSheets> sheets, const std::string& by)
+               std::shared_ptr<RootSheets> sheets, const PrintedNames& names)
     : m_(mechanism), e_(equations), formulas_(scene, mechanism, std::move(sheets)) {
     for (const Claim& claim : scene.claims) {
         for (const Name& name : claim.unknowns) open_name(name.text, false);
         for (const Name& name : claim.constants) open_name(name.text, true);
     }
-    know_what_derive_prints(scene, by);
-    know_reactions(scene);
+    for (const auto& [name, value] : names) formulas_.know(name, m_.z->name(formulas_.value(value)));
     for (int i = 0; i < m_.size(); ++i) {
         const std::string& q = m_.q[i].get_name();
         third_.push_back(m_.symbols->declare(q, SymbolInfo::Kind::coordinate, i, 3));
@@ -47,61 +44,6 @@ Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& 
     }
     // x'(-) takes the place of x'', because at an impact there are no accelerations.
     for (int i = 0; i < m_.size(); ++i) formulas_.know(m_.q[i].get_name() + "'(-)", m_.qddot[i]);
-}
-
-namespace {
-
-/// z1, u1: a name that `derive` may have given.
-bool is_given_by_derive(const std::string& name) {
-    return name.size() > 1 && (name[0] == 'z' || name[0] == 'u') &&
-           name.find_first_not_of("0123456789", 1) == std::string::npos;
-}
-
-bool holds_one(const Tree& tree, const std::function<bool(const std::string&)>& is_it) {
-    return (tree.kind == Tree::Kind::name && is_it(tree.text)) ||
-           std::any_of(tree.args.begin(), tree.args.end(),
-                       [&](const TreePtr& arg) { return holds_one(*arg, is_it); });
-}
-
-bool hold_one(const Scene& scene, const std::function<bool(const std::string&)>& is_it) {
-    return std::any_of(scene.claims.begin(), scene.claims.end(), [&](const Claim& claim) {
-        return holds_one(*claim.equation.lhs.tree, is_it) || holds_one(*claim.equation.rhs.tree, is_it);
-    });
-}
-
-}  // namespace
-
-// The speeds that a formalism chooses, and the definitions that `derive` prints beyond the readable size, where a
-// claim speaks of them.
-void Claims::know_what_derive_prints(const Scene& scene, const std::string& by) {
-    if (!hold_one(scene, is_given_by_derive)) return;
-    const Derivation shown = derive(scene, {.by = by}).shown;
-    for (const auto* list : {&shown.speeds, &shown.definitions})
-        for (const auto& [name, value] : *list) {
-            std::vector<Diagnostic> mistakes;
-            const Expression expression = parse_expression(text(value), {}, mistakes);
-            if (!mistakes.empty()) return;
-            formulas_.know(text(name), m_.z->name(formulas_.value(expression)));
-        }
-}
-
-/// N_wheel, F_x_hinge: what `derive` shows of reactions, where a claim speaks of them.
-void Claims::know_reactions(const Scene& scene) {
-    if (scene.rolling.empty() && scene.joints.empty()) return;
-    std::vector<Diagnostic> mistakes;
-    const std::vector<std::string> letters = reaction_letters(scene, declare(scene, mistakes));
-    const auto is_reaction = [&](const std::string& name) {
-        return std::find(letters.begin(), letters.end(), name) != letters.end();
-    };
-    if (letters.empty() || !hold_one(scene, is_reaction)) return;
-    const DerivedScene derived = derive(scene, {.reactions = true});
-    for (const auto* list : {&derived.joint_loads, &derived.normal_reactions})
-        for (const Statement& s : *list) {
-            const std::string name = s.letter + "_" + s.of;
-            if (!is_reaction(name)) continue;
-            const Expression expression = parse_expression(text(s.value), {}, mistakes);
-            if (expression.tree) formulas_.know(name, m_.z->name(formulas_.value(expression)));
-        }
 }
 
 void Claims::open_name(const std::string& name, bool constant) {

@@ -9,6 +9,7 @@
 
 #include "analysis/contact/impact.hpp"
 #include "analysis/exact/motions.hpp"
+#include "check/printed_names.hpp"
 #include "model/formalism/driven.hpp"
 #include "model/formulas.hpp"
 
@@ -35,9 +36,9 @@ struct Open {
 
 class Claims {
 public:
-    /// `by`: the formalism whose names, z1 and u1, claims may hold; empty: the one that `derive` would choose.
+    /// `names`: those that `derive` gives, if claims hold any.
     Claims(const Scene& scene, const Mechanism& mechanism, const Equations& equations,
-           std::shared_ptr<RootSheets> sheets = {}, const std::string& by = {});
+           std::shared_ptr<RootSheets> sheets = {}, const PrintedNames& names = {});
 
     /// Reads a claim of the scene. Throws SceneMistake.
     ClaimForm read(const Claim& claim);
@@ -82,8 +83,6 @@ private:
     GiNaC::ex at_impact(const GiNaC::ex& e) const;
     /// Which names the form leaves open; returns whether constants are among them.
     bool find_open(ClaimForm& form) const;
-    void know_what_derive_prints(const Scene& scene, const std::string& by);
-    void know_reactions(const Scene& scene);
     void open_name(const std::string& name, bool constant);
     GiNaC::ex without_third_derivatives(const GiNaC::ex& residual, Place at) const;
 

@@ -31,7 +31,7 @@ std::vector<std::size_t> without_combinations(Comparison& now, const std::vector
         });
         return left;
     }
-    std::optional<ExactStates> states;
+    ExactStates* states = nullptr;
     Program p;
     std::vector<int> roots;
     std::vector<std::pair<std::size_t, double>> found;
@@ -39,11 +39,12 @@ std::vector<std::size_t> without_combinations(Comparison& now, const std::vector
         if (!now.forms[k].open.empty()) continue;
         const int root = now.claims.lower(p, {now.forms[k].residual})[0];
         if (p.is_zero(root)) continue;
-        if (!states)
-            states.emplace(
-                now.m, now.law,
-                Motions::Sampling{
-                    .at = at, .halvings = halvings_in(now, claims), .positions = Motions::Positions::free});
+        if (states == nullptr)
+            states = &now.basis.states({.spoken = now.spoken,
+                                        .is_any_motion = now.is_any_motion,
+                                        .at = at,
+                                        .halvings = halvings_in(now, claims),
+                                        .positions = Motions::Positions::free});
         double failure = 0;
         if (vanishes_at(*states, p, root, failure) != std::optional(true)) continue;
         found.emplace_back(k, failure);

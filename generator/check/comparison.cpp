@@ -51,7 +51,7 @@ Diagnosis diagnosis_of(Comparison& now, std::size_t claim, ExactStates& given) t
                      .claim = claim,
                      .in_motion = now.at == Claim::At::motion,
                      .at_impact = now.at == Claim::At::impact,
-                     .known = now.known,
+                     .known = *now.known,
                      .up_to_constant = any && any->get() != nullptr},
                     states);
 } catch (const std::exception&) {

@@ -3,8 +3,8 @@
 
 /// The claims of one mode as they are compared with the equations: what the parts of the check share.
 ///
-///     Comparison now{.scene = scene, .m = m, .e = e, .claims = claims};
-///     now.at = Claim::At::rest;                       // what the claims speak of that are compared now
+///     Comparison now{.scene = scene, .basis = basis, .m = basis.mechanism, .e = basis.equations, .claims =
+///     claims}; now.at = Claim::At::rest;                       // what the claims speak of that are compared now
 ///     settle_closed_claim(now, 2, states);            // writes now.verdicts[2]
 
 #include <optional>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "analysis/exact/exact_states.hpp"
-#include "check/absent.hpp"
+#include "check/basis.hpp"
 #include "check/claims.hpp"
 #include "check/counterexample.hpp"
 #include "check/verdict.hpp"
@@ -21,6 +21,7 @@ namespace alembert {
 
 struct Comparison {
     const Scene& scene;
+    Basis& basis;
     const Mechanism& m;
     const Equations& e;
     Claims& claims;
@@ -31,10 +32,11 @@ struct Comparison {
     std::vector<GiNaC::ex> assumed = {};  ///< of these, what the claims assume themselves
 
     // For the claims that are compared now:
-    Claim::At at = Claim::At::motion;         ///< motion, rest or impact
-    Equations law = {};                       ///< the equations with the multipliers that these claims contain
-    std::vector<std::size_t> spoken = {};     ///< positions of these multipliers in Mechanism::undetermined()
-    std::optional<EquationTerms> known = {};  ///< of the law; made when it is first needed
+    Claim::At at = Claim::At::motion;      ///< motion, rest or impact
+    Equations law = {};                    ///< the equations with the multipliers that these claims contain
+    std::vector<std::size_t> spoken = {};  ///< positions of these multipliers in Mechanism::undetermined()
+    bool is_any_motion = false;            ///< the law is that of every motion, as there are no masses
+    std::optional<EquationTerms>* known = nullptr;  ///< of the law; made when it is first needed
     /// Exact states on the scene's own branch of the constraints, if there are several branches: claims are judged
     /// there.
     ExactStates* on_own_branch = nullptr;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/completeness.hpp"
 
-#include "analysis/exact/exact_states.hpp"
 #include "check/open_rows.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
 
-Completeness completeness(const Claims& claims, const std::vector<const ClaimForm*>& right) {
+Completeness completeness(Basis& basis, const Claims& claims, const std::vector<const ClaimForm*>& right) {
     const Mechanism& m = claims.mechanism();
     const Equations& e = claims.equations();
     std::vector<GiNaC::symbol> unknowns = m.qddot;
@@ -29,7 +28,7 @@ Completeness completeness(const Claims& claims, const std::vector<const ClaimFor
     Program p;
     const std::vector<int> nodes = claims.lower(p, list);
     for (const int halves : {0, 1, 2}) {
-        ExactStates states(m, e, {.halves = halves, .halvings = halvings(p, nodes)});
+        ExactStates& states = basis.states({.halves = halves, .halvings = halvings(p, nodes)});
         for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
             const auto at = evaluate_mod(p, states.get(s)->point, nodes);
             if (!at) continue;

@@ -3,6 +3,7 @@
 
 /// Do the right claims determine the motion completely?
 
+#include "check/basis.hpp"
 #include "check/claims.hpp"
 
 namespace alembert {
@@ -15,6 +16,6 @@ struct Completeness {
 
 /// Do the forms `right`, together with the constraints, determine every acceleration after the open names of the
 /// claims are eliminated? Ranks at an exact state decide this.
-Completeness completeness(const Claims& claims, const std::vector<const ClaimForm*>& right);
+Completeness completeness(Basis& basis, const Claims& claims, const std::vector<const ClaimForm*>& right);
 
 }  // namespace alembert

@@ -25,6 +25,11 @@ using GiNaC::numeric;
 
 namespace {
 
+bool has_primes(const Tree& tree) {
+    return tree.primes > 0 ||
+           std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& arg) { return has_primes(*arg); });
+}
+
 class Diagnostician {
 public:
     Diagnostician(const WrongClaim& asked, ExactStates& states)
@@ -49,14 +54,15 @@ public:
         else if (holds_at_scene_values())
             result.reason = say("it holds at the scene's values of the parameters only");
         std::optional<ClaimArithmetic> arithmetic = arithmetic_of_claim();
-        result.likely = likely_slip(claim_, form_.residual, m_, asked_.law,
-                                    {.is_right = [this](const Claim& claim) { return is_right(claim); },
-                                     .vanishes = [this](const Expression& value) { return vanishes(value); },
-                                     .terms = [this]() -> const EquationTerms& { return terms(); },
-                                     .absent = [this] { return absent(); },
-                                     .arithmetic = arithmetic ? &*arithmetic : nullptr});
-        if (result.likely)
-            tell_repair(result);
+        const std::optional<Repair> repair =
+            likely_slip(claim_, form_.residual, m_, asked_.law,
+                        {.is_right = [this](const Claim& claim) { return is_right(claim); },
+                         .vanishes = [this](const Expression& value) { return vanishes(value); },
+                         .terms = [this]() -> const EquationTerms& { return terms(); },
+                         .absent = [this] { return absent(); },
+                         .arithmetic = arithmetic ? &*arithmetic : nullptr});
+        if (repair)
+            tell(*repair, result);
         else
             tell_nearest(result);
         if (!result.likely)
@@ -67,13 +73,13 @@ public:
 
 private:
     /// What the claim has beyond the equation into which it was corrected.
-    void tell_repair(Diagnosis& result) {
+    void tell(const Repair& repair, Diagnosis& result) {
         constexpr double largest_tree = 3000;
         constexpr std::size_t most_terms = 8;
-        result.nearest = result.likely->repair;
-        std::vector<Diagnostic> mistakes;
+        result.likely = repair.slip;
+        result.nearest = repair.slip.repair;
         Claim repaired = claim_;
-        repaired.equation = parse_equality(result.likely->repair, {}, mistakes, asked_.at_impact);
+        repaired.equation = repair.equation;
         try {
             const ex beyond = form_.residual - claims_.read(repaired).residual;
             if (m_.z->tree_size(beyond) > largest_tree) return;
@@ -189,32 +195,35 @@ private:
                        : asked_.up_to_constant ? m_.time_derivative({form_.residual})[0]
                                                : form_.derivatives[static_cast<std::size_t>(*derivative - 1)];
         const int residual = claims_.lower(p, {own})[0];
-        std::vector<std::string> texts;
+        std::vector<Factors> terms;
         std::vector<int> nodes;
-        std::vector<Diagnostic> mistakes;
-        for (std::string& text : terms_of_mechanics(claim_, m_, asked_.law, terms(), *derivative > 0)) {
-            const Expression value = parse_expression(text, {}, mistakes);
-            const std::optional<int> node = value.tree ? node_of_derivative(p, value, *derivative) : std::nullopt;
+        for (Factors& term : terms_of_mechanics(claim_, m_, asked_.law, this->terms(), *derivative > 0)) {
+            const TreePtr tree = product_of(term);
+            const std::optional<int> node = node_of_derivative(p, expression_of(*tree), *derivative);
             if (!node || p.is_zero(*node)) continue;
             nodes.push_back(*node);
-            texts.push_back(std::move(text));
+            terms.push_back(std::move(term));
         }
-        std::vector<Steady> steady;
-        for (const std::string& text : steady_sums(claim_, m_)) {
-            const Expression value = parse_expression(text, {}, mistakes);
-            if (const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt)
-                steady.push_back({text, *node});
-        }
+        std::vector<TreePtr> steady;
+        std::vector<int> steady_nodes;
+        for (const TreePtr& tree : steady_sums(claim_, m_))
+            if (const std::optional<int> node = node_of(p, expression_of(*tree))) {
+                steady.push_back(tree);
+                steady_nodes.push_back(*node);
+            }
         std::vector<ModularPoint> points;
         const std::size_t most = states_.motions.where() == Motions::At::rest ? states_of_rest : 12;
         for (std::size_t s = 0; s < most && states_.get(s) != nullptr; ++s)
             points.push_back(states_.get(s)->point);
         std::vector<AbsentTerm> result;
-        for (const Absent& term : absent_terms(p, residual, nodes, steady, points)) {
+        for (const Absent& found : absent_terms(p, residual, nodes, steady_nodes, points)) {
             // In one pose all rates are multiples of the impulses, which are more often forgotten.
             constexpr int of_rate = 6;
-            const bool has_rate = asked_.at_impact && texts[term.term].find('\'') != std::string::npos;
-            result.push_back({term.coefficient, texts[term.term], term.effort + (has_rate ? of_rate : 0)});
+            const Factors& term = terms[found.term];
+            const bool is_one = term.size() == 1 && term[0]->kind == Tree::Kind::number && term[0]->text == "1";
+            Factors factors = times(found.coefficient, steady, is_one ? Factors() : term);
+            const bool has_rate = asked_.at_impact && has_primes(*product_of(term));
+            result.push_back({product_of(std::move(factors)), found.effort + (has_rate ? of_rate : 0)});
         }
         std::stable_sort(result.begin(), result.end(),
                          [](const AbsentTerm& a, const AbsentTerm& b) { return a.effort < b.effort; });

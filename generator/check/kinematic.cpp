@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
-#include "check/any_motion.hpp"
 #include "check/quantities.hpp"
 #include "check/vanishing.hpp"
 
@@ -40,9 +39,9 @@ void tell_kinematics(Comparison& now) {
     const bool is_bound_by_forces = std::any_of(now.m.constraints.begin(), now.m.constraints.end(),
                                                 [](const Mechanism::Constraint& c) { return c.balance; });
     if (here.empty() || is_bound_by_forces) return;
-    const Equations any = any_motion(now.e, now.m);
     for (const int halves : {0, 1, 2}) {
-        ExactStates states(now.m, any, {.halves = halves, .halvings = halvings_in(now, here)});
+        ExactStates& states =
+            now.basis.states({.is_any_motion = true, .halves = halves, .halvings = halvings_in(now, here)});
         if (states.get(0) == nullptr) continue;
         for (const std::size_t k : here) tell_kinematic(now, k, states);
         return;

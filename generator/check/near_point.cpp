@@ -6,6 +6,7 @@
 
 #include "base/language/say.hpp"
 #include "check/zero.hpp"
+#include "program/echelon.hpp"
 #include "program/lower/start.hpp"
 
 namespace alembert {
@@ -13,6 +14,28 @@ namespace alembert {
 using GiNaC::ex;
 
 namespace {
+
+/// Expressions in normal form; the pivot is the first entry that is surely not zero.
+struct NormalField {
+    using Number = ex;
+    static constexpr bool makes_ones = true;
+    const Mechanism& m;
+
+    std::optional<std::size_t> pivot(RowsOf<ex>& rows, std::size_t first, std::size_t column) const {
+        for (std::size_t r = first; r < rows.size(); ++r) {
+            const auto zero = zero_test(rows[r][column], m).zero;
+            if (!zero) return std::nullopt;
+            if (!*zero) return r;
+            rows[r][column] = 0;
+        }
+        return rows.size();
+    }
+    static bool is_zero(const ex& x) { return x.is_zero(); }
+    static void divide(std::vector<ex>& row, std::size_t from, const ex& by) {
+        for (std::size_t k = from; k < row.size(); ++k) row[k] = (row[k] / by).normal();
+    }
+    static void subtract(ex& from, const ex& factor, const ex& of) { from = (from - factor * of).normal(); }
+};
 
 std::string too_long() {
     return say("the equations of motion are too long for a first approximation in symbols");
@@ -148,29 +171,7 @@ std::optional<ex> NearPoint::root_near(const ex& f, const GiNaC::symbol& x, doub
 
 std::optional<std::vector<std::size_t>> NearPoint::reduce(std::vector<std::vector<ex>>& rows,
                                                           std::size_t columns) const {
-    std::vector<std::size_t> pivots;
-    for (std::size_t column = 0; column < columns && pivots.size() < rows.size(); ++column) {
-        std::size_t chosen = rows.size();
-        for (std::size_t r = pivots.size(); r < rows.size() && chosen == rows.size(); ++r) {
-            const auto zero = zero_test(rows[r][column], m_).zero;
-            if (!zero) return std::nullopt;
-            if (*zero) rows[r][column] = 0;
-            if (!*zero) chosen = r;
-        }
-        if (chosen == rows.size()) continue;
-        std::swap(rows[pivots.size()], rows[chosen]);
-        std::vector<ex>& pivot = rows[pivots.size()];
-        const ex lead = pivot[column];
-        for (ex& entry : pivot) entry = (entry / lead).normal();
-        for (std::size_t r = 0; r < rows.size(); ++r) {
-            const ex factor = rows[r][column];
-            if (r == pivots.size() || factor.is_zero()) continue;
-            for (std::size_t k = 0; k < rows[r].size(); ++k)
-                rows[r][k] = (rows[r][k] - factor * pivot[k]).normal();
-        }
-        pivots.push_back(column);
-    }
-    return pivots;
+    return echelon(rows, columns, NormalField{m_});
 }
 
 /// The multipliers at the point.

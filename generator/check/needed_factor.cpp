@@ -54,11 +54,9 @@ private:
 
     void read_names() {
         std::vector<Values> values;
-        for (const std::string& text : steady_sums(claim_, m_)) {
-            const TreePtr tree = tree_of(text);
-            const auto value = tree ? values_of(*tree) : std::nullopt;
+        for (const TreePtr& tree : steady_sums(claim_, m_)) {
+            const auto value = values_of(*tree);
             if (!value) continue;
-            names_.push_back(text);
             trees_.push_back(tree);
             values.push_back(*value);
         }
@@ -151,7 +149,7 @@ private:
             }
             bool is_length = mover == nullptr && !factor.powers.empty();
             for (const auto& [which, exponent] : factor.powers)
-                is_length = is_length && words_.lengths.contains(names_[which]);
+                is_length = is_length && words_.lengths.contains(plain_text_of(*trees_[which]));
             const double digits = of_digit * static_cast<double>(size_of_numbers(body) - 2);
             Edit edit =
                 edits_.with_body(s, body, is_length ? "wrong_arm" : "factor", size + effort(factor) + digits);
@@ -251,7 +249,6 @@ private:
     const Mechanism& m_;
     ClaimArithmetic& arithmetic_;
     std::function<bool(const Tree&)> steady_ = [this](const Tree& tree) { return words_.is_steady(tree); };
-    std::vector<std::string> names_;
     std::vector<TreePtr> trees_;
     std::optional<SteadyFactors> known_;
     std::vector<Mover> movers_;

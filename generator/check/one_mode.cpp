@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "analysis/state/branch.hpp"
+#include "analysis/derive/derive.hpp"
 #include "analysis/state/force_balance.hpp"
 #include "base/language/say.hpp"
 #include "check/any_motion.hpp"
@@ -18,8 +18,7 @@
 #include "check/open_claims.hpp"
 #include "check/solution.hpp"
 #include "model/formalism/driven.hpp"
-#include "model/formalism/elements.hpp"
-#include "model/formalism/routh.hpp"
+#include "model/formalism/needs.hpp"
 
 namespace alembert {
 
@@ -35,16 +34,15 @@ Scene with_some_claims(Scene scene, const std::vector<std::size_t>& claims) {
 
 namespace {
 
-class Checker {
+/// The claims of a scene that are compared with one basis.
+class Judging {
 public:
-    Checker(const Scene& scene, const Mechanism& m, const Equations& e, const std::shared_ptr<RootSheets>& sheets,
-            const std::string& by)
-        : claims_(scene, m, e, sheets, by),
+    Judging(const Scene& scene, Basis& basis, const std::shared_ptr<RootSheets>& sheets, const PrintedNames& names)
+        : claims_(scene, basis.mechanism, basis.equations, sheets, names),
           sheets_(sheets),
-          now_{.scene = scene, .m = m, .e = e, .claims = claims_} {}
-
-    /// `m` and `e` have rates that are counted from these (model/formalism/driven.hpp).
-    void count_rates_from(const GiNaC::exmap& driven) { claims_.count_rates_from(driven); }
+          now_{.scene = scene, .basis = basis, .m = basis.mechanism, .e = basis.equations, .claims = claims_} {
+        claims_.count_rates_from(basis.driven);
+    }
 
     Checked run() {
         now_.verdicts.resize(now_.scene.claims.size());
@@ -63,10 +61,11 @@ public:
                     std::vector<std::size_t> part = here;
                     std::erase_if(part, [&](std::size_t k) { return undetermined_in(k) != spoken; });
                     std::erase_if(here, [&](std::size_t k) { return undetermined_in(k) == spoken; });
+                    now_.is_any_motion = !has_masses() && spoken.empty();
                     now_.law =
-                        has_masses() || !spoken.empty() ? with_multipliers(spoken) : any_motion(now_.e, now_.m);
+                        now_.is_any_motion ? any_motion(now_.e, now_.m) : now_.basis.with_multipliers(spoken);
                     now_.spoken = spoken;
-                    now_.known.reset();
+                    now_.known = &now_.basis.terms(spoken, now_.is_any_motion);
                     settle(part, at == Claim::At::rest ? Motions::At::rest : Motions::At::motion);
                 }
         }
@@ -131,15 +130,6 @@ private:
         return result;
     }
 
-    Equations with_multipliers(const std::vector<std::size_t>& undetermined) const {
-        Equations law = now_.e;
-        for (const std::size_t k : undetermined) {
-            const Mechanism::Constraint& c = *now_.m.undetermined()[k];
-            for (int i = 0; i < law.size(); ++i) law.own[i] += c.row[i] * c.multiplier;
-        }
-        return law;
-    }
-
     bool has_masses() const { return !now_.m.kinetic.empty() || now_.m.given_lagrangian; }
 
     /// With holonomic constraints as they are at the pose where the scene starts: what of it is known in numbers
@@ -156,9 +146,16 @@ private:
         return result;
     }
 
-    /// The scene's own branch of the constraints, if these have branches and the claims are about the motion.
-    std::optional<OwnBranch> branch() const {
-        return now_.at == Claim::At::motion ? own_branch(now_.m) : std::nullopt;
+    /// Whether the constraints have branches, and the claims are about the motion on the scene's own.
+    bool knows_own_branch() const { return now_.at == Claim::At::motion && now_.basis.own_branch().has_value(); }
+
+    /// The states of that kind, shared by all claims unless the claims assume something, or are about an impact,
+    /// which has a mechanism of its own; `made` then keeps them.
+    ExactStates& states_for(const Basis::Wanted& wanted, std::unique_ptr<ExactStates>& made) {
+        if (now_.at != Claim::At::impact && now_.assumed.empty()) return now_.basis.states(wanted);
+        made = now_.basis.own_states(wanted, now_.at == Claim::At::impact ? struck() : now_.m);
+        if (!now_.assumed.empty()) keep_assumed(*made);
+        return *made;
     }
 
     /// Whether each of the claims has a value at one of the first states.
@@ -179,22 +176,27 @@ private:
         const bool may_combine = at == Motions::At::rest || (now_.at == Claim::At::motion && is_bound);
         const std::vector<std::size_t> here = may_combine ? without_combinations(now_, asked, at) : asked;
         if (here.empty()) return;
-        const Mechanism mechanism = now_.at == Claim::At::impact ? struck() : now_.m;
-        const std::optional<OwnBranch> own = branch();
-        std::optional<ExactStates> states, on_own_branch;
+        const bool knows_own = knows_own_branch();
+        std::unique_ptr<ExactStates> made, made_on_own_branch;
         // Angles in halves only where they occur: every halving doubles the degrees.
         const int halvings = halvings_in(now_, here);
-        const auto make = [&](std::optional<ExactStates>& made, bool stays) {
-            for (const int halves : {0, 1, 2}) {
-                made.emplace(mechanism, now_.law,
-                             Motions::Sampling{.at = at, .halves = halves, .halvings = halvings, .own = own});
-                if (stays) made->stay_on_own_branch();
-                if (!now_.assumed.empty()) keep_assumed(*made);
-                const bool helps_no_more = stays && halves >= std::max(halvings, states->motions.halves());
-                if (helps_no_more || (made->get(0) != nullptr && can_be_evaluated(here, *made))) break;
+        const auto usable = [&](bool stays, int most_halves, std::unique_ptr<ExactStates>& kept) {
+            ExactStates* found = nullptr;
+            for (int halves = 0; halves <= most_halves; ++halves) {
+                found = &states_for({.spoken = now_.spoken,
+                                     .is_any_motion = now_.is_any_motion,
+                                     .at = at,
+                                     .halves = halves,
+                                     .halvings = halvings,
+                                     .knows_own_branch = knows_own,
+                                     .stays_on_own_branch = stays},
+                                    kept);
+                if (halves < most_halves && found->get(0) != nullptr && can_be_evaluated(here, *found)) break;
             }
+            return found;
         };
-        make(states, false);
+        constexpr int most_halves = 2;
+        ExactStates* const states = usable(false, most_halves, made);
         if (states->get(0) == nullptr) {
             for (const std::size_t k : here) {
                 CheckedClaim& c = now_.verdicts[k];
@@ -207,10 +209,9 @@ private:
             return;
         }
         now_.on_own_branch = nullptr;
-        if (own && (states->motions.has_branches() || !states->motions.loose().empty())) {
-            make(on_own_branch, true);
-            now_.on_own_branch = &*on_own_branch;
-        }
+        if (knows_own && (states->motions.has_branches() || !states->motions.loose().empty()))
+            now_.on_own_branch = usable(true, std::min(most_halves, std::max(halvings, states->motions.halves())),
+                                        made_on_own_branch);
         std::vector<std::size_t> open;
         for (const std::size_t k : here)
             if (now_.forms[k].open.empty())
@@ -268,7 +269,7 @@ private:
                 (verdict == Verdict::proved || verdict == Verdict::vacuous))
                 right.push_back(&now_.forms[k]);
         }
-        return completeness(claims_, right);
+        return completeness(now_.basis, claims_, right);
     }
 
     Claims claims_;
@@ -291,14 +292,44 @@ std::vector<std::size_t> claims_at_rest(const Scene& scene, bool at_rest) {
 
 }  // namespace
 
-Checked check_of_one_mode(const Scene& scene, const Mechanism& given, const std::shared_ptr<RootSheets>& sheets,
-                          const std::string& by) {
-    const Mechanism mechanism = with_force_balances(given, routh);
-    const Equations equations = routh(mechanism);
-    const Mechanism m = in_terms_of(equations, mechanism);
-    const std::vector<std::size_t> resting = claims_at_rest(scene, true), others = claims_at_rest(scene, false);
-    const GiNaC::exmap driven = resting.empty() ? GiNaC::exmap() : driven_rates(m);
-    if (driven.empty()) return Checker(scene, m, equations, sheets, by).run();
+OneMode::OneMode(Prepared mode, const std::string& by, std::optional<Equations> shown)
+    : mode_(std::move(mode)), by_(by), shown_(std::move(shown)) {
+    const Formalism& formalism = formalism_for(Need::multipliers);
+    const bool is_known = shown_ && serves(*shown_, Need::multipliers, mode_.mechanism);
+    Balanced bound =
+        with_force_balances(mode_.mechanism, formalism.derive, is_known ? shown_ : std::optional<Equations>());
+    moving_.emplace(bound.mechanism, std::move(bound.equations));
+}
+
+Basis& OneMode::resting() {
+    if (!std::exchange(has_looked_for_driven_, true))
+        if (const GiNaC::exmap driven = driven_rates(moving_->mechanism); !driven.empty()) {
+            Equations equations = moving_->equations;
+            equations.z = moving_->mechanism.z;
+            resting_.emplace(counted_from(moving_->mechanism, driven), counted_from(std::move(equations), driven),
+                             driven);
+        }
+    return resting_ ? *resting_ : *moving_;
+}
+
+const PrintedNames& OneMode::printed() {
+    if (printed_) return *printed_;
+    Derived derived{mode_};
+    derived.by = by_;
+    if (shown_)
+        derived.equations = *shown_;
+    else
+        derived = derived_again(derived, mode_.mechanism, by_);
+    printed_ = printed_names(explained(std::move(derived)).shown);
+    return *printed_;
+}
+
+Checked OneMode::check(const Scene& scene, const std::shared_ptr<RootSheets>& sheets) {
+    const std::vector<std::size_t> resting_ones = claims_at_rest(scene, true),
+                                   others = claims_at_rest(scene, false);
+    PrintedNames names = speaks_of_printed_names(scene) ? printed() : PrintedNames();
+    for (auto& reaction : reaction_names(scene)) names.push_back(std::move(reaction));
+    if (resting_ones.empty() || &resting() == &*moving_) return Judging(scene, *moving_, sheets, names).run();
     Checked result{.claims = std::vector<CheckedClaim>(scene.claims.size())};
     const auto take = [&](const std::vector<std::size_t>& which, Checked checked) {
         for (std::size_t i = 0; i < which.size(); ++i) result.claims[which[i]] = std::move(checked.claims[i]);
@@ -307,15 +338,9 @@ Checked check_of_one_mode(const Scene& scene, const Mechanism& given, const std:
         if (result.freedom == 0 || checked.complete)
             result.missing = checked.missing, result.freedom = checked.freedom;
     };
-    const Scene moving = with_some_claims(scene, others), at_rest = with_some_claims(scene, resting);
-    if (!others.empty()) take(others, Checker(moving, m, equations, sheets, by).run());
-    Equations counted = equations;
-    counted.z = m.z;
-    counted = counted_from(std::move(counted), driven);
-    const Mechanism from_driven = counted_from(m, driven);
-    Checker checker(at_rest, from_driven, counted, sheets, by);
-    checker.count_rates_from(driven);
-    take(resting, checker.run());
+    const Scene moving = with_some_claims(scene, others), at_rest = with_some_claims(scene, resting_ones);
+    if (!others.empty()) take(others, Judging(moving, *moving_, sheets, names).run());
+    take(resting_ones, Judging(at_rest, resting(), sheets, names).run());
     return result;
 }
 

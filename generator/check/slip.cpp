@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "algebra/notation/readable.hpp"
-#include "algebra/notation/text.hpp"
+#include "algebra/notation/tree.hpp"
 #include "check/alien_force.hpp"
 #include "check/claim_arithmetic.hpp"
 #include "check/edits.hpp"
@@ -36,7 +36,7 @@ public:
           words_(words_of_scene()),
           edits_(claim, words_) {}
 
-    std::optional<Slip> find() {
+    std::optional<Repair> find() {
         std::vector<Edit> parts = edits_.list;
         if (judge_.arithmetic != nullptr) {
             const std::vector<Edit> needed = needed_factors(claim_, edits_, words_, m_, *judge_.arithmetic);
@@ -44,19 +44,19 @@ public:
         }
         add_own_terms(parts);
         const std::optional<Found> found = smallest(parts);
-        if (found && found->size < of_absent_term) return found->slip;
+        if (found && found->size < of_absent_term) return found->repair;
         std::vector<Edit> rest;
         add_absent_terms(rest);
         add_pairs_of_signs(rest);
         const std::optional<Found> other = smallest(rest);
-        if (found && (!other || found->size <= other->size)) return found->slip;
-        return other ? std::optional(other->slip) : std::nullopt;
+        if (found && (!other || found->size <= other->size)) return found->repair;
+        return other ? std::optional(other->repair) : std::nullopt;
     }
 
 private:
     /// The slip that the smallest of these changes sets right.
     struct Found {
-        Slip slip;
+        Repair repair;
         double size;
     };
     std::optional<Found> smallest(std::vector<Edit>& edits) {
@@ -64,10 +64,10 @@ private:
         std::optional<Found> best;
         for (const Edit& edit : edits) {
             if (best && edit.size >= best->size + largest_bonus) break;
-            auto slip = after(edit);
-            if (!slip) continue;
+            auto repair = after(edit);
+            if (!repair) continue;
             const double size = edit.size - bonus(edit);
-            if (!best || size < best->size) best = Found{std::move(*slip), size};
+            if (!best || size < best->size) best = Found{std::move(*repair), size};
         }
         return best;
     }
@@ -92,26 +92,23 @@ private:
         for (const Mechanism::Input& input : m_.inputs) words.inputs.push_back(input.derivative[0].get_name());
         for (const GiNaC::symbol& lambda : e_.lambda) words.multipliers.push_back(lambda.get_name());
         const EquationTerms& terms = judge_.terms();
-        std::set<std::string> angles = terms.angles;
-        for (const Expression* side : {&claim_.equation.lhs, &claim_.equation.rhs})
-            add_angles(*side->tree, angles);
-        for (const std::string& angle : angles)
-            if (const TreePtr tree = tree_of(angle)) words.angles.push_back(tree);
-        for (const std::string& term : terms.steady)
-            if (const TreePtr tree = tree_of(term)) words.steady.push_back(tree);
+        TreesByText angles = terms.angles;
+        for (const Expression* side : {&claim_.equation.lhs, &claim_.equation.rhs}) add_angles(side->tree, angles);
+        for (const auto& [text, angle] : angles) words.angles.push_back(angle);
+        for (const auto& [text, term] : terms.steady) words.steady.push_back(term);
         return words;
     }
 
-    static void add_angles(const Tree& tree, std::set<std::string>& angles) {
-        if (tree.kind == Tree::Kind::call && (tree.text == "sin" || tree.text == "cos" || tree.text == "tan"))
-            angles.insert(plain_text_of(*tree.args[0]));
-        for (const TreePtr& arg : tree.args) add_angles(*arg, angles);
+    static void add_angles(const TreePtr& tree, TreesByText& angles) {
+        if (tree->kind == Tree::Kind::call && (tree->text == "sin" || tree->text == "cos" || tree->text == "tan"))
+            angles.emplace(plain_text_of(*tree->args[0]), detached(tree->args[0]));
+        for (const TreePtr& arg : tree->args) add_angles(arg, angles);
     }
 
     // Asking
 
     /// The slip that this change sets right.
-    std::optional<Slip> after(const Edit& edit) {
+    std::optional<Repair> after(const Edit& edit) {
         if (judge_.arithmetic != nullptr) {
             if (judge_.arithmetic->effort() > most_effort || !judge_.arithmetic->vanishes(*edit.lhs, *edit.rhs) ||
                 only_vanishes(edit))
@@ -121,19 +118,19 @@ private:
                           rhs = text_of(*edit.rhs, claim_.equation.rhs.text);
         asked_ += lhs.size() + rhs.size();
         if (asked_ > most_asked) return std::nullopt;
-        std::vector<Diagnostic> mistakes;
         Claim repaired = claim_;
-        repaired.equation = parse_equality(lhs + " = " + rhs, {}, mistakes, claim_.at == Claim::At::impact);
-        if (!mistakes.empty() || !repaired.equation.lhs || !repaired.equation.rhs || !judge_.is_right(repaired))
-            return std::nullopt;
+        repaired.equation = {.lhs = {.text = lhs, .places = {}, .tree = edit.lhs},
+                             .rhs = {.text = rhs, .places = {}, .tree = edit.rhs}};
+        if (!judge_.is_right(repaired)) return std::nullopt;
         if (judge_.arithmetic == nullptr && only_vanishes(edit)) return std::nullopt;
-        return Slip{.kind = edit.kind,
-                    .term = edit.term,
-                    .repair = text_of(repaired.equation),
-                    .should_be = edit.should_be,
-                    .written = edit.written,
-                    .meant = edit.meant,
-                    .also = edit.also};
+        Slip slip{.kind = edit.kind,
+                  .term = edit.term,
+                  .repair = text_of(repaired.equation),
+                  .should_be = edit.should_be,
+                  .written = edit.written,
+                  .meant = edit.meant,
+                  .also = edit.also};
+        return Repair{std::move(slip), std::move(repaired.equation)};
     }
 
     /// A change that makes its term vanish on every motion is no correction, unless the term is all that there is.
@@ -150,11 +147,7 @@ private:
                     return false;
             return true;
         }
-        std::vector<Diagnostic> mistakes;
-        const Expression changed =
-            parse_equality(plain_text_of(*edit.changed) + " = 0", {}, mistakes, claim_.at == Claim::At::impact)
-                .lhs;
-        return changed.tree && judge_.vanishes(changed);
+        return judge_.vanishes(expression_of(*edit.changed));
     }
 
     /// How much smaller the change counts because the changed claim's terms are those of the scene's equations,
@@ -184,17 +177,18 @@ private:
     using Values = std::vector<Prime>;
 
     void know_terms() {
-        std::set<std::string> texts(judge_.terms().of_energies.begin(), judge_.terms().of_energies.end());
+        TreesByText trees;
+        const auto add = [&](const TreePtr& tree) { trees.emplace(plain_text_of(*tree), tree); };
+        for (const TreePtr& term : judge_.terms().of_energies) add(term);
         for (const auto& row : rows_of(m_, e_))
             if (row)
-                for (const Fourier& part : parts_of(*row)) texts.insert(text(readable(part)));
+                for (const Fourier& part : parts_of(*row)) add(tree_of(readable(part)));
         known_.emplace();
-        for (const std::string& term : texts)
-            if (const TreePtr tree = tree_of(term))
-                if (const auto values = values_of(*tree); values && !any_zero(*values)) {
-                    known_->insert(negative(*values));
-                    known_->insert(*values);
-                }
+        for (const auto& [text, tree] : trees)
+            if (const auto values = values_of(*tree); values && !any_zero(*values)) {
+                known_->insert(negative(*values));
+                known_->insert(*values);
+            }
         std::vector<SteadyFactors::Values> parameters;
         for (const std::string& name : words_.parameters)
             if (const auto values = values_of(*name_tree(name)); values && !any_zero(*values))
@@ -242,10 +236,11 @@ private:
             int terms = 0;
             for (const Fourier& part : parts_of(nearest->scale * *row))
                 if ((rest - part).size() + part.size() == rest.size()) rest = rest - part, ++terms;
-            if (alembert::is_zero(rest) && terms > 0 && terms <= most_own_terms)
-                if (const TreePtr term = tree_of(text(readable(missing))))
-                    edits.push_back(
-                        edits_.with_term(term, is_accelerated(*term), of_own_term + of_more_terms * (terms - 1)));
+            if (alembert::is_zero(rest) && terms > 0 && terms <= most_own_terms) {
+                const TreePtr term = tree_of(readable(missing));
+                edits.push_back(
+                    edits_.with_term(term, is_accelerated(*term), of_own_term + of_more_terms * (terms - 1)));
+            }
             for (Edit& edit : alien_forces(*nearest, edits_, m_, e_, of_alien_force))
                 edits.push_back(std::move(edit));
         }
@@ -255,15 +250,9 @@ private:
         constexpr std::size_t most_tried = 12;
         const std::vector<AbsentTerm> absent = judge_.absent();
         for (std::size_t k = 0; k < std::min(most_tried, absent.size()); ++k)
-            if (const TreePtr term = tree_of(product_text(absent[k])); term && !is_there(*term))
+            if (const TreePtr& term = absent[k].tree; !is_there(*term))
                 edits.push_back(
                     edits_.with_term(tidy(term), is_accelerated(*term), of_absent_term + 0.1 * absent[k].effort));
-    }
-
-    static std::string product_text(const AbsentTerm& absent) {
-        if (absent.term == "1") return absent.by;
-        if (absent.by == "1") return absent.term;
-        return absent.by == "-1" ? "-" + absent.term : absent.by + "*" + absent.term;
     }
 
     /// With equal factors together.
@@ -315,8 +304,8 @@ private:
 
 }  // namespace
 
-std::optional<Slip> likely_slip(const Claim& claim, const ex& residual, const Mechanism& mechanism,
-                                const Equations& equations, const Judge& judge) {
+std::optional<Repair> likely_slip(const Claim& claim, const ex& residual, const Mechanism& mechanism,
+                                  const Equations& equations, const Judge& judge) {
     return Search(claim, residual, mechanism, equations, judge).find();
 }
 

@@ -4,10 +4,10 @@
 /// Finds the probable mistake of a student: the smallest change in one place that makes a claim right.
 ///
 ///     const Judge judge{.is_right = …, .vanishes = …, .terms = …, .absent = …};
-///     const auto slip = likely_slip(claim, residual, mechanism, equations, judge);
-///     slip->kind      // "sign"
-///     slip->term      // "m*g*sin(theta)", as the claim has it
-///     slip->repair    // "m*l*theta'' + m*g*sin(theta) = 0"
+///     const auto found = likely_slip(claim, residual, mechanism, equations, judge);
+///     found->slip.kind      // "sign"
+///     found->slip.term      // "m*g*sin(theta)", as the claim has it
+///     found->slip.repair    // "m*l*theta'' + m*g*sin(theta) = 0"
 ///
 /// All changes (check/edits.hpp) are ordered by their size, from a sign to a whole term. The first after which
 /// `is_right` is true is the answer, unless it only makes its term vanish. Where a claim can be evaluated at exact
@@ -18,6 +18,7 @@
 #include <optional>
 
 #include "check/absent.hpp"
+#include "check/verdict.hpp"
 #include "model/formalism/equations.hpp"
 #include "scene/scene.hpp"
 
@@ -25,22 +26,9 @@ namespace alembert {
 
 class ClaimArithmetic;
 
-/// `kind` as in commands.md: sign factor lost_dot missing_term extra_term swapped_trig wrong_argument wrong_arm
-/// wrong_row wrong_unit unknown.
-struct Slip {
-    std::string kind = "unknown";
-    std::string term = {};       ///< as the claim writes it; for a missing term, as it should be
-    std::string repair = {};     ///< the corrected claim
-    std::string should_be = {};  ///< what `term` should be; empty if `kind` says it
-    std::string written = {};    ///< what stands in the term and should not: "sin", "l^2", a factor
-    std::string meant = {};      ///< what should stand there instead, or a factor that is missing
-    std::string also = {};       ///< a second term whose sign is wrong too
-};
-
-/// A term that the claim may lack: the coefficient and the term, to be added on the left, "2*m" and "r'*phi'", and
-/// how much there is in the coefficient.
+/// A term that the claim may lack, to be added on the left, and how much there is in its coefficient.
 struct AbsentTerm {
-    std::string by, term;
+    TreePtr tree;
     int effort = 0;
 };
 
@@ -53,7 +41,12 @@ struct Judge {
     ClaimArithmetic* arithmetic = nullptr;            ///< of the claim; null if it cannot be evaluated
 };
 
-std::optional<Slip> likely_slip(const Claim& claim, const GiNaC::ex& residual, const Mechanism& mechanism,
-                                const Equations& equations, const Judge& judge);
+/// A slip, and the claim that is right without it.
+struct Repair {
+    Slip slip;
+    Equality equation;
+};
+std::optional<Repair> likely_slip(const Claim& claim, const GiNaC::ex& residual, const Mechanism& mechanism,
+                                  const Equations& equations, const Judge& judge);
 
 }  // namespace alembert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "check/slip_words.hpp"
+#include "check/verdict.hpp"
 
 #include "base/language/say.hpp"
 

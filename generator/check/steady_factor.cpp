@@ -69,20 +69,23 @@ std::optional<SteadyFactor> SteadyFactors::of(const Values& value) const {
     return SteadyFactor{fraction->first, fraction->second, found->second};
 }
 
-std::string text_of(const SteadyFactor& factor, const std::vector<std::string>& names) {
-    std::string result;
-    const auto multiply = [&](const std::string& by) {
-        result += (result.empty() || result == "-" ? "" : "*") + by;
+std::vector<TreePtr> times(const SteadyFactor& factor, const std::vector<TreePtr>& raised,
+                           const std::vector<TreePtr>& of) {
+    std::vector<TreePtr> result;
+    const auto power = [&](std::size_t which, int exponent) {
+        return exponent == 1 ? raised[which] : made(Tree::Kind::power, {raised[which], number_tree(exponent)});
     };
-    if (factor.n < 0) result = "-";
-    if (std::abs(factor.n) != 1) multiply(std::to_string(std::abs(factor.n)));
+    const auto below = [](const TreePtr& tree) { return made(Tree::Kind::reciprocal, {tree}); };
+    if (std::abs(factor.n) != 1) result.push_back(number_tree(std::abs(factor.n)));
     for (const auto& [which, exponent] : factor.powers)
-        if (exponent > 0) multiply(names[which] + (exponent > 1 ? fmt::format("^{}", exponent) : ""));
-    if (result.empty() || result == "-") result += "1";
-    if (factor.d != 1) result += fmt::format("/{}", factor.d);
+        if (exponent > 0) result.push_back(power(which, exponent));
+    const bool is_one = result.empty();
+    if (factor.d != 1) result.push_back(below(number_tree(factor.d)));
     for (const auto& [which, exponent] : factor.powers)
-        if (exponent < 0) result += "/" + names[which] + (exponent < -1 ? fmt::format("^{}", -exponent) : "");
-    return result;
+        if (exponent < 0) result.push_back(below(power(which, -exponent)));
+    if (is_one && (!result.empty() || of.empty())) result.insert(result.begin(), number_tree(1));
+    result.insert(result.end(), of.begin(), of.end());
+    return factor.n < 0 ? negated_first(std::move(result)) : result;
 }
 
 }  // namespace alembert

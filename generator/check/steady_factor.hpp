@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "check/claim_tree.hpp"
 #include "program/prime.hpp"
 
 namespace alembert {
@@ -44,7 +45,8 @@ private:
     std::map<Prime, Powers> table_;
 };
 
-/// "-2*m/l"; `names`: what may be raised.
-std::string text_of(const SteadyFactor& factor, const std::vector<std::string>& names);
+/// The factors of -2*m/l times `of`, those of a product; `raised`: what may be raised.
+std::vector<TreePtr> times(const SteadyFactor& factor, const std::vector<TreePtr>& raised,
+                           const std::vector<TreePtr>& of);
 
 }  // namespace alembert

@@ -8,9 +8,23 @@
 #include <utility>
 #include <vector>
 
-#include "check/slip.hpp"
-
 namespace alembert {
+
+/// The mistake that was probably made.
+/// `kind` as in commands.md: sign factor lost_dot missing_term extra_term swapped_trig wrong_argument wrong_arm
+/// wrong_row wrong_unit unknown.
+struct Slip {
+    std::string kind = "unknown";
+    std::string term = {};       ///< as the claim writes it; for a missing term, as it should be
+    std::string repair = {};     ///< the corrected claim
+    std::string should_be = {};  ///< what `term` should be; empty if `kind` says it
+    std::string written = {};    ///< what stands in the term and should not: "sin", "l^2", a factor
+    std::string meant = {};      ///< what should stand there instead, or a factor that is missing
+    std::string also = {};       ///< a second term whose sign is wrong too
+};
+
+/// The slip in words: "the sign of m*g".
+std::string words_of(const Slip& slip);
 
 enum class Verdict { proved, refuted, undecided, vacuous };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Polynomials in one unknown modulo 2⁶¹ − 1: interpolation, and all roots in the field.
+/// Polynomials in one unknown modulo 2⁶¹ − 1 (program/univariate.hpp): all roots in the field.
 ///
 ///     const PrimePolynomial f = interpolate(points, values);    // ascending powers
 ///     for (const Prime root : roots(f, seed)) …                 // each once
@@ -9,30 +9,22 @@
 /// Roots: gcd(x^q − x, f), with q the size of the field, is the product of the distinct linear factors, split by
 /// gcd with (x + a)^((q−1)/2) − 1 for random a (Cantor & Zassenhaus, Math. Comp. 36 (1981) 587).
 
+#include <algorithm>
 #include <vector>
 
 #include "program/modular.hpp"
+#include "program/univariate.hpp"
 
 namespace alembert {
 
-using PrimePolynomial = std::vector<Prime>;  ///< in ascending powers, without leading zeros; empty for zero
+using PrimePolynomial = Univariate<Prime>;
 
 namespace prime_polynomial {
 
-inline void trim(PrimePolynomial& f) {
-    while (!f.empty() && f.back().is_zero()) f.pop_back();
-}
-
-inline PrimePolynomial remainder(PrimePolynomial f, const PrimePolynomial& g) {
-    const Prime lead = g.back().inverse();
-    while (f.size() >= g.size()) {
-        const Prime factor = f.back() * lead;
-        const std::size_t shift = f.size() - g.size();
-        for (std::size_t k = 0; k < g.size(); ++k) f[shift + k] -= factor * g[k];
-        trim(f);
-    }
-    return f;
-}
+using univariate::divisor;
+using univariate::quotient;
+using univariate::remainder;
+using univariate::trim;
 
 inline PrimePolynomial product_modulo(const PrimePolynomial& f, const PrimePolynomial& g,
                                       const PrimePolynomial& m) {
@@ -45,31 +37,11 @@ inline PrimePolynomial product_modulo(const PrimePolynomial& f, const PrimePolyn
 }
 
 inline PrimePolynomial power_modulo(PrimePolynomial base, std::uint64_t exponent, const PrimePolynomial& m) {
-    PrimePolynomial result = remainder({1}, m);
+    PrimePolynomial result = remainder(PrimePolynomial{1}, m);
     base = remainder(std::move(base), m);
     for (; exponent != 0; exponent >>= 1) {
         if ((exponent & 1U) != 0) result = product_modulo(result, base, m);
         base = product_modulo(base, base, m);
-    }
-    return result;
-}
-
-inline PrimePolynomial divisor(PrimePolynomial f, PrimePolynomial g) {
-    while (!g.empty()) {
-        f = remainder(std::move(f), g);
-        std::swap(f, g);
-    }
-    return f;
-}
-
-inline PrimePolynomial quotient(PrimePolynomial f, const PrimePolynomial& g) {
-    PrimePolynomial result(f.size() - g.size() + 1);
-    const Prime lead = g.back().inverse();
-    while (f.size() >= g.size()) {
-        const std::size_t shift = f.size() - g.size();
-        result[shift] = f.back() * lead;
-        for (std::size_t k = 0; k < g.size(); ++k) f[shift + k] -= result[shift] * g[k];
-        trim(f);
     }
     return result;
 }
@@ -80,7 +52,7 @@ inline void split(const PrimePolynomial& f, bool plain, std::uint64_t seed, std:
     for (;; ++seed) {
         Prime shift = ModularPoint{.seed = seed}.random(500, f.size());
         if (!plain) shift += Prime::i() * ModularPoint{.seed = seed}.random(501, f.size());
-        PrimePolynomial half = power_modulo({shift, 1}, (Prime::modulus - 1) / 2, f);
+        PrimePolynomial half = power_modulo(PrimePolynomial{shift, 1}, (Prime::modulus - 1) / 2, f);
         if (!plain) half = power_modulo(std::move(half), Prime::modulus + 1, f);
         half.resize(std::max<std::size_t>(half.size(), 1));
         half[0] -= 1;
@@ -94,44 +66,6 @@ inline void split(const PrimePolynomial& f, bool plain, std::uint64_t seed, std:
 }
 
 }  // namespace prime_polynomial
-
-/// The polynomial through all points (x_k, y_k), by Newton's divided differences; all x must be different.
-inline PrimePolynomial interpolate(const std::vector<Prime>& x, std::vector<Prime> y) {
-    for (std::size_t order = 1; order < x.size(); ++order)
-        for (std::size_t k = x.size() - 1; k >= order; --k)
-            y[k] = (y[k] - y[k - 1]) * (x[k] - x[k - order]).inverse();
-    PrimePolynomial result;
-    for (std::size_t k = x.size(); k-- > 0;) {
-        result.insert(result.begin(), 0);
-        for (std::size_t i = 0; i + 1 < result.size(); ++i) result[i] -= x[k] * result[i + 1];
-        result[0] += y[k];
-    }
-    prime_polynomial::trim(result);
-    return result;
-}
-
-inline Prime value_at(const PrimePolynomial& f, Prime x) {
-    Prime result = 0;
-    for (std::size_t k = f.size(); k-- > 0;) result = result * x + f[k];
-    return result;
-}
-
-/// Zero if and only if f and g have a common root, or one of them is zero (von zur Gathen & Gerhard, Modern
-/// Computer Algebra, §6.3).
-inline Prime resultant(PrimePolynomial f, PrimePolynomial g) {
-    Prime result = 1;
-    while (true) {
-        if (f.empty() || g.empty()) return 0;
-        if (g.size() == 1) return result * g[0].power(f.size() - 1);
-        // Res(f, g) = (−1)^(deg f · deg g) lc(g)^(deg f − deg r) Res(g, r), r the remainder of f
-        PrimePolynomial rest = prime_polynomial::remainder(f, g);
-        if (rest.empty()) return 0;
-        if ((f.size() - 1) % 2 == 1 && (g.size() - 1) % 2 == 1) result = -result;
-        result *= g.back().power(f.size() - rest.size());
-        f = std::move(g);
-        g = std::move(rest);
-    }
-}
 
 /// The roots in ascending order; if all coefficients are plain (program/prime.hpp), only the plain roots. For the
 /// zero polynomial the list is empty.

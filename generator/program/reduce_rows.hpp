@@ -3,33 +3,26 @@
 
 /// Linear algebra modulo the prime of prime.hpp.
 
-#include <cstddef>
-#include <utility>
-#include <vector>
-
+#include "program/echelon.hpp"
 #include "program/prime.hpp"
 
 namespace alembert {
 
-/// Gauss-Jordan elimination modulo the prime: makes the reduced row echelon form, which is the same for all
-/// systems of equations with the same solutions. Returns the rank among the first `columns` columns.
-inline int reduce_rows(std::vector<std::vector<Prime>>& rows, std::size_t columns) {
-    std::size_t rank = 0;
-    for (std::size_t column = 0; column < columns && rank < rows.size(); ++column) {
-        std::size_t pivot = rank;
-        while (pivot < rows.size() && rows[pivot][column].is_zero()) ++pivot;
-        if (pivot == rows.size()) continue;
-        std::swap(rows[rank], rows[pivot]);
-        const Prime scale = rows[rank][column].inverse();
-        for (Prime& entry : rows[rank]) entry *= scale;
-        for (std::size_t r = 0; r < rows.size(); ++r) {
-            const Prime factor = rows[r][column];
-            if (r == rank || factor.is_zero()) continue;
-            for (std::size_t k = column; k < rows[r].size(); ++k) rows[r][k] -= factor * rows[rank][k];
-        }
-        ++rank;
+struct PrimeField : FieldOperations<Prime> {
+    static std::size_t pivot(const RowsOf<Prime>& rows, std::size_t first, std::size_t column) {
+        while (first < rows.size() && rows[first][column].is_zero()) ++first;
+        return first;
     }
-    return static_cast<int>(rank);
+    static void divide(std::vector<Prime>& row, std::size_t from, Prime by) {
+        const Prime scale = by.inverse();
+        for (std::size_t k = from; k < row.size(); ++k) row[k] *= scale;
+    }
+};
+
+/// Makes the reduced row echelon form, which is the same for all systems of equations with the same solutions.
+/// Returns the rank among the first `columns` columns.
+inline int reduce_rows(std::vector<std::vector<Prime>>& rows, std::size_t columns) {
+    return static_cast<int>(echelon(rows, columns, PrimeField())->size());
 }
 
 }  // namespace alembert

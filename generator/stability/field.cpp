@@ -5,29 +5,32 @@
 #include <cmath>
 
 #include "base/language/say.hpp"
+#include "program/echelon.hpp"
 
 namespace alembert {
 
 namespace {
 
-/// Solves the system of equations whose rows end with the right sides, by elimination. The pivots are the largest
-/// values at the point.
+/// The pivots are the largest values at the point. A division by one that may be zero throws.
+struct ExpansionField {
+    using Number = Expansion;
+    static constexpr bool makes_ones = false;
+    static std::size_t pivot(const RowsOf<Expansion>& rows, std::size_t first, std::size_t column) {
+        return largest_in(rows, first, column, [](const Expansion& e) {
+            return e.value().may_be_zero() ? 0 : std::abs(e.value().number());
+        });
+    }
+    static bool is_zero(const Expansion&) { return false; }
+    static Expansion quotient(const Expansion& a, const Expansion& b) { return a / b; }
+    static void subtract(Expansion& from, const Expansion& factor, const Expansion& of) {
+        from = from - factor * of;
+    }
+};
+
+/// Solves the system of equations whose rows end with the right sides.
 std::vector<Expansion> solved_rows(std::vector<std::vector<Expansion>> rows) {
     const std::size_t n = rows.size();
-    const auto size_of = [](const Expansion& e) {
-        return e.value().may_be_zero() ? 0 : std::abs(e.value().number());
-    };
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t pivot = k;
-        for (std::size_t i = k + 1; i < n; ++i)
-            if (size_of(rows[i][k]) > size_of(rows[pivot][k])) pivot = i;
-        std::swap(rows[k], rows[pivot]);
-        for (std::size_t i = 0; i < n; ++i) {
-            if (i == k) continue;
-            const Expansion factor = rows[i][k] / rows[k][k];  // throws if the pivot may be zero
-            for (std::size_t j = k; j <= n; ++j) rows[i][j] = rows[i][j] - factor * rows[k][j];
-        }
-    }
+    echelon(rows, n, ExpansionField());
     std::vector<Expansion> result;
     for (std::size_t k = 0; k < n; ++k) result.push_back(rows[k][n] / rows[k][k]);
     return result;

@@ -2,9 +2,12 @@
 #include "stability/matrix.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
+
+#include "program/echelon.hpp"
 
 namespace alembert {
 
@@ -55,38 +58,38 @@ double weight(const Certain& x) {  // the preference for a pivot
     return x.may_be_zero() ? 0 : std::abs(x.number());
 }
 
+struct CertainField : FieldOperations<Certain> {
+    double zero = 0;  ///< what may be zero and is smaller counts as zero
+
+    std::optional<std::size_t> pivot(RowsOf<Certain>& rows, std::size_t first, std::size_t column) const {
+        const std::size_t best = largest_in(rows, first, column, weight);
+        if (weight(rows[best][column]) != 0) return best;
+        for (std::size_t r = first; r < rows.size(); ++r) {
+            Certain& entry = rows[r][column];
+            if (!entry.is_zero() && !(std::abs(entry.number()) + entry.radius() < zero)) return std::nullopt;
+            entry = 0;
+        }
+        return rows.size();
+    }
+};
+
 /// Reduced row echelon form of A, with B appended. Returns the columns of the pivots, or nothing if an entry that
 /// should be zero is only near zero.
 std::optional<std::vector<int>> eliminate(CertainMatrix& A, CertainMatrix* B, double zero = 0) {
-    std::vector<int> pivots;
-    for (int j = 0, row = 0; j < A.columns && row < A.rows; ++j) {
-        int best = row;
-        for (int i = row; i < A.rows; ++i)
-            if (weight(A(i, j)) > weight(A(best, j))) best = i;
-        if (weight(A(best, j)) == 0) {
-            for (int i = row; i < A.rows; ++i) {
-                if (!A(i, j).is_zero() && !(std::abs(A(i, j).number()) + A(i, j).radius() < zero)) return {};
-                A(i, j) = 0;
-            }
-            continue;
-        }
-        for (CertainMatrix* const m : {&A, B})
-            for (int k = 0; m && k < m->columns; ++k) std::swap((*m)(row, k), (*m)(best, k));
-        const Certain pivot = A(row, j);
-        for (CertainMatrix* const m : {&A, B})
-            for (int k = 0; m && k < m->columns; ++k) (*m)(row, k) = (*m)(row, k) / pivot;
-        A(row, j) = 1;
-        for (int i = 0; i < A.rows; ++i) {
-            const Certain factor = A(i, j);
-            if (i == row || factor.is_zero()) continue;
-            for (CertainMatrix* const m : {&A, B})
-                for (int k = 0; m && k < m->columns; ++k) (*m)(i, k) -= factor * (*m)(row, k);
-            A(i, j) = 0;
-        }
-        pivots.push_back(j);
-        ++row;
+    const std::array<CertainMatrix*, 2> parts{&A, B};
+    RowsOf<Certain> rows(static_cast<std::size_t>(A.rows));
+    for (int i = 0; i < A.rows; ++i)
+        for (const CertainMatrix* const m : parts)
+            for (int k = 0; m && k < m->columns; ++k) rows[static_cast<std::size_t>(i)].push_back((*m)(i, k));
+    const CertainField field{{}, zero};
+    const auto pivots = echelon(rows, static_cast<std::size_t>(A.columns), field);
+    if (!pivots) return {};
+    for (int i = 0; i < A.rows; ++i) {
+        auto entry = rows[static_cast<std::size_t>(i)].begin();
+        for (CertainMatrix* const m : parts)
+            for (int k = 0; m && k < m->columns; ++k) (*m)(i, k) = std::move(*entry++);
     }
-    return pivots;
+    return std::vector<int>(pivots->begin(), pivots->end());
 }
 
 }  // namespace

@@ -6,12 +6,14 @@
 #include <numeric>
 #include <utility>
 
+#include "program/univariate.hpp"
+
 namespace alembert {
 
 namespace {
 
 using Side = RootOf::Side;
-using Rationals = std::vector<Rational>;
+using Rationals = Univariate<Rational>;
 
 struct ComplexQuad {
     Quad re = 0, im = 0;
@@ -42,52 +44,26 @@ struct Disc {
     int roots = 1;  ///< number of roots in the group of discs that touch this one
 };
 
-Rationals trimmed(Rationals p) {
-    p.erase(p.begin(), std::find_if(p.begin(), p.end(), [](const Rational& c) { return !cln::zerop(c); }));
-    return p;
-}
-
-/// Quotient and remainder.
-std::pair<Rationals, Rationals> divided(Rationals a, const Rationals& b) {
-    Rationals quotient;
-    while (a.size() >= b.size()) {
-        const Rational factor = a[0] / b[0];
-        quotient.push_back(factor);
-        for (std::size_t k = 0; k < b.size(); ++k) a[k] = a[k] - factor * b[k];
-        a.erase(a.begin());
-    }
-    return {quotient, trimmed(a)};
-}
-
-Rationals derivative(const Rationals& p) {
-    Rationals result;
-    for (std::size_t k = 0; k + 1 < p.size(); ++k) result.push_back(p[k] * static_cast<int>(p.size() - 1 - k));
-    return result;
-}
-
 /// Factors with simple roots, each with its multiplicity (Yun 1976).
 std::vector<std::pair<Rationals, int>> square_free(const Rationals& p) {
+    using univariate::derivative, univariate::divisor, univariate::quotient;
     std::vector<std::pair<Rationals, int>> result;
     const Rationals slope = derivative(p);
-    const Rationals common = common_divisor(p, slope);
-    Rationals b = divided(p, common).first, c = divided(slope, common).first;
+    const Rationals common = divisor(p, slope);
+    Rationals b = quotient(p, common), c = quotient(slope, common);
     for (int k = 1; b.size() > 1; ++k) {
-        const Rationals own = derivative(b);
-        Rationals d = c;
-        d.insert(d.begin(), own.size() > d.size() ? own.size() - d.size() : 0, Rational(0));
-        for (std::size_t i = 0; i < own.size(); ++i)
-            d[d.size() - own.size() + i] = d[d.size() - own.size() + i] - own[i];
-        d = trimmed(d);
-        const Rationals a = d.empty() ? b : common_divisor(b, d);
+        const Rationals d = univariate::difference(c, derivative(b));
+        const Rationals a = d.empty() ? b : divisor(b, d);
         if (a.size() > 1) result.emplace_back(a, k);
-        b = divided(b, a).first;
-        c = d.empty() ? d : divided(d, a).first;
+        b = quotient(b, a);
+        c = d.empty() ? d : quotient(d, a);
     }
     return result;
 }
 
+/// Highest power first.
 CertainVector certain(const Rationals& p) {
-    return {p.begin(), p.end()};
+    return {p.rbegin(), p.rend()};
 }
 
 /// Aberth's iteration.
@@ -238,32 +214,15 @@ void add_even(std::vector<RootOf>& result, const CertainVector& p, int multiplic
 void add_exact(std::vector<RootOf>& result, const Rationals& p) {
     for (const auto& [factor, multiplicity] : square_free(p)) {
         Rationals mirrored = factor;
-        for (std::size_t k = 0; k < mirrored.size(); ++k)
-            if ((mirrored.size() - 1 - k) % 2 == 1) mirrored[k] = -mirrored[k];
-        const Rationals even = common_divisor(factor, mirrored);
-        const Rationals rest = divided(factor, even).first;
+        for (std::size_t k = 1; k < mirrored.size(); k += 2) mirrored[k] = -mirrored[k];
+        const Rationals even = univariate::divisor(factor, mirrored);
+        const Rationals rest = univariate::quotient(factor, even);
         if (even.size() > 1) add_even(result, certain(even), multiplicity);
         if (rest.size() > 1) add_general(result, certain(rest), multiplicity);
     }
 }
 
 }  // namespace
-
-Rationals common_divisor(Rationals a, Rationals b) {
-    a = trimmed(a);
-    b = trimmed(b);
-    while (!b.empty()) {
-        Rationals rest = a.size() < b.size() ? a : divided(a, b).second;
-        if (!rest.empty()) {
-            const Rational first = rest[0];
-            for (Rational& c : rest) c = c / first;
-        }
-        a = std::exchange(b, std::move(rest));
-    }
-    const Rational first = a[0];
-    for (Rational& c : a) c = c / first;
-    return a;
-}
 
 std::vector<RootOf> roots_of(CertainVector p, bool even) {
     std::vector<RootOf> result;
@@ -278,8 +237,8 @@ std::vector<RootOf> roots_of(CertainVector p, bool even) {
     for (int k = 0; k < zeros; ++k) result.push_back({{0, 0}, 0, zeros, Side::axis});
     if (p.size() > 1) {
         Rationals exact;
-        for (const Certain& c : p)
-            if (const auto r = c.rational()) exact.push_back(*r);
+        for (auto c = p.rbegin(); c != p.rend(); ++c)
+            if (const auto r = c->rational()) exact.push_back(*r);
         if (exact.size() == p.size())
             add_exact(result, exact);
         else if (even)

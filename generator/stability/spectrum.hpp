@@ -34,7 +34,4 @@ struct RootOf {
 /// The roots, ordered by real part, then imaginary part. The first coefficient must not be zero.
 std::vector<RootOf> roots_of(CertainVector coefficients, bool even = false);
 
-/// Greatest common divisor, monic; coefficients rational, highest power first.
-std::vector<Rational> common_divisor(std::vector<Rational> a, std::vector<Rational> b);
-
 }  // namespace alembert

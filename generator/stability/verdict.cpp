@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/language/say.hpp"
+#include "program/univariate.hpp"
 
 namespace alembert {
 
@@ -38,25 +39,17 @@ std::vector<Rational> rationals(const CertainVector& values) {
 /// axis or on it. With g, the product of (s − root) over the different roots on the axis, this is so if and only
 /// if g(A) and g(A)² have the same rank. Nothing if A is not rational.
 std::optional<bool> axis_is_semisimple(const CertainMatrix& A) {
-    std::vector<Rational> p = rationals(characteristic(A));
+    Univariate<Rational> p = rationals(characteristic(A));
     if (p.empty()) return {};
-    std::vector<Rational> mirrored = p;
+    std::reverse(p.begin(), p.end());
+    Univariate<Rational> mirrored = p;
     for (std::size_t k = 1; k < p.size(); k += 2) mirrored[k] = -mirrored[k];
-    std::vector<Rational> g = common_divisor(p, mirrored), slope;
-    for (std::size_t k = 0; k + 1 < g.size(); ++k) slope.push_back(g[k] * static_cast<int>(g.size() - 1 - k));
-    const std::vector<Rational> repeated = slope.empty() ? std::vector<Rational>{1} : common_divisor(g, slope);
-    // g / repeated, by Horner's scheme on A afterwards.
-    std::vector<Rational> simple;
-    for (std::vector<Rational> rest = g; rest.size() >= repeated.size();) {
-        const Rational factor = rest[0] / repeated[0];
-        simple.push_back(factor);
-        for (std::size_t k = 0; k < repeated.size(); ++k) rest[k] = rest[k] - factor * repeated[k];
-        rest.erase(rest.begin());
-    }
-    CertainMatrix value(A.rows, A.rows);
-    for (const Rational& c : simple) {
+    const Univariate<Rational> g = univariate::divisor(p, mirrored);
+    const Univariate<Rational> simple = univariate::quotient(g, univariate::divisor(g, univariate::derivative(g)));
+    CertainMatrix value(A.rows, A.rows);  // Horner's scheme
+    for (std::size_t k = simple.size(); k-- > 0;) {
         value = value * A;
-        for (int i = 0; i < A.rows; ++i) value(i, i) += Certain(c);
+        for (int i = 0; i < A.rows; ++i) value(i, i) += Certain(simple[k]);
     }
     const auto once = rank(value), twice = rank(value * value);
     if (!once || !twice) return {};

@@ -59,11 +59,6 @@ std::string write_product(const Phrase& phrase) {
     return result;
 }
 
-/// The scene language's name of a function of GiNaC.
-std::string language_name(const std::string& name) {
-    return name == "csgn" ? "sign" : name == "minimum" ? "min" : name == "maximum" ? "max" : name;
-}
-
 /// V(r), diff(V(r),r), diff(f(x,c*t),x,2): as the scene language has it. diff(f(a,b),1,1) is by the first
 /// argument, where its own expression would say more or less than that.
 std::string write_unspecified(const UnspecifiedPhrase& call) {
@@ -73,10 +68,8 @@ std::string write_unspecified(const UnspecifiedPhrase& call) {
     if (call.order == 0) return value;
     for (std::size_t k = 0; k < call.orders.size(); ++k) {
         if (call.orders[k] == 0) continue;
-        const Phrase& by = *call.arguments[k];
-        const bool by_itself =
-            call.by_symbols || (call.by_different && by.kind != Kind::symbol && by.kind != Kind::number);
-        value += by_itself ? fmt::format(",{}", write(by)) : fmt::format(",{}", k + 1);
+        const bool by_itself = call.is_by_itself(k);
+        value += by_itself ? fmt::format(",{}", write(*call.arguments[k])) : fmt::format(",{}", k + 1);
         if (call.orders[k] > 1 || !by_itself) value += fmt::format(",{}", call.orders[k]);
     }
     return fmt::format("diff({})", value);
@@ -124,6 +117,10 @@ std::string write(const Phrase& phrase) {
 }
 
 }  // namespace
+
+std::string language_name(const std::string& function) {
+    return function == "csgn" ? "sign" : function == "minimum" ? "min" : function == "maximum" ? "max" : function;
+}
 
 std::string text(const Phrase& phrase) {
     return phrase.kind == Kind::sum ? write_sum(phrase, " + ", " - ") : write(phrase);

@@ -14,4 +14,7 @@ namespace alembert {
 /// There are blanks around the signs of the outermost sum only.
 std::string text(const Phrase& phrase);
 
+/// The scene language's name of a function of GiNaC.
+std::string language_name(const std::string& function);
+
 }  // namespace alembert

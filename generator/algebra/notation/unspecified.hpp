@@ -22,6 +22,12 @@ struct UnspecifiedPhrase {
     bool by_symbols = true;
     /// Whether no argument by which is differentiated stands twice.
     bool by_different = true;
+
+    /// Whether the argument by which is differentiated is written as it is, and not as its number.
+    bool is_by_itself(std::size_t argument) const {
+        const Phrase& by = *arguments[argument];
+        return by_symbols || (by_different && by.kind != Phrase::Kind::symbol && by.kind != Phrase::Kind::number);
+    }
 };
 
 /// Nothing if the phrase is no such call. It points into the phrase.

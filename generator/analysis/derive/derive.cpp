@@ -67,14 +67,21 @@ std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const
 
 }  // namespace
 
-DerivedScene derive(Scene scene, const ShowOptions& options) {
-    DerivedScene d{
-        derived(std::move(scene), {.by = options.by, .on_sheets = true, .coordinates = Coordinates::optional})};
-    const bool independent = !options.by.empty() && formalism(options.by).independent;
+DerivedScene explained(Derived derived) {
+    DerivedScene d{std::move(derived)};
+    const bool independent = !d.by.empty() && formalism(d.by).independent;
     d.has_unilateral_reactions = !d.mechanism.unilateral.empty() && !independent;
-    if (d.has_unilateral_reactions)
-        static_cast<Derived&>(d) = derived_again(d, with_all_closed(d.mechanism), options.by);
+    if (d.has_unilateral_reactions) {
+        const std::string by = d.by;
+        static_cast<Derived&>(d) = derived_again(d, with_all_closed(d.mechanism), by);
+    }
     d.shown = derivation_of(d.mechanism, d.equations, formalism(d.equations.formalism));
+    return d;
+}
+
+DerivedScene derive(Scene scene, const ShowOptions& options) {
+    DerivedScene d = explained(
+        derived(std::move(scene), {.by = options.by, .on_sheets = true, .coordinates = Coordinates::optional}));
     if (d.sheets)
         for (const GiNaC::ex& positive : d.sheets->positive())
             if (const auto f = fourier(positive, *d.mechanism.symbols)) d.shown.positive.push_back(readable(*f));

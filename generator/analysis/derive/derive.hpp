@@ -26,6 +26,9 @@ struct DerivedScene : Derived {
     bool has_unilateral_reactions = false;
 };
 
+/// The derivation of equations that are derived already, without reactions.
+DerivedScene explained(Derived derived);
+
 /// Throws what `derived` throws.
 DerivedScene derive(Scene scene, const ShowOptions& options = {});
 

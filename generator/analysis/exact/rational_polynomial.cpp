@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "program/univariate.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -53,7 +55,7 @@ std::optional<ex> through(const Values& value, const std::vector<PolynomialVaria
 }
 
 /// Of a polynomial in two variables: for each power of the one, the coefficients of the powers of the other.
-using Coefficients = std::vector<std::vector<numeric>>;
+using Coefficients = std::vector<Univariate<numeric>>;
 
 Coefficients coefficients_of(const ex& f, const symbol& by, const symbol& in) {
     Coefficients result;
@@ -67,39 +69,14 @@ Coefficients coefficients_of(const ex& f, const symbol& by, const symbol& in) {
 
 std::size_t degree_in(const Coefficients& f) {
     std::size_t degree = 0;
-    for (const std::vector<numeric>& c : f) degree = std::max(degree, c.size() - 1);
+    for (const Univariate<numeric>& c : f) degree = std::max(degree, c.size() - 1);
     return degree;
 }
 
-std::vector<numeric> at(const Coefficients& f, const numeric& x) {
-    std::vector<numeric> result;
-    for (const std::vector<numeric>& c : f) {
-        numeric value = 0;
-        for (std::size_t k = c.size(); k-- > 0;) value = value * x + c[k];
-        result.push_back(value);
-    }
+Univariate<numeric> at(const Coefficients& f, const numeric& x) {
+    Univariate<numeric> result;
+    for (const Univariate<numeric>& c : f) result.push_back(value_at(c, x));
     return result;
-}
-
-/// Of two polynomials in one variable, as that modulo a prime (program/prime_polynomial.hpp).
-numeric resultant_of(std::vector<numeric> f, std::vector<numeric> g) {
-    numeric result = 1;
-    while (true) {
-        if (g.empty()) return 0;
-        if (g.size() == 1) return result * GiNaC::pow(g[0], numeric(static_cast<long>(f.size()) - 1));
-        std::vector<numeric> rest = f;
-        while (rest.size() >= g.size()) {
-            const numeric factor = rest.back() / g.back();
-            const std::size_t shift = rest.size() - g.size();
-            for (std::size_t k = 0; k < g.size(); ++k) rest[shift + k] -= factor * g[k];
-            while (!rest.empty() && rest.back().is_zero()) rest.pop_back();
-        }
-        if (rest.empty()) return 0;
-        if ((f.size() - 1) % 2 == 1 && (g.size() - 1) % 2 == 1) result = -result;
-        result *= GiNaC::pow(g.back(), numeric(static_cast<long>(f.size() - rest.size())));
-        f = std::move(g);
-        g = std::move(rest);
-    }
 }
 
 /// Divides by 1 + x² as often as possible: by its powers may have been multiplied too often.
@@ -126,11 +103,11 @@ ex eliminated(const ex& f, const ex& g, const symbol& by, const symbol& in) {
     std::vector<ex> values;
     for (int k = 0; points.size() <= degree; ++k) {
         const numeric x = k % 2 == 0 ? k / 2 : -(k + 1) / 2;
-        const std::vector<numeric> at_a = at(a, x), at_b = at(b, x);
+        const Univariate<numeric> at_a = at(a, x), at_b = at(b, x);
         if (at_a.back().is_zero() || at_b.back().is_zero())
             continue;  // the resultant is one of lower degrees there
         points.push_back(x);
-        values.emplace_back(resultant_of(at_a, at_b));
+        values.emplace_back(resultant(at_a, at_b));
     }
     return interpolated(points, std::move(values), in);
 }

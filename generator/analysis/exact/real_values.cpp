@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "program/echelon.hpp"
+
 namespace alembert {
 
 using GiNaC::numeric;
@@ -211,20 +213,27 @@ std::optional<std::vector<numeric>> evaluate(const Program& program, const RealS
     return Evaluation(program, state).run(roots);
 }
 
-std::optional<std::vector<numeric>> solve_rows(std::vector<std::vector<numeric>> rows, std::size_t columns) {
-    for (std::size_t c = 0; c < columns; ++c) {
-        std::size_t pivot = c;
-        for (std::size_t r = c + 1; r < rows.size(); ++r)
-            if (GiNaC::abs(rows[r][c]) > GiNaC::abs(rows[pivot][c])) pivot = r;
-        if (pivot >= rows.size() || GiNaC::abs(rows[pivot][c]) < GiNaC::pow(numeric(10), numeric(-30)))
-            return std::nullopt;
-        std::swap(rows[c], rows[pivot]);
-        for (std::size_t r = 0; r < rows.size(); ++r) {
-            if (r == c || rows[r][c].is_zero()) continue;
-            const numeric factor = rows[r][c] / rows[c][c];
-            for (std::size_t k = c; k <= columns; ++k) rows[r][k] -= factor * rows[c][k];
-        }
+namespace {
+
+/// Fractions, or floats of fifty digits: entries that may be zero are no pivots.
+struct NumericField {
+    using Number = numeric;
+    static constexpr bool makes_ones = false;
+    static std::optional<std::size_t> pivot(const RowsOf<numeric>& rows, std::size_t first, std::size_t column) {
+        const std::size_t best = largest_in(rows, first, column, [](const numeric& x) { return GiNaC::abs(x); });
+        if (GiNaC::abs(rows[best][column]) < GiNaC::pow(numeric(10), numeric(-30))) return std::nullopt;
+        return best;
     }
+    static bool is_zero(const numeric& x) { return x.is_zero(); }
+    static numeric quotient(const numeric& a, const numeric& b) { return a / b; }
+    static void subtract(numeric& from, const numeric& factor, const numeric& of) { from -= factor * of; }
+};
+
+}  // namespace
+
+std::optional<std::vector<numeric>> solve_rows(std::vector<std::vector<numeric>> rows, std::size_t columns) {
+    const auto pivots = echelon(rows, columns, NumericField());
+    if (!pivots || pivots->size() < columns) return std::nullopt;
     for (std::size_t r = columns; r < rows.size(); ++r)
         if (!is_almost_zero(rows[r][columns])) return std::nullopt;
     std::vector<numeric> result;

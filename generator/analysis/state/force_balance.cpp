@@ -155,11 +155,11 @@ std::vector<Diagnostic> warnings_of_unresisted(const Scene& scene, const Mechani
     return found;
 }
 
-Mechanism with_force_balances(Mechanism mechanism, const std::function<Equations(const Mechanism&)>& formalism) {
+Balanced with_force_balances(Mechanism mechanism, const std::function<Equations(const Mechanism&)>& formalism,
+                             std::optional<Equations> known) {
     const std::size_t most = mechanism.constraints.size() + mechanism.q.size();
-    while (mechanism.constraints.size() < most) {
-        const Equations e = formalism(mechanism);
-        if (!e.speeds_are_rates()) break;
+    Equations e = known ? *std::move(known) : formalism(mechanism);
+    while (mechanism.constraints.size() < most && e.speeds_are_rates()) {
         bool added = false;
         for (const Unresisted& u : unresisted_rates(mechanism, e)) {
             if (u.is_balanced || !is_of_state(u, mechanism, e)) continue;
@@ -181,8 +181,9 @@ Mechanism with_force_balances(Mechanism mechanism, const std::function<Equations
             }
         }
         if (!added) break;
+        e = formalism(mechanism);
     }
-    return mechanism;
+    return {std::move(mechanism), std::move(e)};
 }
 
 }  // namespace alembert

@@ -8,13 +8,15 @@
 ///
 ///     for (const Unresisted& u : unresisted_rates(mechanism, equations))
 ///         u.direction, u.balance;                      // (0, 1), k x − k y
-///     const Mechanism bound = with_force_balances(mechanism, formalism);
+///     const Balanced bound = with_force_balances(mechanism, formalism);
+///     bound.mechanism, bound.equations;
 ///
 /// A vector N(q) with M N = 0 and A N = 0 gives N·f = 0: a differential-algebraic system whose index falls when
 /// N·f = 0 counts as a constraint; its multiplier is zero on every motion (Hairer & Wanner, Solving Ordinary
 /// Differential Equations II (1996), §VII.1).
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +39,16 @@ std::vector<Unresisted> unresisted_rates(const Mechanism& mechanism, const Equat
 std::vector<Diagnostic> warnings_of_unresisted(const Scene& scene, const Mechanism& mechanism,
                                                const Equations& equations);
 
+/// A mechanism and its equations.
+struct Balanced {
+    Mechanism mechanism;
+    Equations equations;
+};
+
 /// The mechanism with the balances as constraints as far as they are functions of the state linear in the rates;
-/// their names are no identifiers, so that no claim can speak of their multipliers.
-Mechanism with_force_balances(Mechanism mechanism, const std::function<Equations(const Mechanism&)>& formalism);
+/// their names are no identifiers, so that no claim can speak of their multipliers. `known`: its equations by the
+/// formalism, where they are known already.
+Balanced with_force_balances(Mechanism mechanism, const std::function<Equations(const Mechanism&)>& formalism,
+                             std::optional<Equations> known = {});
 
 }  // namespace alembert

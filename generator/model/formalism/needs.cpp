@@ -19,6 +19,12 @@ const Formalism& formalism_for(Need need) {
     throw std::logic_error("a need that no formalism serves");
 }
 
+bool serves(const Equations& equations, Need need, const Mechanism& mechanism) {
+    const Formalism& wanted = formalism_for(need);
+    return equations.formalism == wanted.name ||
+           (mechanism.constraints.empty() && equations.formalism == wanted.without_constraints);
+}
+
 const Formalism& formalism_in_rates(const Mechanism& mechanism) {
     return formalism_for(mechanism.constraints.empty() ? Need::independent : Need::multipliers);
 }

@@ -20,6 +20,9 @@ enum class Need {
 
 const Formalism& formalism_for(Need need);
 
+/// Whether these are the equations that `formalism_for(need)` gives for the mechanism, perhaps by another name.
+bool serves(const Equations& equations, Need need, const Mechanism& mechanism);
+
 /// The unknowns are rates of the coordinates: independent coordinates, or multipliers if there are constraints.
 const Formalism& formalism_in_rates(const Mechanism& mechanism);
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "check/check.hpp"
-#include "check/slip_words.hpp"
 #include "present/report/ink.hpp"
 #include "present/report/json.hpp"
 
