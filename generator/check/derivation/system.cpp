@@ -13,10 +13,10 @@ using GiNaC::ex;
 DerivedSystem::DerivedSystem(Scene scene, const std::string& by)
     : derived_(derived(std::move(scene), {.by = by, .on_sheets = true})), by_(by) {
     derived_.scene.claims.clear();
-    const Mechanism bound = with_force_balances(derived_.mechanism, routh);
-    e_ = routh(bound);
-    m_ = in_terms_of(e_, bound);
-    claims_ = std::make_unique<Claims>(derived_.scene, m_, e_, derived_.sheets, by_);
+    const Balanced bound = with_force_balances(derived_.mechanism, routh);
+    e_ = bound.equations;
+    m_ = in_terms_of(e_, bound.mechanism);
+    claims_ = std::make_unique<Claims>(derived_.scene, m_, e_, derived_.sheets, PrintedNames());
     rows_ = std::make_unique<MotionRows>(
         m_, e_, [this](Program& program, const std::vector<ex>& list) { return claims_->lower(program, list); });
 }
