@@ -72,7 +72,7 @@ set(moved
   shrinking ode/step_collapse
   step ode/explicit_rk
   step_size ode/step_size
-  stepper ode/stepper
+  stepper ode/formula
   stiffness ode/stiffness
   straight ode/missed_feature_check
   switch_choice hybrid/mode_enumeration

@@ -21,7 +21,7 @@
 #include "alembert/ode/methods.hpp"
 #include "alembert/ode/radau.hpp"
 #include "alembert/ode/rattle.hpp"
-#include "alembert/ode/stepper.hpp"
+#include "alembert/ode/formula.hpp"
 #include "alembert/ode/symplectic.hpp"
 #include "alembert/ode/tableau.hpp"
 #include "alembert/ode/taylor.hpp"

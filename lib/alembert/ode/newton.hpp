@@ -16,7 +16,7 @@
 
 #include <Eigen/Dense>
 
-#include "alembert/ode/stepper.hpp"
+#include "alembert/ode/formula.hpp"
 
 namespace alembert {
 

@@ -26,7 +26,7 @@
 #include <Eigen/Dense>
 
 #include "alembert/ode/hamiltonian.hpp"
-#include "alembert/ode/stepper.hpp"
+#include "alembert/ode/formula.hpp"
 #include "alembert/ode/symplectic.hpp"
 
 namespace alembert {

@@ -26,7 +26,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "alembert/ode/stepper.hpp"
+#include "alembert/ode/formula.hpp"
 
 namespace alembert {
 

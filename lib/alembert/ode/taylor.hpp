@@ -31,7 +31,7 @@
 #include "alembert/ode/missed_feature_check.hpp"
 #include "alembert/ode/series_length.hpp"
 #include "alembert/ode/series_sum.hpp"
-#include "alembert/ode/stepper.hpp"
+#include "alembert/ode/formula.hpp"
 
 namespace alembert {
 
