@@ -1,36 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One step of a method without a tableau: the members that driver.hpp needs, around a formula that gives the
-/// change of the state.
+/// One step of a method without a tableau: all that a stepper needs (stepper.hpp), around a formula that gives the
+/// change of the state. `StepFormula` below says what a formula is.
 ///
-///     Stepper<Gauss> step(rhs, t, state, tolerance);      // the members are those of Step (explicit_rk.hpp)
-///
-/// A formula is a class with
-///
-///     static constexpr bool has_fixed_step;
-///     static constexpr Between between;                   // how states within a step are found
-///     Formula(const Ends& ends, double tolerance);
-///     int most_evaluations() const;                       // of an increment
-///     bool increment(Ends& ends, double h, double* change, double* end_rate);
-///
-/// `increment` writes y(t + h) − y(t), free of the rounding of the sum y + change, and returns false if its
-/// equations were not solved. A formula that obtains the rate at the end without further cost writes it to
-/// `end_rate` and sets Ends::knows_end_rate. Adaptive formulas write the error of each component to Ends::error
-/// and have `estimate_order`; those that find the rate at the end, after projection, in their own way have
-/// `evaluate_end(ends)`; those that remember past steps have `finished(ends)` and `advance(ends)`; those with a
-/// polynomial have `interpolate(ends, theta, out)`. If the steps of a formula obey the constraints by themselves,
-/// it declares `static constexpr bool keeps_constraints = true` and is not projected.
+///     Stepper<Gauss> step(rhs, t, state, tolerance);
 ///
 /// The state is the sum of two doubles as in explicit_rk.hpp, and errors are measured as in that file.
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <functional>
 #include <span>
 #include <vector>
 
 #include "alembert/ode/rhs.hpp"
+#include "alembert/ode/stepper.hpp"
 
 namespace alembert {
 
@@ -87,7 +73,74 @@ struct Ends {
     long evaluations = 0;
 };
 
-template <class Formula>
+/// Writes the error of each component to Ends::error, for steps whose length is chosen.
+template <class F>
+concept EstimatesError = requires {
+    { F::estimate_order } -> std::convertible_to<int>;
+};
+
+/// Has its own states within a step (Between::own).
+template <class F>
+concept Interpolates = requires(const F& now, const Ends& ends, double theta, double* out) {
+    now.interpolate(ends, theta, out);
+};
+
+/// The change of the state in a step.
+///
+/// `increment` writes y(t + h) − y(t), free of the rounding of the sum y + change, and returns false if its
+/// equations were not solved. A formula that obtains the rate at the end without further cost writes it to
+/// `end_rate` and sets Ends::knows_end_rate. `most_evaluations` is that of an increment. `rounding`,
+/// `largest_eigenvalue` and `stable_interval` (stepper.hpp) are those of its stepper too.
+template <class F>
+concept StepFormula = requires(F formula, const F& now, Ends& ends, double h, double* change, double* end_rate) {
+    F(ends, h);  // with the tolerance
+    { F::has_fixed_step } -> std::convertible_to<bool>;
+    { F::between } -> std::convertible_to<Between>;
+    { now.most_evaluations() } -> std::same_as<int>;
+    { formula.increment(ends, h, change, end_rate) } -> std::same_as<bool>;
+    requires F::has_fixed_step || EstimatesError<F>;
+    requires F::between != Between::own || Interpolates<F>;
+};
+
+/// Finds the rate at the end, after projection, in its own way. For others the right-hand side is evaluated there.
+template <class F>
+concept FindsEndRate = requires(F formula, Ends& ends) {
+    formula.evaluate_end(ends);
+};
+
+/// Remembers past steps: it looks at each whose end is known, also at one that is then rejected.
+template <class F>
+concept LooksAtEnd = requires(F formula, const Ends& ends) {
+    formula.finished(ends);
+};
+
+/// Is told of each accepted step before its end becomes the start.
+template <class F>
+concept MovesOn = requires(F formula, const Ends& ends) {
+    formula.advance(ends);
+};
+
+/// Chooses the length of the next step; `ends` is already past the step.
+template <class F>
+concept ChoosesNextLength = requires(F formula, Ends& ends, bool accepted, double ratio) {
+    { formula.next_length(ends, accepted, ratio) } -> std::same_as<double>;
+};
+
+/// Knows the motion ahead as a power series (KnowsSeries of stepper.hpp).
+template <class F>
+concept ExpandsSeries = requires(F formula, const F& now, Ends& ends) {
+    { formula.first_length(ends) } -> std::same_as<double>;
+    { formula.foresees_end(ends) } -> std::same_as<bool>;
+    { now.effort() } -> std::same_as<double>;
+};
+
+/// Its steps obey the constraints by themselves, and are not projected.
+template <class F>
+concept KeepsConstraints = requires {
+    requires F::keeps_constraints;
+};
+
+template <StepFormula Formula>
 class Stepper {
 public:
     static constexpr bool has_fixed_step = Formula::has_fixed_step;
@@ -115,15 +168,11 @@ public:
     const Rhs& rhs() const { return ends_.rhs; }
     int most_evaluations() const { return formula_.most_evaluations() + 1; }
     bool solved() const { return solved_; }
-    double stable_interval() const requires requires(const Formula f) { f.stable_interval(); }
-    { return formula_.stable_interval(); }
+    double stable_interval() const requires KnowsStableInterval<Formula> { return formula_.stable_interval(); }
 
-    double rounding() const requires requires(const Formula f) { f.rounding(); }
-    { return formula_.rounding(); }
-    double largest_eigenvalue() const requires requires(const Formula f) { f.largest_eigenvalue(); }
-    { return formula_.largest_eigenvalue(); }
-    double effort() const requires requires(const Formula f) { f.effort(); }
-    { return formula_.effort(); }
+    double rounding() const requires KnowsRounding<Formula> { return formula_.rounding(); }
+    double largest_eigenvalue() const requires KnowsEigenvalue<Formula> { return formula_.largest_eigenvalue(); }
+    double effort() const requires ExpandsSeries<Formula> { return formula_.effort(); }
 
     void end_run_at(double t) {
         ends_.end_of_run = t;
@@ -157,7 +206,7 @@ public:
     }
 
     void correct(const std::function<void(double t, double* state)>& project) {
-        if constexpr (requires { Formula::keeps_constraints; }) return;
+        if constexpr (KeepsConstraints<Formula>) return;
         change_ = ends_.next;
         project(ends_.end, ends_.next.data());
         for (std::size_t i = 0; i < change_.size(); ++i) {
@@ -168,16 +217,15 @@ public:
     }
 
     bool finish() {
-        if constexpr (requires { formula_.evaluate_end(ends_); })
+        if constexpr (FindsEndRate<Formula>)
             formula_.evaluate_end(ends_);
         else if (!ends_.knows_end_rate)
             ends_.evaluate(ends_.end, ends_.next.data(), ends_.end_rate.data());
-        if constexpr (requires { formula_.finished(ends_); }) formula_.finished(ends_);
+        if constexpr (LooksAtEnd<Formula>) formula_.finished(ends_);
         return solved_ && is_finite(ends_.end_rate) && is_finite(ends_.next);
     }
 
-    bool foresees_end() requires requires(Formula f, Ends e) { f.foresees_end(e); }
-    { return formula_.foresees_end(ends_); }
+    bool foresees_end() requires ExpandsSeries<Formula> { return formula_.foresees_end(ends_); }
 
     bool starts_finite() const { return is_finite(ends_.rate); }
 
@@ -192,20 +240,18 @@ public:
     }
 
     void advance() {
-        if constexpr (requires { formula_.advance(ends_); }) formula_.advance(ends_);
+        if constexpr (MovesOn<Formula>) formula_.advance(ends_);
         std::swap(ends_.y, ends_.next);
         std::swap(ends_.rest, ends_.next_rest);
         std::swap(ends_.rate, ends_.end_rate);
         ends_.t = ends_.end;
     }
 
-    double next_length(bool accepted, double ratio) requires requires(Formula f, Ends e) {
-        f.next_length(e, accepted, ratio);
+    double next_length(bool accepted, double ratio) requires ChoosesNextLength<Formula> {
+        return formula_.next_length(ends_, accepted, ratio);
     }
-    { return formula_.next_length(ends_, accepted, ratio); }
 
-    double first_length() requires requires(Formula f, Ends e) { f.first_length(e); }
-    { return formula_.first_length(ends_); }
+    double first_length() requires ExpandsSeries<Formula> { return formula_.first_length(ends_); }
 
     void interpolate(double theta, double* out) {
         if constexpr (Formula::between == Between::own) {

@@ -7,7 +7,7 @@
 ///     typename std::tuple_element_t<4, MethodRows>::Steps                // Step<dop853_tableau>
 ///
 /// A new integrator is a value of Method (methods.hpp), a file with its tableau (tableau.hpp) or its formula
-/// (stepper.hpp), and a row here. `integrate`, ensembles, the search for stiffness, the reader of scenes, help and
+/// (formula.hpp), and a row here. `integrate`, ensembles, the search for stiffness, the reader of scenes, help and
 /// messages go by the row. Only methods.cpp, integrate.cpp and ensemble.cpp include this file: all others ask
 /// methods.hpp.
 
@@ -17,11 +17,12 @@
 #include "alembert/ode/bdf.hpp"
 #include "alembert/ode/dop853.hpp"
 #include "alembert/ode/explicit_rk.hpp"
+#include "alembert/ode/formula.hpp"
 #include "alembert/ode/gauss.hpp"
 #include "alembert/ode/methods.hpp"
 #include "alembert/ode/radau.hpp"
 #include "alembert/ode/rattle.hpp"
-#include "alembert/ode/formula.hpp"
+#include "alembert/ode/stepper.hpp"
 #include "alembert/ode/symplectic.hpp"
 #include "alembert/ode/tableau.hpp"
 #include "alembert/ode/taylor.hpp"
@@ -80,6 +81,18 @@ inline constexpr std::tuple method_rows{
     row<Radau13>({.method = Method::radau13, .name = "radau13", .order = 13, .jacobian = true}),
     row<Taylor>({.method = Method::taylor, .name = "taylor", .series = true}),
 };
+
+/// Whether the steps of a row are a stepper, with the abilities that its traits promise.
+template <class Row>
+constexpr bool is_stepper(const Row& row) {
+    using Steps = typename Row::Steps;
+    static_assert(SomeStepper<Steps>);
+    static_assert(!Steps::has_fixed_step || !ChoosesLength<Steps>, "fixed steps are those that are asked for");
+    return row.traits.fixed_step == Steps::has_fixed_step && row.traits.series == KnowsSeries<Steps> &&
+           (row.traits.jacobian ? SolvesEquations<Steps> : !KnowsEigenvalue<Steps>)&&(
+               row.traits.stable_interval == 0 || !KnowsStableInterval<Steps>);
+}
+static_assert(std::apply([](const auto&... rows) { return (is_stepper(rows) && ...); }, method_rows));
 
 /// An array of what `of(row)` gives for each row.
 template <class Of>
