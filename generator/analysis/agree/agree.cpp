@@ -49,7 +49,7 @@ std::optional<std::vector<long double>> solved(std::vector<std::vector<long doub
     return x;
 }
 
-std::vector<std::vector<long double>> rows_at(const System& s, State<long double> state) {
+std::vector<std::vector<long double>> rows_at(const EquationSystem& s, State<long double> state) {
     return rows_of(s, values_of<long double>(s, [&](const std::vector<long double>& udot) {
                        if (!s.is_plain()) state.qddot = udot;
                        return interpret(s.program, state);
@@ -59,7 +59,7 @@ std::vector<std::vector<long double>> rows_at(const System& s, State<long double
 /// In long double arithmetic at a random state: the largest residual of `b`'s rows for `a`'s solution, divided by
 /// the largest term. If the two have different unknowns, the difference of the unknowns that they share, divided
 /// by the largest. Nothing if that cannot be computed.
-std::optional<long double> residual(const System& a, const System& b, std::mt19937_64& random) {
+std::optional<long double> residual(const EquationSystem& a, const EquationSystem& b, std::mt19937_64& random) {
     std::uniform_real_distribution<long double> positive(0.5L, 2.0L), turn(-1.5L, 1.5L);
     State<long double> state;
     for (std::size_t i = 0; i < a.program.parameters.size(); ++i) state.parameters.push_back(positive(random));
@@ -69,7 +69,7 @@ std::optional<long double> residual(const System& a, const System& b, std::mt199
         state.qdot.push_back(turn(random));
     }
     State<long double> plain = state;  // the state with q' in place of u
-    for (const System* s : {&a, &b}) {
+    for (const EquationSystem* s : {&a, &b}) {
         if (s->is_plain()) continue;
         const auto value = interpret(s->program, state);
         for (int i = 0; i < a.n; ++i) plain.qdot[i] = value[s->rates[i]];
@@ -162,11 +162,11 @@ std::string obstacle_in_speeds(const std::vector<Equations>& equations) {
     return {};
 }
 
-std::vector<System> systems_of(const std::vector<Equations>& equations, const Mechanism& m) {
+std::vector<EquationSystem> systems_of(const std::vector<Equations>& equations, const Mechanism& m) {
     std::vector<int> eliminated;
     for (const Equations& e : equations)
         for (const Equations::Eliminated& constraint : e.eliminated) eliminated.push_back(constraint.constraint);
-    std::vector<System> systems;
+    std::vector<EquationSystem> systems;
     for (const Equations& e : equations) systems.push_back(system_of(e, m, eliminated));
     return systems;
 }
@@ -174,11 +174,11 @@ std::vector<System> systems_of(const std::vector<Equations>& equations, const Me
 /// The same equations modulo a prime, at points where all of them have values.
 class SampledSystems {
 public:
-    explicit SampledSystems(const std::vector<System>& systems)
+    explicit SampledSystems(const std::vector<EquationSystem>& systems)
         : systems_(systems), usable_(parts_of(systems), {}) {
         for (const SquarePoints::Part& part : parts_of(systems))
             finer_ = std::max(finer_, halvings(*part.program, part.roots) - ModularPoint{}.halves);
-        for (const System& s : systems)
+        for (const EquationSystem& s : systems)
             if (!s.is_plain()) speeds_ = &s;
     }
 
@@ -189,7 +189,7 @@ public:
                            : speeds_ != nullptr ? rates_at(*speeds_, *point)
                                                 : std::optional(ModularRates{});
         std::vector<Echelon> forms;
-        for (const System& s : systems_) {
+        for (const EquationSystem& s : systems_) {
             auto form = rates ? echelon(s, *point, *rates) : std::nullopt;
             if (!form) break;
             forms.push_back(std::move(*form));
@@ -198,19 +198,19 @@ public:
     }
 
 private:
-    static std::vector<SquarePoints::Part> parts_of(const std::vector<System>& systems) {
+    static std::vector<SquarePoints::Part> parts_of(const std::vector<EquationSystem>& systems) {
         std::vector<SquarePoints::Part> parts;
-        for (const System& s : systems) {
+        for (const EquationSystem& s : systems) {
             parts.push_back({&s.program, s.wanted});
             parts.back().roots.insert(parts.back().roots.end(), s.rates.begin(), s.rates.end());
         }
         return parts;
     }
 
-    const std::vector<System>& systems_;
+    const std::vector<EquationSystem>& systems_;
     SquarePoints usable_;
     int finer_ = 0;
-    const System* speeds_ = nullptr;  ///< one in speeds, which determines the rates
+    const EquationSystem* speeds_ = nullptr;  ///< one in speeds, which determines the rates
 };
 
 /// log₂ of the probability that equal rows at one random point are an accident.
@@ -224,7 +224,8 @@ double chance_of(const std::vector<Echelon>& forms) {
 }
 
 /// What follows where two systems differ in exact arithmetic: refuted if they differ as numbers too.
-void tell_difference(Agreement& result, const System& first, const System& other, std::uint64_t seed) {
+void tell_difference(Agreement& result, const EquationSystem& first, const EquationSystem& other,
+                     std::uint64_t seed) {
     std::mt19937_64 random(seed);
     int tried = 0;
     for (int attempt = 0; attempt < 32; ++attempt)
@@ -244,7 +245,7 @@ void tell_difference(Agreement& result, const System& first, const System& other
 
 /// Compares at random points until the probability of an error is small; false, with the reason, if that is never
 /// reached.
-bool agree_at_points(Agreement& result, const std::vector<System>& systems) {
+bool agree_at_points(Agreement& result, const std::vector<EquationSystem>& systems) {
     constexpr int most_unusable = 2000;
     const SampledSystems sampled(systems);
     int unusable = 0;

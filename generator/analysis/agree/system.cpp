@@ -6,11 +6,11 @@
 
 namespace alembert {
 
-System system_of(const Equations& e, const Mechanism& m, const std::vector<int>& somewhere_eliminated) {
+EquationSystem system_of(const Equations& e, const Mechanism& m, const std::vector<int>& somewhere_eliminated) {
     Energy none;
     none.kinetic = none.potential = none.energy = none.jacobi = none.power = 0;
     none.z = m.z;
-    System s;
+    EquationSystem s;
     s.formalism = e.formalism;
     s.program = lower(m, e, none);
     s.n = m.size();
@@ -44,7 +44,7 @@ System system_of(const Equations& e, const Mechanism& m, const std::vector<int>&
     return s;
 }
 
-std::optional<ModularRates> rates_at(const System& s, const ModularPoint& point) {
+std::optional<ModularRates> rates_at(const EquationSystem& s, const ModularPoint& point) {
     ModularRates result;
     if (s.is_plain()) return result;
     const auto at = evaluate_mod(s.program, point, s.rates);
@@ -56,7 +56,7 @@ std::optional<ModularRates> rates_at(const System& s, const ModularPoint& point)
     return result;
 }
 
-std::optional<Echelon> echelon(const System& s, ModularPoint point, const ModularRates& rates) {
+std::optional<Echelon> echelon(const EquationSystem& s, ModularPoint point, const ModularRates& rates) {
     if (s.is_plain())
         for (const auto& [key, value] : rates.rates) point.given[key] = value;
     Echelon result;

@@ -18,7 +18,7 @@
 
 namespace alembert {
 
-struct System {
+struct EquationSystem {
     std::string formalism;
     Program program;
     int n = 0, speeds = 0;            ///< coordinates, speeds
@@ -37,8 +37,8 @@ struct System {
 
 /// `somewhere_eliminated` are positions in Mechanism::constraints of constraints that one of the systems has
 /// eliminated.
-System system_of(const Equations& equations, const Mechanism& mechanism,
-                 const std::vector<int>& somewhere_eliminated);
+EquationSystem system_of(const Equations& equations, const Mechanism& mechanism,
+                         const std::vector<int>& somewhere_eliminated);
 
 /// The values of all nodes, and q'' = B u' + c.
 template <typename Real>
@@ -50,7 +50,7 @@ struct SystemValues {
 
 /// The rows of −Aᵀλ + M u' = f, A u' = γ, q'' − B u' = c.
 template <typename Real>
-std::vector<std::vector<Real>> rows_of(const System& s, const SystemValues<Real>& at) {
+std::vector<std::vector<Real>> rows_of(const EquationSystem& s, const SystemValues<Real>& at) {
     const std::size_t size = static_cast<std::size_t>(s.speeds), width = static_cast<std::size_t>(s.unknowns());
     // The first column of u'.
     const std::size_t q = width - static_cast<std::size_t>(s.n), u = s.is_plain() ? q : 0;
@@ -83,7 +83,7 @@ std::vector<std::vector<Real>> rows_of(const System& s, const SystemValues<Real>
 
 /// Computes B and c with `evaluate(accelerations)`, which gives the values of all nodes for given u'.
 template <typename Real, typename Evaluate>
-SystemValues<Real> values_of(const System& s, const Evaluate& evaluate) {
+SystemValues<Real> values_of(const EquationSystem& s, const Evaluate& evaluate) {
     std::vector<Real> udot(static_cast<std::size_t>(s.speeds), Real(0));
     SystemValues<Real> result{.value = evaluate(udot), .c = {}, .B = {}};
     if (s.is_plain() || result.value.empty()) return result;
@@ -112,7 +112,7 @@ struct ModularRates {
     RatesModP rates;
     double degree = 1;
 };
-std::optional<ModularRates> rates_at(const System& system, const ModularPoint& point);
-std::optional<Echelon> echelon(const System& system, ModularPoint point, const ModularRates& rates);
+std::optional<ModularRates> rates_at(const EquationSystem& system, const ModularPoint& point);
+std::optional<Echelon> echelon(const EquationSystem& system, ModularPoint point, const ModularRates& rates);
 
 }  // namespace alembert
