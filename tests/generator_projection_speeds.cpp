@@ -207,17 +207,14 @@ TEST_CASE("projection: in speeds constraints hold to rounding along long runs, a
         };
         for (const Method method : {Method::dop853, Method::dopri5, Method::abm}) {
             worst = drift = 0;
-            Options options{.method = method,
-                            .start = here.start.t,
-                            .duration = 40,
-                            .tolerance = 1e-9,
-                            .on_step = on_step,
-                            .project = projection.after_steps()};
+            Options options{
+                .method = method, .start = here.start.t, .duration = 40, .tolerance = 1e-9, .on_step = on_step};
             if (method == Method::abm) options.step = 1e-3;
             projection.begin(options.start, here.state.data());
-            const Trajectory motion =
-                integrate(projection.guarded(make_rhs(here.module, here.start.parameters), here.start.parameters),
-                          here.state, options);
+            const System system{
+                .rhs = projection.guarded(make_rhs(here.module, here.start.parameters), here.start.parameters),
+                .project = projection.after_steps()};
+            const Trajectory motion = integrate(system, here.state, options);
             REQUIRE_FALSE(motion.failure);
             CHECK(worst < 1e-13);
             if (conserved) CHECK(drift < 1e-6);
@@ -230,16 +227,16 @@ TEST_CASE("projection: in speeds four-bars pass their flat poses on their branch
     REQUIRE(here.module.table().speed_names != nullptr);
     Projection projection(here.module, here.start.parameters);
     int near_singular = 0;
-    const Options options{
-        .method = Method::dop853,
-        .duration = 10,
-        .tolerance = 1e-10,
-        .on_step = [&](double, std::span<const double>,
-                       std::span<const double>) { near_singular += projection.is_near_singular() ? 1 : 0; },
+    const Options options{.method = Method::dop853,
+                          .duration = 10,
+                          .tolerance = 1e-10,
+                          .on_step = [&](double, std::span<const double>, std::span<const double>) {
+                              near_singular += projection.is_near_singular() ? 1 : 0;
+                          }};
+    const System system{
+        .rhs = projection.guarded(make_rhs(here.module, here.start.parameters), here.start.parameters),
         .project = projection.after_steps()};
-    const Trajectory motion =
-        integrate(projection.guarded(make_rhs(here.module, here.start.parameters), here.start.parameters),
-                  here.state, options);
+    const Trajectory motion = integrate(system, here.state, options);
     REQUIRE_FALSE(motion.failure);
     CHECK(near_singular > 0);
     const auto end = motion.final_state();

@@ -77,7 +77,7 @@ struct Ball {
     ContactModes mode_of() {
         modes.resize(2);
         for (std::size_t lies = 0; lies < 2; ++lies) {
-            modes[lies].rhs = make_rhs(2, [lies](double, const double* y, double* rate) {
+            modes[lies].system.rhs = make_rhs(2, [lies](double, const double* y, double* rate) {
                 rate[0] = y[1];
                 rate[1] = lies != 0 ? 0 : -g;
             });
@@ -243,7 +243,7 @@ TEST_CASE("contact: a thousand impacts without loss keep height and rhythm to wh
 TEST_CASE("contact: a resting contact opens when its reaction vanishes, and rounding does not close it again") {
     std::array<ContactMode, 2> modes;
     for (std::size_t lies = 0; lies < 2; ++lies) {
-        modes[lies].rhs = make_rhs(2, [lies](double t, const double* y, double* rate) {
+        modes[lies].system.rhs = make_rhs(2, [lies](double t, const double* y, double* rate) {
             rate[0] = y[1];
             rate[1] = lies != 0 ? 0 : t - 3;
         });

@@ -62,9 +62,9 @@ std::string flag_name(char* text) {
     return name;
 }
 
-Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
-                    const Events& events) {
-    CountedSystem system{.rhs = rhs, .options = options};
+Trajectory by_cvode(const System& given, const std::vector<double>& initial, const Options& options,
+                    const Events& events, const RunPiece& piece) {
+    CountedSystem system{.given = given, .options = options, .piece = piece};
     Workspace w(initial.size());
     std::copy(initial.begin(), initial.end(), N_VGetArrayPointer(w.y));
     void* memory = CVodeCreate(CV_BDF, w.context);
@@ -81,7 +81,7 @@ Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Op
         return 0;
     });
     CVodeSetLinearSolver(memory, w.solver, w.matrix);
-    if (rhs.jacobian != nullptr)
+    if (given.rhs.jacobian != nullptr)
         CVodeSetJacFn(
             memory, [](realtype t, N_Vector y, N_Vector, SUNMatrix J, void* s, N_Vector, N_Vector, N_Vector) {
                 auto& own = *static_cast<CountedSystem*>(s);
@@ -89,12 +89,12 @@ Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Op
                 ++own.evaluations;
                 return is_finite(SUNDenseMatrix_Data(J), own.size() * own.size()) ? 0 : recoverable;
             });
-    if (options.project) {
+    if (given.project) {
         CVodeSetProjFn(memory, [](realtype t, N_Vector y, N_Vector change, realtype, N_Vector, void* s) {
             auto& own = *static_cast<CountedSystem*>(s);
             const double* const from = N_VGetArrayPointer(y);
             own.moved.assign(from, from + own.size());
-            own.options.project(t, own.moved.data());
+            own.given.project(t, own.moved.data());
             for (std::size_t i = 0; i < own.size(); ++i) N_VGetArrayPointer(change)[i] = own.moved[i] - from[i];
             return is_finite(own.moved.data(), own.size()) ? 0 : recoverable;
         });
@@ -202,11 +202,19 @@ struct Implicit {
     }
 };
 
-Trajectory by_ida(const Module& module, const std::vector<double>& par, bool has_signs, const Rhs& rhs,
-                  const std::vector<double>& initial, const Options& options, const Events& events) {
+/// The emitted functions with their parameters (Backend::ida).
+struct EmittedCode {
+    Module module;
+    bool has_signs;
+    std::vector<double> par;
+};
+
+Trajectory by_ida(const EmittedCode& code, const System& given, const std::vector<double>& initial,
+                  const Options& options, const Events& events, const RunPiece& piece) {
+    const auto& [module, has_signs, par] = code;
     const alembert_solver_table& table = module.table();
     const auto n = static_cast<std::size_t>(table.coordinates), m = static_cast<std::size_t>(table.constraints);
-    Implicit f{.system = {.rhs = rhs, .options = options},
+    Implicit f{.system = {.given = given, .options = options, .piece = piece},
                .module = module,
                .par = par,
                .has_signs = has_signs,
@@ -274,9 +282,9 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, bool has
                                                                  w.slope, IDA_ONE_STEP);
                                        if (flag < 0) return flag;
                                        std::copy_n(N_VGetArrayPointer(w.y), f.states(), f.here.begin());
-                                       if (options.project)
+                                       if (given.project)
                                            // Projects the state that is reported; IDA goes on from its own.
-                                           options.project(t, f.here.data());
+                                           given.project(t, f.here.data());
                                        return flag;
                                    },
                                .state = [&] { return f.here.data(); },
@@ -298,9 +306,10 @@ const Backend backend{
     .version = backend_version,
     .cvode = []() -> Integrator { return by_cvode; },
     .ida = [](const Module& module, const std::vector<double>& parameters, bool has_signs) -> Integrator {
-        return [module, has_signs, par = prepared(module, parameters)](
-                   const Rhs& rhs, const std::vector<double>& initial, const Options& options,
-                   const Events& events) { return by_ida(module, par, has_signs, rhs, initial, options, events); };
+        return [code = EmittedCode{module, has_signs, prepared(module, parameters)}](
+                   const System& system, const std::vector<double>& initial, const Options& options,
+                   const Events& events,
+                   const RunPiece& piece) { return by_ida(code, system, initial, options, events, piece); };
     }};
 
 }  // namespace

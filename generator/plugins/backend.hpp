@@ -6,7 +6,7 @@
 /// nothing of SUNDIALS is linked into either the program or the runtime.
 ///
 /// cvode: y' = f(t, y) by BDF with variable order, Newton's method with the Jacobian of the Rhs if it has one, and
-/// Options::project as CVODE's projection. ida: without constraints the same equations in implicit form; with
+/// System::project as CVODE's projection. ida: without constraints the same equations in implicit form; with
 /// constraints the stabilized index-2 form of Gear, Gupta and Leimkuhler (Hairer & Wanner, Solving ODEs II,
 /// §VII.2) in q, u, λ and μ,
 ///
@@ -34,7 +34,8 @@ struct Backend {
     Integrator (*ida)(const Module& module, const std::vector<double>& parameters, bool has_signs);
 };
 
-inline constexpr int backend_version = 3;  ///< raised whenever this struct, Rhs, Options or Trajectory changes
+inline constexpr int backend_version =
+    4;  ///< raised whenever this struct, System, Options, RunPiece or Trajectory changes
 inline constexpr const char* backend_function = "alembert_backend";
 
 }  // namespace alembert

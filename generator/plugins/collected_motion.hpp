@@ -3,7 +3,7 @@
 
 /// A motion by an integrator of SUNDIALS, step by step, with the rows and events of the runtime's own methods.
 ///
-///     CountedSystem system{.rhs = rhs, .options = options};
+///     CountedSystem system{.given = system, .options = options, .piece = piece};
 ///     const SteppedIntegrator by{.name = "cvode", .step = …, .state = …, …};
 ///     Trajectory motion = CollectedMotion(system, initial, by, events).go();
 
@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "alembert/ode/driver.hpp"
 #include "alembert/ode/event_watch.hpp"
+#include "alembert/ode/integrate.hpp"
 #include "alembert/ode/recorder.hpp"
 
 namespace alembert {
@@ -30,8 +30,10 @@ inline bool is_finite(const double* values, std::size_t size) {
 
 /// The right-hand side with a count of its calls, and everything else that SUNDIALS needs of the system.
 struct CountedSystem {
-    const Rhs& rhs;
+    const System& given;
     const Options& options;
+    const RunPiece& piece;
+    const Rhs& rhs = given.rhs;
     long evaluations = 0;
     std::vector<double> moved = {};
 
@@ -64,7 +66,7 @@ public:
           by_(by),
           events_(events),
           watch_(events, system.rhs),
-          grid_(system.options.grid.value_or(system.options.start)),
+          grid_(grid_of(system.options, system.piece)),
           interval_(sample_interval(system.options)),
           next_(std::lround(std::floor((system.options.start - grid_) / interval_ + 1e-9)) + 1),
           recorder_(motion_, events, interval_),
@@ -111,7 +113,7 @@ private:
             const double at = grid_ + static_cast<double>(next_) * interval_;
             if (!(at < std::min(time, end - 1e-9 * interval_))) return;
             by_.at(at, row_.data());
-            if (system_.options.project) system_.options.project(at, row_.data());
+            if (system_.given.project) system_.given.project(at, row_.data());
             recorder_.row(at, row_.data());
         }
     }
@@ -164,9 +166,7 @@ private:
         motion_.failure = Failure{
             .kind = budget ? FailureKind::budget_used_up : FailureKind::step_underflow,
             .message = budget
-                           ? fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; "
-                                         "raise the budget, loosen the tolerance or shorten the duration",
-                                         system_.options.budget, t)
+                           ? budget_is_used_up(system_.options.budget, t)
                            : fmt::format("{} gave up at t = {:.17g} with {}; loosen the tolerance, or take radau",
                                          by_.name, t, by_.meaning(flag)),
             .time = t,

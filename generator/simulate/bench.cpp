@@ -163,14 +163,13 @@ public:
                              .canonical = c.canonical,
                              .parameters = start_.parameters,
                              .initial = initial,
+                             .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
                              .effort = effort_of(program),
                              .conserved = energy.conserved});
-        const Options options{
-            .start = start_.t,
-            .duration = duration,
-            .longest_step = longest_step(wishes_, start_),
-            .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
-            .budget = wishes_.budget};
+        const Options options{.start = start_.t,
+                              .duration = duration,
+                              .longest_step = longest_step(wishes_, start_),
+                              .budget = wishes_.budget};
         find_reference(program, workbench, options, first);
         workbench.set_reference(result_.reference.final);
         measure(workbench, options, c);

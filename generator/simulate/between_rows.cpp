@@ -104,13 +104,13 @@ void BetweenRows::state_at(double t, std::span<double> state) const {
     options.duration = t - times[row];
     options.sample = options.duration;
     options.on_step = {};
-    options.project = mode.contact.project;
-    options.rhs_when_stiff = mode.contact.rhs_when_stiff;
+    const System& whole = mode.contact.system;
+    const System system{.rhs = whole.rhs, .with_jacobian = whole.with_jacobian, .project = whole.project};
     const std::vector<double> initial(from.begin(), from.end());
-    const Trajectory piece =
-        mode.contact.switching
-            ? integrate(zero_at_start(*mode.contact.switching, times[row], mode.side_sizes), initial, options, {})
-            : integrate(mode.contact.rhs, initial, options);
+    const Trajectory piece = mode.contact.switching
+                                 ? integrate(zero_at_start(*mode.contact.switching, times[row], mode.side_sizes),
+                                             system, initial, options, {})
+                                 : integrate(system, initial, options);
     if (piece.failure) throw_failure(*piece.failure);
     std::copy_n(piece.final_state().begin(), parts_->width, state.begin());
 }

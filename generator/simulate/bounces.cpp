@@ -89,8 +89,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     if (reference.failure) throw_failure(*reference.failure);
     Bounces result;
     result.end = reference.final_time();
-    result.final =
-        coordinates_and_rates(modes({}).contact.rhs, result.end, reference.final_state().data(), start.q.size());
+    result.final = coordinates_and_rates(modes({}).contact.system.rhs, result.end, reference.final_state().data(),
+                                         start.q.size());
     const double agreement = other.failure ? HUGE_VAL : apart(other, reference);
     result.digits = agreement < 1 ? static_cast<int>(std::floor(-std::log10(std::max(agreement, 1e-16)))) : 0;
     result.by = say(

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "alembert/base/dense.hpp"
-#include "alembert/ode/driver.hpp"
+#include "alembert/hybrid/automaton.hpp"
 #include "alembert/ode/projection.hpp"
 #include "base/language/say.hpp"
 #include "simulate/angles_along.hpp"
@@ -53,46 +53,74 @@ public:
                 others_.push_back(i);
     }
 
-    Trajectory follow(const Rhs& rhs, const std::vector<double>& initial, const Options& given) {
+    Trajectory follow(const System& system, const std::vector<double>& initial, const Options& given,
+                      const RunPiece& piece) {
         passes.clear();
         projection_->begin(given.start, to_other(initial).data());
-        const double end = given.start + given.duration;
-        Options options = given;
-        options.by = {};
-        options.when_stiff = {};
-        options.rhs_when_stiff = {};
-        options.sample = sample_interval(given);
-        options.grid = given.grid.value_or(given.start);
-        Trajectory whole;
-        std::vector<double> state = initial;
-        for (bool by_quaternion = angles_.evenness(state.data()) < to_quaternion;;
-             by_quaternion = !by_quaternion) {
-            if (!whole.times.empty()) options.start = whole.times.back();
-            options.duration =
-                end - options.start > 16 * tolerance_of_time * std::abs(end) ? end - options.start : 0;
-            options.budget = std::max(1L, given.budget - whole.statistics.work);
-            Trajectory piece =
-                by_quaternion ? in_angles(rhs, state, options) : integrate(rhs, state, options, leaving());
-            if (whole.times.empty())
-                whole = std::move(piece);
-            else
-                append(whole, std::move(piece), *options.grid, options.sample);
-            whole.events.clear();
-            whole.last_zeros.clear();
-            if (whole.ending != Ending::stopped_by_event) break;
-            const auto last = whole.final_state();
-            state.assign(last.begin(), last.end());
-            whole.ending = Ending::completed;
-        }
-        return whole;
+        Following run(*this, system, initial, given);
+        run_modes(run, given, piece);
+        return std::move(run.whole);
     }
 
     std::vector<ChartPass> passes;
 
 private:
-    static constexpr double tolerance_of_time = 2.3e-16;
     static constexpr double in_the_lock =
         1e-9;  // where a turn of both angles against each other has no rate, it gets 0
+
+    /// The two descriptions as modes (automaton.hpp).
+    class Following {
+    public:
+        Following(Parts& parts, const System& system, const std::vector<double>& initial, const Options& given)
+            : parts_(parts), system_(system), given_(given), now_{.t = given.start, .state = initial} {
+            system_.by = {};
+            by_quaternion_ = parts.angles_.evenness(initial.data()) < to_quaternion;
+        }
+
+        MotionState& now() { return now_; }
+
+        Mode enter(Options rest, RunPiece piece) {
+            rest.when_stiff = {};
+            grid_ = *piece.grid;
+            Mode mode{.system = system_,
+                      .guards = by_quaternion_ ? parts_.returning() : parts_.leaving(),
+                      .own = 1,
+                      .options = std::move(rest),
+                      .piece = std::move(piece)};
+            if (by_quaternion_)
+                mode.integrate = [this](const System& system, const std::vector<double>& state,
+                                        const Options& options, const Events& back, const RunPiece& part) {
+                    return parts_.in_angles(system, state, options, back, part);
+                };
+            return mode;
+        }
+
+        void collect(Trajectory part) {
+            if (whole.times.empty())
+                whole = std::move(part);
+            else
+                append(whole, std::move(part), grid_, sample_interval(given_));
+        }
+
+        bool next_mode(const Hit& hit) {
+            if (hit.guards.empty()) return false;
+            whole.ending = Ending::completed;
+            by_quaternion_ = !by_quaternion_;
+            return true;
+        }
+
+        std::string changes() const { return {}; }
+
+        Trajectory whole = {};
+
+    private:
+        Parts& parts_;
+        System system_;
+        const Options& given_;
+        MotionState now_;
+        bool by_quaternion_ = false;
+        double grid_ = 0;
+    };
 
     /// A motion that comes nearer to the lock than the error of its rotation cannot be told from one through it.
     static double through(double tolerance) { return std::clamp(10 * tolerance, 1e-6, to_quaternion / 2); }
@@ -102,6 +130,12 @@ private:
                            [this](double, const double* y, const double*, double* g) {
                                g[0] = angles_.evenness(y) - to_quaternion;
                            });
+    }
+
+    Events returning() const {
+        return make_events(
+            {{.name = "regular", .stop = true, .direction = 1}},
+            [this](double, const double* z, const double*, double* g) { g[0] = evenness(z) - to_angles; });
     }
 
     /// The evenness of a state in the other description.
@@ -163,18 +197,19 @@ private:
     }
 
     /// A piece by quaternion, with its rows in the scene's coordinates.
-    Trajectory in_angles(const Rhs& rhs, const std::vector<double>& state, Options options) {
+    Trajectory in_angles(const System& given, const std::vector<double>& state, Options options,
+                         const Events& back, const RunPiece& piece) {
         std::vector<std::pair<double, std::vector<double>>> steps;
-        options.project = projection_->after_steps();
+        const System system{.rhs = rhs_,
+                            .project = projection_->after_steps(),
+                            .quick_times = given.quick_times,
+                            .on_method = given.on_method};
         if (needs_series(options.method)) options.method = Method::verner98;
         options.on_step = [&](double t, std::span<const double> z, std::span<const double>) {
             steps.emplace_back(t, std::vector<double>(z.begin(), z.end()));
         };
-        const Events back = make_events(
-            {{.name = "regular", .stop = true, .direction = 1}},
-            [this](double, const double* z, const double*, double* g) { g[0] = evenness(z) - to_angles; });
         const std::vector<double> first = to_other(state);
-        Trajectory motion = integrate(rhs_, first, options, back);
+        Trajectory motion = integrate(system, first, options, back, piece);
         passes.push_back({motion.times.front(), motion.times.back()});
         Vector3d start;
         for (int k = 0; k < 3; ++k)
@@ -191,8 +226,8 @@ private:
             states.insert(states.end(), last.begin(), last.end());
         }
         if (motion.failure) motion.failure->state = last;
-        motion.dimension = rhs.dimension;
-        motion.names = rhs.names;
+        motion.dimension = given.rhs.dimension;
+        motion.names = given.rhs.names;
         motion.states = std::move(states);
         return motion;
     }
@@ -211,10 +246,11 @@ ChartRun::ChartRun(const Derived& derived, const AnglesOfFrame& angles, const st
 ChartRun::~ChartRun() = default;
 
 Integrator ChartRun::integrator() {
-    return [parts = parts_.get()](const Rhs& rhs, const std::vector<double>& initial, const Options& options,
-                                  const Events&) {  // scenes with events stay in their angles
-        return parts->follow(rhs, initial, options);
-    };
+    return
+        [parts = parts_.get()](const System& system, const std::vector<double>& initial, const Options& options,
+                               const Events&, const RunPiece& piece) {  // scenes with events stay in their angles
+            return parts->follow(system, initial, options, piece);
+        };
 }
 
 const std::vector<ChartPass>& ChartRun::passes() const {

@@ -6,7 +6,7 @@
 ///
 ///     if (const auto angles = angles_of_frame(derived, method)) …  // nothing where no chart can replace them
 ///     ChartRun charts(derived, *angles, start, work, wishes);  // derives the other description
-///     contact.by = charts.integrator();
+///     contact.system.by = charts.integrator();
 ///     charts.passes();                                          // where it went on with the quaternion
 ///
 /// The smallness of the map from the rates of the angles a, b, c to the angular velocity is |sin b| where the

@@ -271,7 +271,7 @@ public:
                 options.step = std::min(given_.step, given_.duration) * length;
             else
                 options.tolerance = std::max(given_.tolerance * factor, 1e-15);
-            options.first_share = length;
+            options.disturbed.first_step = length;
             if (!fixed && options.tolerance == given_.tolerance) continue;
             for (const std::uint64_t seed : {2, 0}) {
                 options.disturbed.seed = seed;
@@ -293,7 +293,7 @@ public:
     std::optional<PhasedMotion> with_short_steps(Options options) const {
         const double elapsed = motion_.final_time() - given_.start;
         options.longest_step = elapsed / (2 * static_cast<double>(motion_.statistics.steps));
-        options.first_share = 0.5;
+        options.disturbed.first_step = 0.5;
         options.disturbed.seed = 3;
         if (!(options.longest_step > 0)) return std::nullopt;
         return at_same_end(options);

@@ -98,13 +98,18 @@ LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
     return *mode->second;
 }
 
+void LoadedModes::shorten_steps(const std::vector<QuickTime>& quick_times) {
+    quick_times_ = quick_times;
+    for (auto& entry : loaded_) entry.second->contact.system.quick_times = quick_times;
+}
+
 Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
     if (!mode.when_stiff) {
-        mode.when_stiff = mode.contact.rhs;
+        mode.when_stiff = mode.contact.system.rhs;
         if (const Module* const module = compiled_.jacobian_of(mode.compiled)) {
             mode.when_stiff = make_rhs(*module, start_.parameters, compiled_.work());
-            mode.when_stiff->extra = mode.contact.rhs.extra;
-            mode.when_stiff->effort = mode.contact.rhs.effort;
+            mode.when_stiff->extra = mode.contact.system.rhs.extra;
+            mode.when_stiff->effort = mode.contact.system.rhs.effort;
             if (!mode.derived.mechanism.constraints.empty())
                 mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff), start_.parameters);
         }
@@ -113,7 +118,7 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
 }
 
 Rhs LoadedModes::with_series(LoadedMode& mode) {
-    Rhs rhs = mode.contact.rhs;
+    Rhs rhs = mode.contact.system.rhs;
     if (const SeriesModule series = compiled_.series_of(mode.compiled))
         rhs.series = make_series(series, with_held_parameters(start_.parameters, mode.program));
     return rhs;
@@ -129,9 +134,9 @@ void LoadedModes::count_step(LoadedMode& mode) {
     constexpr int order = 20;           // of a usual series
     const alembert_series_table* const series = mode.compiled.series.module.get();
     double& effort = by_series ? mode.effort_of_series : mode.effort;
-    effort += by_series
-                  ? taylor_effort(series->order_cost, series->product_cost, order, mode.contact.rhs.dimension)
-                  : evaluations * effort_of_evaluation(mode.contact.rhs, uses_jacobian(mode.running));
+    effort += by_series ? taylor_effort(series->order_cost, series->product_cost, order,
+                                        mode.contact.system.rhs.dimension)
+                        : evaluations * effort_of_evaluation(mode.contact.system.rhs, uses_jacobian(mode.running));
     if (by_series ? pays_to_compile(*series, effort) : pays_to_compile(mode.compiled.run(), effort))
         compiled_.go_over(mode.compiled, part);
 }
@@ -144,14 +149,15 @@ void LoadedMode::hold(const std::vector<double>& sigma) {
 }
 
 void LoadedMode::hold_sides(double t, const double* state) {
-    if (contact.switching) hold(sides_at(*contact.switching, t, state, contact.rhs.dimension, side_sizes));
+    if (contact.switching) hold(sides_at(*contact.switching, t, state, contact.system.rhs.dimension, side_sizes));
 }
 
 void LoadedMode::measure_sides(const Trajectory& motion) {
     if (!contact.switching) return;
     const std::size_t count = side_sizes.size();
     const std::vector<double> sigma = contact.switching->sigma(contact.switching->start());
-    std::vector<double> rate(static_cast<std::size_t>(contact.rhs.dimension)), g(contact.switching->numbers());
+    std::vector<double> rate(static_cast<std::size_t>(contact.system.rhs.dimension)),
+        g(contact.switching->numbers());
     for (std::size_t row = 0; row < motion.rows(); ++row) {
         contact.switching->values(motion.times[row], motion.state(row).data(), sigma.data(), rate.data(),
                                   g.data());
@@ -175,8 +181,8 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
     const bool constrained = !mode.derived.mechanism.constraints.empty();
     const auto smooth = [self, work, with_series, constrained, friction](const std::vector<double>& values) {
         Rhs rhs = make_rhs(self->module, values, work);
-        rhs.extra = self->contact.rhs.extra;
-        rhs.effort = self->contact.rhs.effort;
+        rhs.extra = self->contact.system.rhs.extra;
+        rhs.effort = self->contact.system.rhs.effort;
         if (with_series) rhs.series = make_series(self->compiled.series.module, values);
         return constrained ? self->projection.guarded(std::move(rhs), values, friction(values)) : rhs;
     };
@@ -214,13 +220,13 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
                     return bounds_of(code->events[static_cast<std::size_t>(k)], self->par.data(), motion);
                 }};
     mode.contact.switching = std::make_shared<const FilippovSystem>(std::move(system));
-    const int dimension = mode.contact.rhs.dimension;
-    Rhs& rhs = mode.contact.rhs;
+    const int dimension = mode.contact.system.rhs.dimension;
+    Rhs& rhs = mode.contact.system.rhs;
     rhs.context = std::make_shared<LoadedMode* const>(self);
     rhs.call = [](const void* context, double t, const double* state, double* rate) {
         const LoadedMode& own = **static_cast<LoadedMode* const*>(context);
         const std::vector<double> sigma =
-            sides_at(*own.contact.switching, t, state, own.contact.rhs.dimension, own.side_sizes);
+            sides_at(*own.contact.switching, t, state, own.contact.system.rhs.dimension, own.side_sizes);
         own.contact.switching->rates(t, state, sigma.data(), rate);
     };
     rhs.jacobian = nullptr;
@@ -251,36 +257,39 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     stops.resize(events + watched);
     directions.resize(events + watched);
     const bool constrained = !made.derived.mechanism.constraints.empty();
-    auto mode = std::make_unique<LoadedMode>(
-        LoadedMode{.compiled = made,
-                   .derived = made.derived,
-                   .program = made.program,
-                   .module = module,
-                   .par = prepared(module, values),
-                   .projection = Projection(module, values),
-                   .contact = {.rhs = make_rhs(module, values, compiled_.work()),
-                               .events = make_events(module, values, stops, directions)}});
+    auto mode = std::make_unique<LoadedMode>(LoadedMode{
+        .compiled = made,
+        .derived = made.derived,
+        .program = made.program,
+        .module = module,
+        .par = prepared(module, values),
+        .projection = Projection(module, values),
+        .contact = {.system = {.rhs = make_rhs(module, values, compiled_.work()), .quick_times = quick_times_},
+                    .events = make_events(module, values, stops, directions)}});
     mode->contact.events.bounds = bounds_of(made.event_code, values);
-    if (method.when_stiff || method.when_cheaper) mode->contact.rhs.effort = made.effort;
-    if (made.series.module) mode->contact.rhs.series = make_series(made.series.module, values);
-    if (made.canonical) mode->contact.rhs.canonical = make_canonical(module, *made.canonical, start_.parameters);
+    if (method.when_stiff || method.when_cheaper) mode->contact.system.rhs.effort = made.effort;
+    if (made.series.module) mode->contact.system.rhs.series = make_series(made.series.module, values);
+    if (made.canonical)
+        mode->contact.system.rhs.canonical = make_canonical(module, *made.canonical, start_.parameters);
     if (method.when_stiff)
-        mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
+        mode->contact.system.with_jacobian = [this, self = mode.get()] { return with_jacobian(*self); };
     if (method.when_cheaper && !jumps) {
-        mode->contact.rhs_when_cheaper = [this, self = mode.get()] { return with_series(*self); };
-        mode->contact.effort_of_series = effort_of_making_series(made.program);
+        mode->contact.system.with_series = [this, self = mode.get()] { return with_series(*self); };
+        mode->contact.system.effort_of_series = effort_of_making_series(made.program);
     }
-    mode->contact.on_method = [self = mode.get()](Method running) { self->running = running; };
+    mode->contact.system.on_method = [self = mode.get()](Method running) { self->running = running; };
     // The work must balance the energy, so it is integrated with the same tolerance as the state, if there is one.
-    if (made.derived.mechanism.unilateral.empty() && !has_fixed_step(method.method)) mode->contact.rhs.extra = 0;
+    if (made.derived.mechanism.unilateral.empty() && !has_fixed_step(method.method))
+        mode->contact.system.rhs.extra = 0;
     if (!method.sundials.empty())
-        mode->contact.by = sundials_integrator(method.sundials, module, values, jumps.has_value());
+        mode->contact.system.by = sundials_integrator(method.sundials, module, values, jumps.has_value());
     LoadedMode* const self = mode.get();
     if (jumps) hold_signs(*self, events);
     if (constrained) {
         begin_in(*self);
-        mode->contact.project = self->projection.after_steps();
-        if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs), values);
+        mode->contact.system.project = self->projection.after_steps();
+        if (!jumps)
+            mode->contact.system.rhs = self->projection.guarded(std::move(mode->contact.system.rhs), values);
     }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
         count_step(*self);

@@ -7,7 +7,7 @@
 ///     CompiledModes compiled(wishes, derived, Work::left_out, method);
 ///     LoadedModes modes(compiled, start, first, on_step);
 ///     const LoadedMode& lying = modes({0});
-///     lying.contact.rhs(t, state, rate);
+///     lying.contact.system.rhs(t, state, rate);
 
 #include <map>
 #include <memory>
@@ -66,6 +66,9 @@ public:
     std::function<void(const ModeChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
         on_side_change = {};
 
+    /// At these times the steps in all modes have to be shorter.
+    void shorten_steps(const std::vector<QuickTime>& quick_times);
+
     /// To be called before another run from the first state or near it (Projection::begin).
     void begin();
 
@@ -83,6 +86,7 @@ private:
     const Start& start_;
     const State<double>& first_;
     OnModeStep on_step_;
+    std::vector<QuickTime> quick_times_ = {};
     std::map<std::vector<int>, std::unique_ptr<LoadedMode>> loaded_;
 };
 

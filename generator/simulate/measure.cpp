@@ -64,10 +64,15 @@ std::vector<double> Workbench::momenta(double t, const double* state, const Rhs&
     return result;
 }
 
+System Workbench::able(const Rhs& rhs) {
+    System result{.rhs = rhs, .quick_times = parts_.quick_times};
+    if (!parts_.derived.mechanism.constraints.empty()) result.project = projection_.after_steps();
+    return result;
+}
+
 Measured Workbench::measure(Options options) {
     options.sample = options.duration > 0 ? options.duration : 1;
-    const bool constrained = !parts_.derived.mechanism.constraints.empty();
-    if (constrained) options.project = projection_.after_steps();
+    const System alone = able(rhs_);
     Measured result{.method = std::string(name(options.method))};
     (has_fixed_step(options.method) ? result.step : result.tolerance) =
         has_fixed_step(options.method) ? options.step : options.tolerance;
@@ -76,7 +81,7 @@ Measured Workbench::measure(Options options) {
     Trajectory motion;
     do {
         projection_.begin(options.start, parts_.initial.data());
-        motion = integrate(rhs_, parts_.initial, options);
+        motion = integrate(alone, parts_.initial, options);
         seconds.push_back(motion.statistics.seconds);
         sum += seconds.back();
     } while (seconds.size() < 200 && sum < 0.3 && (seconds.size() < 3 || sum < 0.02));
@@ -118,7 +123,7 @@ void Workbench::kept(const Options& given, Measured& result) {
     std::vector<double> initial = parts_.initial;
     if (work) initial.push_back(0);
     projection_.begin(options.start, parts_.initial.data());
-    if (integrate(work ? with_work_ : rhs_, initial, options).failure) return;
+    if (integrate(able(work ? with_work_ : rhs_), initial, options).failure) return;
     result.energy_drift = work ? drift.balance() : drift.energy();
     result.work = work;
     if (constrained) result.constraint_error = constraint;
@@ -127,9 +132,8 @@ void Workbench::kept(const Options& given, Measured& result) {
 std::optional<std::vector<double>> Workbench::end_of(const Options& given) {
     Options options = given;
     options.sample = options.duration > 0 ? options.duration : 1;
-    if (!parts_.derived.mechanism.constraints.empty()) options.project = projection_.after_steps();
     projection_.begin(options.start, parts_.initial.data());
-    const Trajectory motion = integrate(rhs_, parts_.initial, options);
+    const Trajectory motion = integrate(able(rhs_), parts_.initial, options);
     if (motion.failure) return std::nullopt;
     return coordinates_and_rates(rhs_, motion.times.back(), motion.final_state().data(),
                                  parts_.derived.mechanism.q.size());

@@ -51,9 +51,10 @@ public:
         SeriesModule series = {}, series_with_work = {};  ///< null if methods that need them are not measured
         std::shared_ptr<const Canonical> canonical = {};  ///< likewise
         std::vector<double> parameters, initial;
-        double effort = 0;                   ///< Rhs::effort
-        bool conserved = true;               ///< whether the energy is conserved
-        std::vector<double> reference = {};  ///< coordinates, then rates, at the end; may be empty
+        std::vector<QuickTime> quick_times = {};  ///< System::quick_times
+        double effort = 0;                        ///< Rhs::effort
+        bool conserved = true;                    ///< whether the energy is conserved
+        std::vector<double> reference = {};       ///< coordinates, then rates, at the end; may be empty
     };
     explicit Workbench(Parts parts);
 
@@ -65,6 +66,8 @@ public:
 
 private:
     void kept(const Options& options, Measured& result);
+    /// The right-hand side with what the system can do besides.
+    System able(const Rhs& rhs);
     std::vector<double> momenta(double t, const double* state, const Rhs& rhs);
 
     Parts parts_;

@@ -119,7 +119,7 @@ Outcome PhasedMembers::followed(const Member& member, std::vector<double>& state
     Options options = options_;
     options.start = member.start;
     options.duration = member.duration;
-    if (member.quick_times != nullptr) options.quick_times = *member.quick_times;
+    modes.shorten_steps(member.quick_times != nullptr ? *member.quick_times : options.quick_times);
     options.sample = member.duration;  // no rows but the end
     std::vector<double> initial = state;
     if (works) initial.push_back(0);

@@ -28,14 +28,14 @@ public:
         const alembert_solver_table& table = mode.module.table();
         const auto n = static_cast<std::size_t>(m_.size()), bilateral = m_.constraints.size(),
                    redundant = m_.redundant.size(), held = static_cast<std::size_t>(table.constraints);
-        std::vector<double> rate(static_cast<std::size_t>(mode.contact.rhs.dimension)),
+        std::vector<double> rate(static_cast<std::size_t>(mode.contact.system.rhs.dimension)),
             out(static_cast<std::size_t>(table.outputs)), lambda(held + redundant),
             all(bilateral + redundant + m_.unilateral.size());
         for (std::size_t row = 0; row < rows; ++row) {
             const double t = phase.motion.times[row];
             const auto state = phase.motion.state(row);
             mode.hold_sides(t, state.data());
-            mode.contact.rhs(t, state.data(), rate.data());
+            mode.contact.system.rhs(t, state.data(), rate.data());
             double energy[4], jacobi = 0;
             table.energy(t, state.data(), rate.data(), mode.par.data(), energy, &jacobi);
             table.outputs_at(t, state.data(), rate.data(), mode.par.data(), out.data());

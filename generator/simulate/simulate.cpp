@@ -99,8 +99,9 @@ public:
         std::vector<std::string> columns = row_columns(run_.mechanism, free.program, reactions());
         columns.erase(columns.begin());  // t is the other axis of a picture
         check_columns(columns, wishes_.columns);
-        options_.quick_times = quick_times(free.program, with_held_parameters(start_.parameters, free.program),
-                                           options_.start, options_.start + options_.duration);
+        quick_times_ = quick_times(free.program, with_held_parameters(start_.parameters, free.program),
+                                   options_.start, options_.start + options_.duration);
+        modes.shorten_steps(quick_times_);
         contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
             if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
         };
@@ -150,7 +151,7 @@ private:
         watch.near_lock = watch.near_lock || (angles_ && angles_->evenness(state.data()) < to_quaternion);
         watch.drift(mode.module.table(), mode.par, t, state, rate);
         if (wishes_.estimate) watch.poses(t, state, start_.q.size(), first_.qdot.size());
-        if (mode.contact.project)
+        if (mode.contact.system.project)
             watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
         // A report costs more than a step of a small system.
         if (wishes_.progress && ++watch.steps % 1000 == 0)
@@ -176,7 +177,7 @@ private:
         initial_ = start_.q;
         initial_.insert(initial_.end(), first_.qdot.begin(), first_.qdot.end());
         if (!energy_.conserved) initial_.push_back(0);
-        if (run_.is_regularized) need_depth(modes({}).contact.rhs, start_.t, initial_);
+        if (run_.is_regularized) need_depth(modes({}).contact.system.rhs, start_.t, initial_);
         const auto making = [&] {
             return modes.compiled().seconds().derive + modes.compiled().seconds().emit +
                    modes.compiled().seconds().compile;
@@ -209,8 +210,8 @@ private:
                           reason.what()));
             return false;
         }
-        mode.by = charts_->integrator();
-        mode.rhs_when_cheaper = {};
+        mode.system.by = charts_->integrator();
+        mode.system.with_series = {};
         return true;
     }
 
@@ -240,7 +241,7 @@ private:
         if (!run_.mechanism.speeds.empty())
             components.rates = [&, all = std::vector<double>(initial_.size())](
                                    double t, std::span<const double> state, std::span<double> rates) mutable {
-                free.contact.rhs(t, state.data(), all.data());
+                free.contact.system.rhs(t, state.data(), all.data());
                 std::copy_n(all.begin(), rates.size(), rates.begin());
             };
         run_.estimate = error_estimate(
@@ -262,7 +263,7 @@ private:
              .singular = most_singular(run_.motion, free, watch.poses),
              .precision = fixed ? run_.estimate->value.value_or(0) : options_.tolerance,
              .fixed_step = fixed ? options_.step : 0,
-             .inputs = options_.quick_times});
+             .inputs = quick_times_});
         run_.timings.estimate = process_seconds() - begin;
     }
 
@@ -284,7 +285,7 @@ private:
                 run_.final_speeds.push_back(end[m.q.size() + k]);
             }
         std::vector<double> rates(end.size());
-        free.contact.rhs(run_.motion.final_time(), end.data(), rates.data());
+        free.contact.system.rhs(run_.motion.final_time(), end.data(), rates.data());
         run_.final_rates.assign(rates.begin(), rates.begin() + m.size());
         run_.contacts = contacts_.names;
         run_.rows = rows_of(run_.motion, run_, modes, reactions(), first_);
@@ -314,6 +315,7 @@ private:
     State<double> first_;
     MethodChoice choice_;
     Options options_;
+    std::vector<QuickTime> quick_times_;
     std::optional<ContactView> view_;
     std::optional<KickView> kicks_;
     Contacts contacts_;

@@ -3,7 +3,7 @@
 
 /// cvode and ida of SUNDIALS as methods of `simulate`, if the program was built with them (peers/backend.hpp).
 ///
-///     if (is_sundials(name)) mode.by = sundials_integrator(name, module, parameters);
+///     if (is_sundials(name)) system.by = sundials_integrator(name, module, parameters);
 
 #include <string>
 #include <string_view>

@@ -8,6 +8,7 @@
 #include "alembert/base/inertia.hpp"
 #include "alembert/base/rotation.hpp"
 #include "alembert/batch/ensemble.hpp"
+#include "alembert/hybrid/automaton.hpp"
 #include "alembert/hybrid/filippov.hpp"
 #include "alembert/hybrid/hybrid_motion.hpp"
 #include "alembert/native/compile.hpp"

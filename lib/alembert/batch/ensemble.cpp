@@ -219,20 +219,22 @@ private:
         }
         const alembert_solver_table& table = e_.module.table();
         const bool works = e_.work == Work::integrated;
-        Rhs rhs = rhs_of(e_, member.parameters);
+        System system{.rhs = rhs_of(e_, member.parameters),
+                      .quick_times = member.quick_times != nullptr ? *member.quick_times : options_.quick_times};
         const std::vector<double> par = prepared(e_.module, member.parameters);
         const std::vector<double> state = with_quadratures(e_, member.state);
         Drift drift(table.coordinates, table.speeds, works);
         Options options = options_;
+        options.quick_times = {};
         options.start = member.start;
         options.duration = member.duration;
-        if (member.quick_times != nullptr) options.quick_times = *member.quick_times;
         options.sample = member.duration;  // no rows but the end
         RunningExtrema along(table.coordinates, table.coordinates + table.speeds);
         std::vector<Passing> passing;
+        RunPiece piece;
         if (e_.along && needs_series(options.method))
-            options.on_step_view = [&](const StepView& step) {
-                passing = passed(rhs, step);
+            piece.on_step_view = [&](const StepView& step) {
+                passing = passed(system.rhs, step);
                 return false;
             };
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
@@ -246,15 +248,15 @@ private:
         std::optional<Projection> projection;
         if (table.constraints > 0) {
             projection.emplace(e_.module, member.parameters).begin(options.start, state.data());
-            options.project = projection->after_steps();
-            rhs = projection->guarded(std::move(rhs), member.parameters);
+            system.project = projection->after_steps();
+            system.rhs = projection->guarded(std::move(system.rhs), member.parameters);
         }
         Events events;
         if (!e_.stops.empty()) {
             events = make_events(e_.module, member.parameters, e_.stops, e_.directions);
             events.bounds = bounds_of(e_.event_code, par);
         }
-        const Trajectory motion = integrate(rhs, state, options, events);
+        const Trajectory motion = integrate(system, state, options, events, piece);
         const std::span<const double> end = motion.final_state();
         feed_.done(member,
                    {.time = motion.times.back(),

@@ -7,15 +7,15 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
-#include "alembert/base/tolerances.hpp"
+#include "alembert/hybrid/automaton.hpp"
 #include "alembert/hybrid/mode_enumeration.hpp"
 #include "alembert/hybrid/mode_guards.hpp"
 #include "alembert/hybrid/sliding_mode.hpp"
 #include "alembert/hybrid/switching_scales.hpp"
 #include "alembert/ode/disturbance.hpp"
-#include "alembert/ode/driver.hpp"
 
 namespace alembert {
 
@@ -28,27 +28,84 @@ constexpr double negative_normal = 1e-6;  // relative to the largest so far, bey
 
 class SwitchedRun {
 public:
-    SwitchedRun(const FilippovSystem& system, const std::vector<double>& initial, const Options& options,
-                const Events& events)
+    SwitchedRun(const FilippovSystem& system, const System& abilities, const std::vector<double>& initial,
+                const Options& options, const Events& events, const RunPiece& piece)
         : system_(system),
+          abilities_(abilities),
           options_(options),
           events_(events),
-          end_(options.start + options.duration),
-          t_(options.start),
-          state_(initial),
+          piece_(piece),
+          now_{.t = options.start, .state = initial, .late = piece.late},
           sizes_(std::make_shared<std::vector<double>>(static_cast<std::size_t>(system.count()))),
           normals_(std::make_shared<std::vector<double>>(static_cast<std::size_t>(system.count()))) {}
 
     Trajectory go() {
-        if (begin())
-            while (piece()) {
-            }
+        if (begin() && begin_piece()) run_modes(*this, options_, piece_);
         return std::move(result_);
     }
 
+    MotionState& now() { return now_; }
+
+    /// The piece with the sides of now, until a sign changes.
+    Mode enter(Options rest, RunPiece piece) {
+        *undefined_ = HUGE_VAL;
+        watched_ = watches(*at_, {now_.t, options_.start + options_.duration}, *sizes_);
+        const bool slides = !at_->sliding().empty();
+        System system = abilities_;
+        system.rhs = right_hand_side();
+        system.with_jacobian = {};
+        system.with_series = {};
+        rest.when_cheaper = {};  // the series of a piece is another one
+        if (slides && needs_series(rest.method)) rest.method = Method::verner98;
+        const auto has_grain = [](const SlidingMode::Slide& slide) { return slide.grain > 0; };
+        if (std::any_of(sides_.slides.begin(), sides_.slides.end(), has_grain))
+            rest.when_stiff = {};  // long steps of radau go wrong in the direction that δ bends at low speeds
+        if (slides)
+            system.project = [base = abilities_.project, sides = std::make_shared<SwitchSides>(
+                                                             system_, sides_, dimension())](double t, double* y) {
+                if (base) base(t, y);
+                sides->bring_back(t, y);
+            };
+        rest.on_step = [this](double t, std::span<const double> y, std::span<const double> rate) {
+            if (system_.before_step) {
+                if (!at_->sliding().empty()) at_->evaluate(t, y.data());
+                system_.before_step(at_->sigma());
+            }
+            if (options_.on_step) options_.on_step(t, y, rate);
+        };
+        grid_ = *piece.grid;
+        return {.system = std::move(system),
+                .guards = with_watches(watched_),
+                .own = static_cast<int>(watched_.size()),
+                .run = &events_,
+                .options = std::move(rest),
+                .piece = std::move(piece)};
+    }
+
+    void collect(Trajectory part) {
+        if (result_.times.empty())
+            result_ = std::move(part);
+        else
+            append(result_, std::move(part), grid_, sample_interval(options_));
+    }
+
+    bool next_mode(const Hit& hit) {
+        if (result_.ending != Ending::stopped_by_event || hit.stops) return false;
+        result_.ending = Ending::completed;
+        if (options_.disturbed.seed == 0) return pass(watched_, hit.guards) && begin_piece();
+        const std::vector<double> before = rate_here();
+        if (!pass(watched_, hit.guards)) return false;
+        const std::vector<double> after = rate_here();
+        now_.late = late_by_rounding(options_.disturbed.seed,
+                                     {.t = now_.t, .number = jumps_++, .before = before, .after = after});
+        return begin_piece();
+    }
+
+    std::string changes() const { return {}; }
+
 private:
-    int dimension() const { return static_cast<int>(state_.size()); }
-    SwitchMoment moment() const { return {system_, sides_, t_, state_, options_, *sizes_}; }
+    int dimension() const { return static_cast<int>(now_.state.size()); }
+    SwitchMoment moment() const { return {system_, sides_, now_.t, now_.state, options_, *sizes_}; }
     double value_of(int k) const { return moment().value(k); }
 
     /// Determines the sides at the start.
@@ -94,83 +151,31 @@ private:
     }
 
     bool fail_undefined() {
-        fail(fmt::format("a function whose sign is needed is not a number at t = {}", t_));
+        fail(fmt::format("a function whose sign is needed is not a number at t = {}", now_.t));
         result_.failure->kind = FailureKind::not_a_number;
         return false;
     }
 
-    bool fail_negative(int k) { return fail(system_.refusal(k, t_, state_.data())); }
+    bool fail_negative(int k) { return fail(system_.refusal(k, now_.t, now_.state.data())); }
 
-    /// Integrates until a sign changes; true if the motion goes on after that.
-    bool piece() {
-        SwitchSides now(system_, sides_, dimension());
-        now.evaluate(t_, state_.data());
-        now.find_bounds(t_, state_.data());
+    /// Looks at the sides of now, with which the next piece begins; false if a normal force is negative.
+    bool begin_piece() {
+        SwitchSides& at = at_.emplace(system_, sides_, dimension());
+        at.evaluate(now_.t, now_.state.data());
+        at.find_bounds(now_.t, now_.state.data());
         for (int k = 0; k < system_.count(); ++k) {
-            (*normals_)[k] = std::max((*normals_)[k], std::abs(now.normal(k)));
-            if (now.normal(k) < -std::max(negative_normal * (*normals_)[k], moment().uncertain_normal(now, k)))
+            (*normals_)[k] = std::max((*normals_)[k], std::abs(at.normal(k)));
+            if (at.normal(k) < -std::max(negative_normal * (*normals_)[k], moment().uncertain_normal(at, k)))
                 return fail_negative(k);
-            if (sides_[k] != 0) (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
+            if (sides_[k] != 0) (*sizes_)[k] = std::max((*sizes_)[k], std::abs(at.value(k)));
         }
-        *undefined_ = HUGE_VAL;
-        const std::vector<Watched> watched = watches(now, {t_, end_}, *sizes_);
-        const std::size_t scene = events_.list.size();
-        Options here = options_;
-        here.start = t_;
-        here.duration = end_ - t_ > 16 * tolerance::epsilon * std::abs(end_) ? end_ - t_ : 0;
-        here.sample = sample_interval(options_);
-        here.grid = options_.grid.value_or(options_.start);
-        here.budget = std::max(1L, options_.budget - result_.statistics.work);
-        here.disturbed.late = std::exchange(late_, {});
-        here.rhs_when_stiff = {};
-        here.when_cheaper = {};  // the series of a piece is another one
-        if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
-        const auto has_grain = [](const SlidingMode::Slide& slide) { return slide.grain > 0; };
-        if (std::any_of(sides_.slides.begin(), sides_.slides.end(), has_grain))
-            here.when_stiff = {};  // long steps of radau go wrong in the direction that δ bends at low speeds
-        if (!now.sliding().empty())
-            here.project = [base = options_.project, sides = std::make_shared<SwitchSides>(
-                                                         system_, sides_, dimension())](double t, double* y) {
-                if (base) base(t, y);
-                sides->bring_back(t, y);
-            };
-        here.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
-            if (system_.before_step) {
-                if (!now.sliding().empty()) now.evaluate(t, y.data());
-                system_.before_step(now.sigma());
-            }
-            if (options_.on_step) options_.on_step(t, y, rate);
-        };
-        Trajectory motion = integrate(right_hand_side(), state_, here, with_watches(watched));
-        std::erase_if(motion.events, [&](const EventRecord& e) { return e.index >= static_cast<int>(scene); });
-        const std::vector<LastZero> zeros = motion.last_zeros;
-        std::erase_if(motion.last_zeros, [&](const LastZero& z) { return z.event >= static_cast<int>(scene); });
-        join(std::move(motion), here);
-        t_ = result_.times.back();
-        const auto last = result_.final_state();
-        state_.assign(last.begin(), last.end());
-        if (result_.ending != Ending::stopped_by_event) return false;
-        const auto stops = [&](const LastZero& z) {
-            return z.event < static_cast<int>(scene) && z.counts && events_.list[z.event].stop;
-        };
-        if (std::any_of(zeros.begin(), zeros.end(), stops)) return false;
-        result_.ending = Ending::completed;
-        std::vector<int> hit;
-        for (const LastZero& zero : zeros)
-            if (zero.event >= static_cast<int>(scene)) hit.push_back(zero.event - static_cast<int>(scene));
-        if (options_.disturbed.seed == 0) return pass(watched, hit);
-        const std::vector<double> before = rate_here();
-        if (!pass(watched, hit)) return false;
-        const std::vector<double> after = rate_here();
-        late_ = late_by_rounding(options_.disturbed.seed,
-                                 {.t = t_, .number = jumps_++, .before = before, .after = after});
         return true;
     }
 
     /// The rates with the sides of now.
     std::vector<double> rate_here() const {
         SwitchSides now(system_, sides_, dimension());
-        now.evaluate(t_, state_.data());
+        now.evaluate(now_.t, now_.state.data());
         return {now.rate().begin(), now.rate().end()};
     }
 
@@ -210,8 +215,7 @@ private:
             for (std::size_t i = 0; i < watched.size(); ++i) {
                 const Watched& w = watched[i];
                 double& value = out[events_.list.size() + i];
-                value = watched_value(w, *sides, *normals);
-                if (t <= w.open_until) value = std::max(value, std::numeric_limits<double>::min());
+                value = watched_value(w, t, *sides, *normals);
                 if (!std::isnan(value)) continue;
                 *undefined = std::min(*undefined, t);  // the run ends there if it comes so far
                 value = -1;
@@ -237,7 +241,7 @@ private:
                         if (k < scene) return events_.bounds.of(k, motion);
                         const Watched w = one(k);
                         Bounds of = w.sign * system_.bounds_of_functions.of(w.index, motion);
-                        of.value = of.value + Interval{w.offset, w.offset};
+                        of.value = of.value + Interval{w.held.bound, w.held.bound};
                         return of;
                     }};
     }
@@ -245,13 +249,14 @@ private:
     /// Decides how the motion goes on where the functions watched at `hit` have reached zero.
     bool pass(const std::vector<Watched>& watched, const std::vector<int>& hit) {
         // A step may reach beyond the zero that ends it, to where another value is undefined.
-        if (*undefined_ <= t_ + 1e-12 * std::max(std::abs(t_), options_.duration)) return fail_undefined();
-        since_change_ = t_ - last_change_;
-        in_one_place_ = since_change_ > 1e-13 * std::max(std::abs(t_), options_.duration) ? 0 : in_one_place_ + 1;
-        last_change_ = t_;
+        if (*undefined_ <= now_.t + 1e-12 * std::max(std::abs(now_.t), options_.duration)) return fail_undefined();
+        since_change_ = now_.t - last_change_;
+        in_one_place_ =
+            since_change_ > 1e-13 * std::max(std::abs(now_.t), options_.duration) ? 0 : in_one_place_ + 1;
+        last_change_ = now_.t;
         if (in_one_place_ > most_in_one_place)
             return fail(fmt::format("the sign of {} changes without end at t = {}: no side of it is consistent",
-                                    system_.names[watched[hit.front()].index], t_));
+                                    system_.names[watched[hit.front()].index], now_.t));
         std::vector<int> open;
         bool gone = false;
         for (const int i : hit) {
@@ -263,7 +268,7 @@ private:
                     sides_[w.index] = w.sign < 0 ? 1 : -1;
                     tell(w.index, ModeChange::Kind::leaving);
                 } else if (sides_[w.index] == 0) {  // it may have given way together with one before it
-                    for (const int pair : give_way(system_, sides_, w.index, t_, state_)) {
+                    for (const int pair : give_way(system_, sides_, w.index, now_.t, now_.state)) {
                         seed(pair);
                         tell(pair, ModeChange::Kind::leaving);
                     }
@@ -294,7 +299,7 @@ private:
     /// have let one go just before, or let it stop just after.
     void open_what_has_stopped(std::vector<int>& open, double times = 1) const {
         SwitchSides here(system_, sides_, dimension());
-        here.evaluate(t_, state_.data());
+        here.evaluate(now_.t, now_.state.data());
         for (int k = 0; k < system_.count(); k += sides_.is_pair(k) ? 2 : 1) {
             if (!sides_.is_pair(k) && !system_.bounds) continue;  // no friction
             const double speed = sides_.is_pair(k) ? here.velocity(k).norm() : std::abs(here.value(k));
@@ -309,11 +314,11 @@ private:
     bool come_to_rest(const std::vector<int>& open) {
         const std::vector<int> still = swings_.at_rest(moment(), open, since_change_);
         if (still.empty() || open.size() + still.size() > most_undecided) return false;
-        const SideChoice best = side_choices(system_, sides_, open, t_, state_, still)[0];
+        const SideChoice best = side_choices(system_, sides_, open, now_.t, now_.state, still)[0];
         if (!best.is_clear() || !rests(best, open)) return false;
         sides_ = best.sides;
         SwitchSides here(system_, sides_, dimension());
-        for (const int k : still) here.bring_to_zero(k, t_, state_.data());
+        for (const int k : still) here.bring_to_zero(k, now_.t, now_.state.data());
         std::vector<int> all = open;
         all.insert(all.end(), still.begin(), still.end());
         for (const int k : as_declared(std::move(all))) tell(k, ModeChange::Kind::sliding);
@@ -331,7 +336,7 @@ private:
     }
     bool can_all_rest(const std::vector<int>& all) const {
         if (all.size() > most_undecided) return false;
-        const SideChoice best = side_choices(system_, sides_, all, t_, state_)[0];
+        const SideChoice best = side_choices(system_, sides_, all, now_.t, now_.state)[0];
         return best.is_clear() && rests(best, all);
     }
 
@@ -341,8 +346,8 @@ private:
         if (open.size() > most_undecided)
             return fail(
                 fmt::format("the signs of {} and {} others change together at t = {}, more than {} at once",
-                            system_.names[open.front()], open.size() - 1, t_, most_undecided));
-        const std::vector<SideChoice> found = side_choices(system_, sides_, open, t_, state_);
+                            system_.names[open.front()], open.size() - 1, now_.t, most_undecided));
+        const std::vector<SideChoice> found = side_choices(system_, sides_, open, now_.t, now_.state);
         std::string names;
         for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
         const bool exists = found[0].is_consistent();
@@ -355,12 +360,12 @@ private:
             return fail(
                 fmt::format("at t = {} the sign of {} has no consistent side: the equations have no motion "
                             "that goes on from there",
-                            t_, names));
+                            now_.t, names));
         if (are_ambiguous(found))
             return fail(
                 fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
                             "say which; start close to that state instead",
-                            t_, names));
+                            now_.t, names));
         const SlidingMode before = sides_;
         sides_ = found[0].sides;
         for (const int k : open)
@@ -382,7 +387,7 @@ private:
 
     void tell(int k, ModeChange::Kind kind) const {
         if (!system_.on_change) return;
-        ModeChange change{.time = t_, .index = k, .kind = kind, .side = sides_[k], .direction = {}};
+        ModeChange change{.time = now_.t, .index = k, .kind = kind, .side = sides_[k], .direction = {}};
         if (sides_.is_pair(k) && sides_[k] != 0)
             change.direction = {sides_.slides[k / 2].along, sides_.slides[k / 2].across};
         system_.on_change(change);
@@ -390,37 +395,31 @@ private:
 
     bool fail(const std::string& message) {
         if (result_.times.empty()) {
-            result_.times = {t_};
-            result_.states = state_;
+            result_.times = {now_.t};
+            result_.states = now_.state;
             result_.statistics.method = name(options_.method);
         }
         result_.ending = Ending::failed;
-        result_.failure = Failure{.kind = FailureKind::no_side, .message = message, .time = t_, .state = state_};
+        result_.failure =
+            Failure{.kind = FailureKind::no_side, .message = message, .time = now_.t, .state = now_.state};
         return false;
     }
 
-    void join(Trajectory next, const Options& here) {
-        const bool first = result_.times.empty();
-        if (first) {
-            result_ = std::move(next);
-            return;
-        }
-        append(result_, std::move(next), *here.grid, here.sample);
-    }
-
     const FilippovSystem& system_;
+    const System& abilities_;
     const Options& options_;
     const Events& events_;
-    double end_, t_;
-    std::vector<double> state_;
+    const RunPiece& piece_;
+    MotionState now_;
     SlidingMode sides_;
+    std::optional<SwitchSides> at_ = {};  ///< the sides of now, at the start of the piece and then along it
+    std::vector<Watched> watched_ = {};   ///< the guards of the piece
+    double grid_ = 0;
     std::shared_ptr<std::vector<double>> sizes_;                              ///< the largest |g_k| so far
     std::shared_ptr<std::vector<double>> normals_;                            ///< the largest normal forces
     std::shared_ptr<double> undefined_ = std::make_shared<double>(HUGE_VAL);  ///< when some g_k was NaN in a piece
     ChatterWatch swings_{sizes_->size()};
-    std::vector<double> late_ =
-        options_.disturbed.late;  ///< what the next piece begins too late by (disturbance.hpp)
-    long jumps_ = 0;              ///< in a disturbed run
+    long jumps_ = 0;  ///< in a disturbed run
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL,
            since_change_ = HUGE_VAL;  ///< the time of the last change; from it to that before
@@ -429,9 +428,17 @@ private:
 
 }  // namespace
 
+Trajectory integrate(const FilippovSystem& system, const System& abilities, const std::vector<double>& initial,
+                     const Options& options, const Events& events, const RunPiece& piece) {
+    return SwitchedRun(system, abilities, initial, options, events, piece).go();
+}
+
 Trajectory integrate(const FilippovSystem& system, const std::vector<double>& initial, const Options& options,
                      const Events& events) {
-    return SwitchedRun(system, initial, options, events).go();
+    Options wishes = options;
+    wishes.project = {};
+    wishes.quick_times = {};
+    return integrate(system, with_abilities_in(options, {}), initial, wishes, events);
 }
 
 }  // namespace alembert

@@ -119,6 +119,10 @@ struct FilippovSystem {
 Trajectory integrate(const FilippovSystem& system, const std::vector<double>& initial, const Options& options,
                      const Events& events = {});
 
+/// The same with what all smooth pieces can do besides: `project`, `quick_times`, `on_method` and `by`.
+Trajectory integrate(const FilippovSystem& system, const System& abilities, const std::vector<double>& initial,
+                     const Options& options, const Events& events, const RunPiece& piece = {});
+
 /// σ at a state of the motion, for evaluations after it. g_k counts as zero below `still` of k. Where it is
 /// consistent such a function slides along its zero, with its α; otherwise it has the sign that g takes according
 /// to its rate. `found` gets the sides with 0 for all zeros, if it is not null.

@@ -2,7 +2,7 @@
 #pragma once
 
 /// A motion with unilateral contacts and kicks: smooth phases, joined by impacts, releases, contacts that come to
-/// rest, and impulses.
+/// rest, and impulses. The phases are modes of the automaton (automaton.hpp).
 ///
 ///     const PhasedMotion motion = follow(contacts, mode_of, {1.0, 0.0}, {.duration = 3});
 ///     motion.contacts[0].time;                 // the first impact
@@ -30,17 +30,10 @@ namespace alembert {
 
 /// The equations for one choice of closed contacts, ready to run.
 struct ContactMode {
-    Rhs rhs = {};
-    Events events = {};  ///< the scene's events, then one for each contact: its reaction if it is closed, its gap
-                         ///< if it is open
-    std::function<Rhs()> rhs_when_stiff = {};    ///< with the Jacobian (Options); may be empty
-    std::function<Rhs()> rhs_when_cheaper = {};  ///< with the power series (Options); empty: there is none
-    double effort_of_series = 0;
-    OnMethod on_method = {};  ///< may be empty
-    /// Moves a state onto the constraints of the mode; may be empty.
-    std::function<void(double t, double* state)> project = {};
-    OnStep on_step = {};                                   ///< may be empty
-    Integrator by = {};                                    ///< Options::by; may be empty
+    System system = {};
+    Events events = {};   ///< the scene's events, then one for each contact: its reaction if it is closed, its gap
+                          ///< if it is open
+    OnStep on_step = {};  ///< takes the place of that of the options
     std::shared_ptr<const FilippovSystem> switching = {};  ///< set if the right-hand side has jumps or kinks
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 namespace alembert {
 
@@ -41,21 +40,9 @@ std::vector<double> as_integrated(const Kicks& kicks, double t, const std::vecto
     return state;
 }
 
-Events with_zeros_passed(const Events& events, std::vector<Event> list, std::vector<PassedZero> passed,
-                         double start) {
-    const EventBounds bounds = events.bounds;
-    Events result = make_events(std::move(list), [events, passed = std::move(passed), start](
-                                                     double t, const double* y, const double* rates, double* out) {
-        events(t, y, rates, out);
-        for (std::size_t k = 0; k < passed.size(); ++k) {
-            const PassedZero& zero = passed[k];
-            if (zero.side != 0 && t <= start + zero.hold)
-                out[k] = zero.side * std::max(zero.side * out[k], std::numeric_limits<double>::min());
-            if (std::abs(out[k]) <= zero.band) out[k] = 0;
-        }
-    });
-    result.bounds = bounds;
-    return result;
+HeldGuard held_from(double start, const PassedZero& passed) {
+    if (passed.side == 0) return {.band = passed.band};
+    return {.side = passed.side, .until = start + passed.hold, .band = passed.band};
 }
 
 std::optional<std::string> KickSeries::add(const std::string& name, double t, const LastZero& zero,

@@ -9,7 +9,7 @@
 ///     motion.events[0].energy_gain;
 ///
 /// Rounding must not repeat a zero that has just been passed: the event's value is held on the side to which it
-/// moves until it has risen above rounding (`with_zeros_passed`). Infinitely many kicks in a finite time are
+/// moves until it has risen above rounding (`held_from`). Infinitely many kicks in a finite time are
 /// recognized when the distance that the value travels from zero to zero falls below the tolerance, or the time
 /// between kicks below rounding, after both were larger (`KickSeries`).
 
@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "alembert/hybrid/held_guard.hpp"
 #include "alembert/ode/events.hpp"
 #include "alembert/ode/trajectory.hpp"
 
@@ -61,9 +62,8 @@ struct Kicks {
 std::vector<double> in_rates(const Kicks& kicks, const Rhs& rhs, double t, const std::vector<double>& state);
 std::vector<double> as_integrated(const Kicks& kicks, double t, const std::vector<double>& rates);
 
-/// The same events from `start` on, the first of which have just been passed as `passed` says.
-Events with_zeros_passed(const Events& events, std::vector<Event> list, std::vector<PassedZero> passed,
-                         double start);
+/// How an event that has just been passed is held from `start` on.
+HeldGuard held_from(double start, const PassedZero& passed);
 
 /// The series of kicks of one event.
 class KickSeries {

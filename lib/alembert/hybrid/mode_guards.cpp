@@ -14,6 +14,23 @@ namespace {
 constexpr double negligible_normal = 1e-9;
 constexpr double outgrown = 1e3;  // v has so many times the size of δ
 
+double value_of(const Watched& w, const SwitchSides& at, const std::vector<double>& normals) {
+    switch (w.what) {
+        case Watched::What::bound:
+            return w.sign * (at.sides().is_pair(w.index) ? at.share(w.index) : at.sign(w.index)) +
+                   w.offset * at.bound(w.index);
+        case Watched::What::turn:
+            return at.ahead(w.index);
+        case Watched::What::grain:
+            return outgrown * at.sides().slides[w.index / 2].grain - at.velocity(w.index).norm();
+        case Watched::What::normal:
+            return at.normal(w.index) + w.offset + 2 * negligible_normal * normals[w.index] +
+                   std::numeric_limits<double>::min();
+        default:
+            return w.sign * at.value(w.index);
+    }
+}
+
 }  // namespace
 
 std::vector<Watched> watches(const SwitchSides& now, PieceSpan span, const std::vector<double>& sizes) {
@@ -43,30 +60,17 @@ std::vector<Watched> watches(const SwitchSides& now, PieceSpan span, const std::
         const double rounding = 2 * off + 64 * tolerance::epsilon * sizes[k];
         if (one.sign * now.value(k) <= 64 * tolerance::epsilon * sizes[k]) {
             if (speed * (span.end - span.begin) > 1e6 * rounding)
-                one.open_until = span.begin + rounding / speed;
+                one.held.until = span.begin + rounding / speed;
             else
-                one.offset = rounding + 1e-13 * sizes[k] + std::numeric_limits<double>::min();
+                one.held.bound = rounding + 1e-13 * sizes[k] + std::numeric_limits<double>::min();
         }
         list.push_back(one);
     }
     return list;
 }
 
-double watched_value(const Watched& w, const SwitchSides& at, const std::vector<double>& normals) {
-    switch (w.what) {
-        case Watched::What::bound:
-            return w.sign * (at.sides().is_pair(w.index) ? at.share(w.index) : at.sign(w.index)) +
-                   w.offset * at.bound(w.index);
-        case Watched::What::turn:
-            return at.ahead(w.index);
-        case Watched::What::grain:
-            return outgrown * at.sides().slides[w.index / 2].grain - at.velocity(w.index).norm();
-        case Watched::What::normal:
-            return at.normal(w.index) + w.offset + 2 * negligible_normal * normals[w.index] +
-                   std::numeric_limits<double>::min();
-        default:
-            return w.sign * at.value(w.index) + w.offset;
-    }
+double watched_value(const Watched& w, double t, const SwitchSides& at, const std::vector<double>& normals) {
+    return w.held(t, value_of(w, at, normals));
 }
 
 }  // namespace alembert

@@ -4,9 +4,9 @@
 /// The values that are watched during a piece of a motion with held signs (filippov.hpp). The piece ends when one
 /// of them reaches zero.
 
-#include <cmath>
 #include <vector>
 
+#include "alembert/hybrid/held_guard.hpp"
 #include "alembert/hybrid/sliding_mode.hpp"
 
 namespace alembert {
@@ -16,9 +16,9 @@ namespace alembert {
 struct Watched {
     enum class What { side, bound, normal, turn, grain } what = What::side;
     int index;
-    double sign = 1;  ///< the event's value is sign·(g or α) + offset, for α with r·offset
-    double offset = 0;
-    double open_until = -HUGE_VAL;  ///< before this time the value counts as positive, whatever rounding says
+    double sign = 1;    ///< the event's value is sign·(g or α) + offset, for α with r·offset
+    double offset = 0;  ///< for normal forces and α
+    HeldGuard held = {};
 };
 
 /// The start of a piece, and its latest possible end.
@@ -30,7 +30,7 @@ struct PieceSpan {
 /// evaluated, with its bounds, at the start of the piece; `sizes` are the largest |g_k| so far.
 std::vector<Watched> watches(const SwitchSides& now, PieceSpan span, const std::vector<double>& sizes);
 
-/// The watched value, positive as long as the piece goes on. `normals` are the largest normal forces so far.
-double watched_value(const Watched& watched, const SwitchSides& at, const std::vector<double>& normals);
+/// The watched value at t, positive as long as the piece goes on. `normals` are the largest normal forces so far.
+double watched_value(const Watched& watched, double t, const SwitchSides& at, const std::vector<double>& normals);
 
 }  // namespace alembert

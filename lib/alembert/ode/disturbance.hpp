@@ -19,16 +19,17 @@
 /// rests is exact and remains so.
 ///
 /// The time at which a jump of the motion was found is rounded too. If it is off by τ, the motion after the jump
-/// is off by τ (f before − f after), which is added with the first step after it (`late`).
+/// is off by τ (f before − f after), which is added with the first step after it (RunPiece::late).
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "alembert/ode/integrate.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 
@@ -84,7 +85,9 @@ inline std::vector<double> late_by_rounding(std::uint64_t seed, const Jump& jump
 
 class Disturbance {
 public:
-    Disturbance(const Disturbed& by, double start) : late_(by.late), flutter_(by.seed, start) {}
+    /// `late`: what the first step begins too late by; may be empty.
+    Disturbance(std::uint64_t seed, std::vector<double> late, double start)
+        : late_(std::move(late)), flutter_(seed, start) {}
 
     /// The start of a step of length h.
     struct Start {

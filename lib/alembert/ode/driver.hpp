@@ -4,11 +4,10 @@
 /// One integration by steps of one kind, from options that have been checked to a trajectory. `integrate` is made
 /// of this; call that function.
 ///
-///     Trajectory motion = Driver<Step<dop853_tableau>>(rhs, initial, options, events).go();
-///     Trajectory motion = Driver<Stepper<Gauss>>(rhs, initial, options, events).go();
+///     Trajectory motion = Driver<Step<dop853_tableau>>(system, initial, options, events, piece).go();
+///     Trajectory motion = Driver<Stepper<Gauss>>(system, initial, options, events, piece).go();
 ///
-/// A step is any class with the members of Step (explicit_rk.hpp). One that has `next_length(ratio)` chooses the
-/// length of the next step itself, together with other things (an order, or whether to keep a factorization).
+/// stepper.hpp says what a step must have, and what it may have besides.
 ///
 /// In an accepted step, events are found first and recorded with the rows before them; an event that stops ends
 /// the run. Then the other rows are recorded, and the end of the step becomes the start of the next. This class
@@ -26,51 +25,49 @@
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/disturbance.hpp"
 #include "alembert/ode/event_watch.hpp"
-#include "alembert/ode/explicit_rk.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/missed_feature_check.hpp"
 #include "alembert/ode/recorder.hpp"
 #include "alembert/ode/rounding.hpp"
 #include "alembert/ode/step_collapse.hpp"
 #include "alembert/ode/step_size.hpp"
+#include "alembert/ode/stepper.hpp"
 #include "alembert/ode/stiffness.hpp"
 #include "alembert/ode/taylor_switch.hpp"
 
 namespace alembert {
 
-/// Seconds between rows.
-inline double sample_interval(const Options& options) {
-    return options.sample > 0 ? options.sample : options.duration / 200;
-}
-
 /// A run with one method: its step and the trajectory that it collects.
-template <class AnyStep>
+template <SomeStepper AnyStep>
 class Driver {
 public:
-    Driver(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
-        : options_(options),
+    Driver(const System& system, const std::vector<double>& initial, const Options& options, const Events& events,
+           const RunPiece& piece)
+        : system_(system),
+          options_(options),
+          piece_(piece),
           end_(options.start + options.duration),
-          grid_(options.grid.value_or(options.start)),
+          grid_(grid_of(options, piece)),
           events_(events),
           tolerance_(tolerance_within_rounding(options.tolerance)),
-          step_(rhs, options.start, initial, tolerance_),
-          watch_(events, rhs),
+          step_(system.rhs, options.start, initial, tolerance_),
+          watch_(events, system.rhs),
           rounding_(tolerance_),
-          stiffness_(stable_interval(), dearer(), options.turns.patience),
+          stiffness_(stable_interval(), dearer(), piece.turns.patience),
           recorder_(result_, events, sample_interval(options)),
           row_(initial.size()),
           event_rate_(initial.size()) {
-        if constexpr (requires { step_.end_run_at(end_); }) step_.end_run_at(end_);
-        result_.dimension = rhs.dimension;
-        result_.names = rhs.names;
+        if constexpr (PlansToTheEnd<AnyStep>) step_.end_run_at(end_);
+        result_.dimension = system.rhs.dimension;
+        result_.names = system.rhs.names;
         result_.statistics.method = name(options.method);
         if (options.duration > 0)
             result_.times.reserve(static_cast<std::size_t>(options.duration / sample_interval(options)) + 2);
         result_.states.reserve(result_.times.capacity() * initial.size());
         if (options.when_cheaper && !AnyStep::has_fixed_step && !needs_series(options.method))
-            series_.emplace(rhs, options.rhs_when_cheaper, options.effort_of_series, options.tolerance);
-        if (options.disturbed.seed != 0) disturbance_.emplace(options.disturbed, options.start);
-        if (options.grid && options.duration > 0)
+            series_.emplace(system.rhs, system.with_series, system.effort_of_series, options.tolerance);
+        if (options.disturbed.seed != 0) disturbance_.emplace(options.disturbed.seed, piece.late, options.start);
+        if (piece.grid && options.duration > 0)
             rows_on_grid_ +=
                 static_cast<long>(std::floor((options.start - grid_) / sample_interval(options) + 1e-9));
     }
@@ -104,11 +101,11 @@ private:
 
     /// What the budget bounds: a power series counts as the evaluations that take as long.
     long work() const {
-        if constexpr (requires { step_.effort(); }) return evaluations() + (of_series() - 1) * step_.evaluations();
+        if constexpr (KnowsSeries<AnyStep>) return evaluations() + (of_series() - 1) * step_.evaluations();
         return evaluations();
     }
     long of_series() const {
-        if constexpr (requires { step_.effort(); }) {
+        if constexpr (KnowsSeries<AnyStep>) {
             const double times = step_.effort() / effort_of_evaluation(step_.rhs(), false);
             return std::max(1L, static_cast<long>(std::min(times, 1e6)));
         }
@@ -118,7 +115,7 @@ private:
     /// The predicted effort of the steps so far (cost_model.hpp), without events.
     double effort() const { return static_cast<double>(step_.evaluations()) * effort_of_call(); }
     double effort_of_call() const {
-        if constexpr (requires { step_.effort(); }) return step_.effort();
+        if constexpr (KnowsSeries<AnyStep>) return step_.effort();
         return effort_of_evaluation(step_.rhs(), uses_jacobian(options_.method));
     }
 
@@ -142,17 +139,17 @@ private:
     /// An error estimate that consists of rounding does not get smaller with the step. A Taylor series has no such
     /// estimate.
     static double tolerance_within_rounding(double tolerance) {
-        if constexpr (requires(AnyStep s) { s.first_length(); }) return tolerance;
+        if constexpr (KnowsSeries<AnyStep>) return tolerance;
         return std::max(tolerance, 2 * std::numeric_limits<double>::epsilon());
     }
 
     double stable_interval() const {
-        if constexpr (requires { step_.stable_interval(); }) return step_.stable_interval();
+        if constexpr (KnowsStableInterval<AnyStep>) return step_.stable_interval();
         return traits(options_.method).stable_interval;
     }
 
     bool takes_fixed_steps() const {
-        if constexpr (requires { step_.first_length(); }) return options_.step > 0;
+        if constexpr (KnowsSeries<AnyStep>) return options_.step > 0;
         return false;
     }
 
@@ -170,11 +167,12 @@ private:
         const double longest = options_.longest_step > 0 ? options_.longest_step : options_.duration;
         StepSize control(AnyStep::estimate_order);
         double h = options_.step;
-        if constexpr (requires { step_.first_length(); }) {
+        if constexpr (KnowsSeries<AnyStep>) {
             h = step_.first_length();
         } else if (h == 0) {
-            h = options_.first_share * starting_step(step_.rhs(), {step_.time(), step_.state(), step_.rate()},
-                                                     tolerance_, AnyStep::estimate_order, longest);
+            h = options_.disturbed.first_step * starting_step(step_.rhs(),
+                                                              {step_.time(), step_.state(), step_.rate()},
+                                                              tolerance_, AnyStep::estimate_order, longest);
             ++further_evaluations_;
         }
         double misfit = 0;
@@ -203,13 +201,13 @@ private:
                 return change_to(*options_.when_stuck, Switch::Why::stuck, 0);
             if (good && !was_foreseen) h = std::min(h, 2 * step_.length());  // what is ahead is still there
             was_foreseen = is_foreseen;
-            if constexpr (!requires { step_.next_length(good, misfit); })
+            if constexpr (!ChoosesLength<AnyStep>)
                 if (is_held && good) h = std::max(h, wish);  // a step that was shortened on request is no forecast
         }
     }
 
     bool is_shrinking(double h) {
-        if constexpr (!requires { step_.first_length(); }) return false;
+        if constexpr (!KnowsSeries<AnyStep>) return false;
         if (!options_.when_stuck || step_.time() >= end_) return false;
         double fastest = 0;
         for (int i = 0; i < result_.dimension; ++i) fastest = std::max(fastest, std::abs(step_.rate()[i]));
@@ -224,7 +222,7 @@ private:
 
     /// The part of the error estimate of the step that may be rounding.
     double rounding() const {
-        if constexpr (requires { step_.rounding(); }) return step_.rounding();
+        if constexpr (KnowsRounding<AnyStep>) return step_.rounding();
         return rounding_.level(step_.length());
     }
 
@@ -232,12 +230,12 @@ private:
     double within_quick_times(double h) {
         const double t = step_.time();
         if (t + h <= latest_end_) return h;  // the latest end only grows with t
-        latest_end_ = latest_end(options_.quick_times, t);
+        latest_end_ = latest_end(system_.quick_times, t);
         return std::min(h, std::max(latest_end_ - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
     }
 
     double next_length(StepSize& control, bool accepted, double ratio) {
-        if constexpr (requires { step_.next_length(accepted, ratio); })
+        if constexpr (ChoosesLength<AnyStep>)
             return step_.next_length(accepted, ratio);
         else
             return accepted ? control.after_accepted(step_.length(), ratio)
@@ -254,17 +252,17 @@ private:
                                  .state = step_.state(),
                                  .rate = step_.rate()},
                                 state);
-                if (options_.project) options_.project(t, state);
+                if (system_.project) system_.project(t, state);
             });
-        else if (options_.project)
-            step_.correct(options_.project);
+        else if (system_.project)
+            step_.correct(system_.project);
         return step_.finish();
     }
 
     /// Whether the step has passed over nothing that the method cannot have seen, as far as that can be told. A
     /// step that is a good part of the run and has next to no error is looked at.
     bool is_foreseen_after(double misfit) {
-        if constexpr (requires { step_.foresees_end(); }) return step_.foresees_end();
+        if constexpr (KnowsSeries<AnyStep>) return step_.foresees_end();
         if (misfit > next_to_none * tolerance_) return true;  // so it is for most steps
         const int places = places_within(step_.length(), options_.duration);
         return places <= 1 || is_clear(stretch(), places, step_.rhs(), tolerance_, further_evaluations_);
@@ -274,7 +272,7 @@ private:
     void accept() {
         ++result_.statistics.steps;
         if (disturbance_) disturbance_->accept();
-        const bool is_last = options_.on_step_view && options_.on_step_view(stretch());
+        const bool is_last = piece_.on_step_view && piece_.on_step_view(stretch());
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
         const auto reach = [this](const Crossing& crossing) -> const std::vector<double>& {
             add_rows_before(crossing.time);
@@ -298,10 +296,9 @@ private:
     /// Keeps account of what steps cost, and ends this piece of the run where the other method is likely to be
     /// faster.
     void look_at_cost() {
-        if constexpr (!AnyStep::has_fixed_step && !requires { step_.first_length(); })
-            if constexpr (!requires { step_.rounding(); })
-                rounding_.look(step_.rhs(), step_.time(), step_.state(), step_.rate());
-        if (!options_.when_stiff && !options_.turns.back && !series_) return;
+        if constexpr (!AnyStep::has_fixed_step && !KnowsSeries<AnyStep> && !KnowsRounding<AnyStep>)
+            rounding_.look(step_.rhs(), step_.time(), step_.state(), step_.rate());
+        if (!options_.when_stiff && !piece_.turns.back && !series_) return;
         pace_.add(step_.time(), effort());
         if (work() >= options_.budget) return;
         if (series_ && series_->finds_cheaper({.t = step_.time(),
@@ -315,12 +312,12 @@ private:
             if (stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(), step_.length()))
                 change_to(*options_.when_stiff, Switch::Why::stiff, stiffness_.largest_eigenvalue());
         } else if (const std::optional<Switch::Why> why = reason_to_come_back()) {
-            change_to(*options_.turns.back, *why, largest_eigenvalue());
+            change_to(*piece_.turns.back, *why, largest_eigenvalue());
         }
     }
 
     double largest_eigenvalue() const {
-        if constexpr (requires { step_.largest_eigenvalue(); }) return step_.largest_eigenvalue();
+        if constexpr (KnowsEigenvalue<AnyStep>) return step_.largest_eigenvalue();
         return 0;
     }
 
@@ -329,15 +326,14 @@ private:
     std::optional<Switch::Why> reason_to_come_back() {
         constexpr double of_a_series = 8;  // of the usual orders
         constexpr long window = Pace::window;
-        const double known = traits(*options_.turns.back).stable_interval;
+        const double known = traits(*piece_.turns.back).stable_interval;
         const double border = (known > 0 ? known : of_a_series) / 2;
         mild_steps_ = step_.length() * largest_eigenvalue() < border ? mild_steps_ + 1 : 0;
         if (result_.statistics.steps % window != 0) return std::nullopt;
         const double earlier = std::exchange(earlier_length_, step_.length());
         if (!(step_.length() < 1.5 * earlier)) return std::nullopt;
         if (mild_steps_ >= window) return Switch::Why::mild;
-        if (options_.turns.effort_per_time > 0 &&
-            pace_.effort_per_time() > clearly * options_.turns.effort_per_time)
+        if (piece_.turns.effort_per_time > 0 && pace_.effort_per_time() > clearly * piece_.turns.effort_per_time)
             return Switch::Why::dear;
         return std::nullopt;
     }
@@ -399,16 +395,13 @@ private:
     bool is_over_budget() {
         const int watched = options_.when_stiff ? 1 : 0;
         if (work() + of_series() * step_.most_evaluations() + watched <= options_.budget) return false;
-        fail(FailureKind::budget_used_up, -1,
-             fmt::format("{} right-hand sides were not enough to come further than t = {}; raise the budget, "
-                         "loosen the tolerance or shorten the duration",
-                         options_.budget, step_.time()));
+        fail(FailureKind::budget_used_up, -1, budget_is_used_up(options_.budget, step_.time()));
         return true;
     }
 
     void fail_fixed() {
         const int bad = step_.worst_component();
-        if constexpr (requires { step_.solved(); })
+        if constexpr (SolvesEquations<AnyStep>)
             if (!step_.solved() && std::isfinite(step_.rate()[bad]))
                 return fail(
                     FailureKind::not_a_number, -1,
@@ -450,7 +443,9 @@ private:
                                   .component = component};
     }
 
+    const System& system_;
     const Options& options_;
+    const RunPiece& piece_;
     const double end_;
     const double grid_;  ///< the time from which rows are counted
     const Events& events_;

@@ -13,6 +13,7 @@
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
 #include "alembert/base/process_time.hpp"
+#include "alembert/hybrid/automaton.hpp"
 #include "alembert/ode/driver.hpp"
 #include "alembert/ode/hamiltonian.hpp"
 #include "alembert/ode/method_table.hpp"
@@ -71,88 +72,132 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
 namespace {
 
 template <class AnyStep>
-Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events) {
-    return Driver<AnyStep>(rhs, initial, options, events).go();
+Trajectory run(const System& system, const std::vector<double>& initial, const Options& options,
+               const Events& events, const RunPiece& piece) {
+    return Driver<AnyStep>(system, initial, options, events, piece).go();
 }
 
 constexpr std::array by_method =
     for_each_method([](const auto& row) { return &run<typename std::remove_cvref_t<decltype(row)>::Steps>; });
 
-/// Integrates the rest of a run whose method was changed, with rows on the same grid: if it was found to be stiff,
-/// by turns of both methods. The longer a run has come back in vain, the longer it does not look for stiffness.
-void go_on(Trajectory& whole, const Rhs& rhs, const Options& options, const Events& events) {
-    constexpr long first_patience = 50;
-    const double end = options.start + options.duration, interval = sample_interval(options);
-    std::optional<Rhs> implicit, series;
-    const auto once = [&rhs](std::optional<Rhs>& made, const std::function<Rhs()>& make) -> const Rhs& {
-        if (!made) made = make ? make() : rhs;
-        return *made;
-    };
-    Method usual = options.method;
-    std::optional<Method> when_stuck = options.when_stuck, when_cheaper = options.when_cheaper;
-    long patience = first_patience;
-    for (std::optional<Switch> next = whole.statistics.switched; next && whole.ending == Ending::completed;) {
-        const bool is_stiff = next->why == Switch::Why::stiff, is_stuck = next->why == Switch::Why::stuck;
-        const bool is_cheaper = next->why == Switch::Why::cheaper;
-        if (is_cheaper) when_stuck = std::exchange(usual, *when_cheaper);
-        if (is_stuck) usual = *std::exchange(when_stuck, {});
-        if (is_stuck || is_cheaper) when_cheaper = {};
-        Options rest = options;
-        rest.method = usual;
-        rest.when_stuck = when_stuck;
-        rest.when_cheaper = when_cheaper;
-        rest.start = whole.times.back();
-        rest.duration = end - rest.start;
+/// The methods of a run as modes (automaton.hpp), from where the first has given way to another: if the run was
+/// found to be stiff, both take turns. The longer a run has come back in vain, the longer it does not look for
+/// stiffness.
+class MethodsInTurn {
+public:
+    MethodsInTurn(Trajectory& whole, const System& system, const Options& options, const Events& events)
+        : whole_(whole),
+          system_(system),
+          options_(options),
+          events_(events),
+          now_{.t = whole.times.back(), .state = {whole.final_state().begin(), whole.final_state().end()}},
+          next_(whole.statistics.switched),
+          usual_(options.method),
+          when_stuck_(options.when_stuck),
+          when_cheaper_(options.when_cheaper) {}
+
+    MotionState& now() { return now_; }
+
+    Mode enter(Options rest, RunPiece piece) {
+        const bool is_stiff = next_->why == Switch::Why::stiff, is_stuck = next_->why == Switch::Why::stuck;
+        const bool is_cheaper = next_->why == Switch::Why::cheaper;
+        if (is_cheaper) when_stuck_ = std::exchange(usual_, *when_cheaper_);
+        if (is_stuck) usual_ = *std::exchange(when_stuck_, {});
+        if (is_stuck || is_cheaper) when_cheaper_ = {};
+        rest.method = usual_;
+        rest.when_stuck = when_stuck_;
+        rest.when_cheaper = when_cheaper_;
         rest.step = 0;
-        rest.disturbed.late = {};
-        rest.sample = interval;
-        rest.grid = options.grid.value_or(options.start);
-        rest.budget = std::max(1L, options.budget - whole.statistics.work);
         if (is_stiff) {
-            rest.turns.effort_per_time = next->effort_per_time;
-            rest.method = *options.when_stiff;
+            rest.method = *options_.when_stiff;
             rest.when_stiff = {};
-            rest.turns.back = usual;
-            rest.step = next->step;
+            rest.step = next_->step;
+            piece.turns.back = usual_;
+            piece.turns.effort_per_time = next_->effort_per_time;
         } else if (!is_stuck && !is_cheaper) {
-            rest.turns.patience = patience;
-            patience *= 4;
+            piece.turns.patience = patience_;
+            patience_ *= 4;
         }
-        const std::vector<double> state(whole.final_state().begin(), whole.final_state().end());
-        const Rhs& system = is_stiff                                   ? once(implicit, options.rhs_when_stiff)
-                            : needs_series(rest.method) && !rhs.series ? once(series, options.rhs_when_cheaper)
-                                                                       : rhs;
-        if (options.on_method) options.on_method(rest.method);
-        Trajectory piece = by_method[static_cast<std::size_t>(rest.method)](system, state, rest, events);
-        next = std::exchange(piece.statistics.switched, {});
-        if (next) whole.statistics.later_switches.push_back(*next);
-        append(whole, std::move(piece), *rest.grid, interval);
+        System system = system_;
+        if (is_stiff)
+            system.rhs = once(implicit_, system_.with_jacobian);
+        else if (needs_series(rest.method) && !system_.rhs.series)
+            system.rhs = once(series_, system_.with_series);
+        if (system_.on_method) system_.on_method(rest.method);
+        grid_ = *piece.grid;
+        return {.system = std::move(system),
+                .guards = events_,
+                .options = rest,
+                .piece = std::move(piece),
+                .integrate = by_method[static_cast<std::size_t>(rest.method)]};
     }
-    if (whole.failure && whole.failure->kind == FailureKind::budget_used_up)
-        whole.failure->message = fmt::format(
-            "{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen the "
-            "tolerance or shorten the duration",
-            options.budget, whole.failure->time);
-}
+
+    void collect(Trajectory part) {
+        next_ = std::exchange(part.statistics.switched, {});
+        if (next_) whole_.statistics.later_switches.push_back(*next_);
+        append(whole_, std::move(part), grid_, sample_interval(options_));
+    }
+
+    bool next_mode(const Hit&) const { return next_ && whole_.ending == Ending::completed; }
+    std::string changes() const { return {}; }
+
+private:
+    const Rhs& once(std::optional<Rhs>& made, const std::function<Rhs()>& make) const {
+        if (!made) made = make ? make() : system_.rhs;
+        return *made;
+    }
+
+    Trajectory& whole_;
+    const System& system_;
+    const Options& options_;
+    const Events& events_;
+    MotionState now_;
+    std::optional<Switch> next_;
+    Method usual_;  ///< the one that is left when the run is found to be stiff
+    std::optional<Method> when_stuck_, when_cheaper_;
+    long patience_ = 50;
+    double grid_ = 0;
+    std::optional<Rhs> implicit_ = {}, series_ = {};
+};
 
 }  // namespace
 
-Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
-                     const Events& events) {
-    check_options(rhs, initial, options);
-    const double start = thread_seconds();
-    if (options.on_method) options.on_method(options.method);
-    if (options.regularization != Regularization::none) {
-        Trajectory result = integrate_regularized(rhs, initial, options, events);
-        result.statistics.seconds = thread_seconds() - start;
-        return result;
+System with_abilities_in(const Options& options, System system) {
+    if (!system.project) system.project = options.project;
+    if (system.quick_times.empty()) system.quick_times = options.quick_times;
+    return system;
+}
+
+Trajectory integrate(const System& system, const std::vector<double>& initial, const Options& options,
+                     const Events& events, const RunPiece& piece) {
+    if (options.project || !options.quick_times.empty()) {
+        Options wishes = options;
+        wishes.project = {};
+        wishes.quick_times = {};
+        return integrate(with_abilities_in(options, system), initial, wishes, events, piece);
     }
-    Trajectory result = options.by
-                            ? options.by(rhs, initial, options, events)
-                            : by_method[static_cast<std::size_t>(options.method)](rhs, initial, options, events);
-    if (result.statistics.switched && result.ending == Ending::completed) go_on(result, rhs, options, events);
+    check_options(system.rhs, initial, options);
+    const double start = thread_seconds();
+    if (system.on_method) system.on_method(options.method);
+    Trajectory result;
+    if (options.regularization != Regularization::none) {
+        result = integrate_regularized(system, initial, options, events, piece);
+    } else if (system.by) {
+        result = system.by(system, initial, options, events, piece);
+    } else {
+        result = by_method[static_cast<std::size_t>(options.method)](system, initial, options, events, piece);
+        if (result.statistics.switched && result.ending == Ending::completed) {
+            MethodsInTurn modes(result, system, options, events);
+            run_modes(modes, options, piece, result.statistics.work);
+        }
+    }
     result.statistics.seconds = thread_seconds() - start;
     return result;
+}
+
+Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
+                     const Events& events) {
+    return integrate(System{.rhs = rhs}, initial, options, events);
 }
 
 void throw_failure(const Failure& failure) {

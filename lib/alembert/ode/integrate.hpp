@@ -5,6 +5,7 @@
 ///
 ///     const Rhs rhs = make_rhs(load(compile(text, "pendulum", {}).object));
 ///     const Trajectory motion = integrate(rhs, {0.5, 0.0}, {.duration = 10, .tolerance = 1e-12});
+///     const Trajectory kept = integrate(System{.rhs = rhs, .project = project}, {0.5, 0.0}, {.duration = 10});
 ///     const std::span<const double> end = motion.final_state();
 ///
 /// | method | order | steps | dense output | stable for hλ (y' = λy) |
@@ -40,101 +41,30 @@
 /// std::invalid_argument is thrown for invalid options and for initial values that are not finite; each message
 /// says which one is wrong (argument.hpp). Nothing is allocated per step.
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "alembert/ode/events.hpp"
-#include "alembert/ode/input_time_scales.hpp"
 #include "alembert/ode/methods.hpp"
+#include "alembert/ode/options.hpp"
+#include "alembert/ode/piece.hpp"
 #include "alembert/ode/rhs.hpp"
+#include "alembert/ode/system.hpp"
 #include "alembert/ode/trajectory.hpp"
 
 namespace alembert {
 
-/// Called with the start, then with the end of each accepted step (or with the event that ends the run in it).
-using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
-
-/// Called with the method before each piece of a run that it takes.
-using OnMethod = std::function<void(Method)>;
-
-/// Called with each accepted step before the next one; returns whether the run ends with it.
-using OnStepView = std::function<bool(const StepView&)>;
-
-/// The time in which steps are counted: t, or one of its own that makes steps short where the potential is deep,
-/// in the form for any system or in that for constant masses and forces of positions (time_transformation.hpp).
-enum class Regularization { none, rescaled, canonical };
-
-/// Changes of a run that are a few times as large as its rounding (disturbance.hpp).
-struct Disturbed {
-    std::uint64_t seed = 0;         ///< 0: nothing is changed
-    std::vector<double> late = {};  ///< is added with the first step; empty: nothing
-};
-
-struct Options;
-/// An integrator of another library for one system. It gets options that have been checked, and returns rows,
-/// events, statistics (with its name) and failures like `integrate`.
-using Integrator = std::function<Trajectory(const Rhs& rhs, const std::vector<double>& initial,
-                                            const Options& options, const Events& events)>;
-
-/// What a piece of a run knows of the other method of the run. `integrate` sets it.
-struct MethodSwitching {
-    std::optional<Method> back = {};  ///< the explicit method to which a run that was found stiff may come back
-    double effort_per_time = 0;       ///< of the explicit method; 0: not known
-    long patience = 0;                ///< steps before which no stiffness is looked for
-};
-
-struct Options {
-    Method method = Method::dop853;
-    double start = 0;
-    double duration = 0;      ///< counted from the start; 0 gives one row
-    double tolerance = 1e-9;  ///< adaptive methods
-    double step = 0;  ///< the step of methods with a fixed step, and of taylor if given; for the others the first
-                      ///< step, found automatically if 0
-    double longest_step = 0;  ///< for adaptive methods; 0 means no bound
-    double first_share = 1;   ///< a first step that is found automatically is multiplied by this
-    std::vector<QuickTime> quick_times =
-        {};  ///< for adaptive methods: the times at which steps have to be shorter (input_time_scales.hpp)
-    double sample = 0;                ///< time between rows; 0: duration/200
-    std::optional<double> grid = {};  ///< rows fall on grid + k·sample; if missing, on start + k·sample
-    /// The most evaluations of the right-hand side; no step is begun that could exceed it.
-    long budget = 10'000'000;
-    /// If stiffness is found to limit the steps of an explicit method (stiffness.hpp), the run goes on with this
-    /// method. It comes back where the explicit one would be stable with the same steps, or where the steps of the
-    /// other turn out to cost more (cost_model.hpp).
-    std::optional<Method> when_stiff = {};
-    std::function<Rhs()> rhs_when_stiff =
-        {};  ///< gives the same system with its Jacobian at that time; if empty, the same Rhs is used
-    /// Where no step is short enough, or where a power series needs steps of a twentieth of its longest though
-    /// the motion is no faster, the run goes on with this method to its end. Where a linkage lies flat, pivots of
-    /// its equations pass through zero: values beside that pose are still good, but the coefficients of a series
-    /// lose all digits as it comes close.
-    std::optional<Method> when_stuck = {};
-    /// If the steps of an explicit method turn out to cost clearly more than those of a power series would
-    /// (taylor_switch.hpp), the run goes on with this method, which must be taylor. It comes back where the steps
-    /// of the series become very short, as above.
-    std::optional<Method> when_cheaper = {};
-    std::function<Rhs()> rhs_when_cheaper =
-        {};  ///< gives the same system with its series, if it has one; if empty, the same Rhs is used
-    double effort_of_series = 0;  ///< predicted time of that call, ns
-    MethodSwitching turns = {};
-    OnMethod on_method = {};  ///< may be empty
-    OnStep on_step = {};      ///< may be empty
-    /// Moves the end of each step onto the constraints after its error was found small enough; may be empty.
-    std::function<void(double t, double* state)> project = {};
-    Integrator by = {};            ///< takes the place of `method`; may be empty
-    OnStepView on_step_view = {};  ///< may be empty
-    Regularization regularization = Regularization::none;
-    Disturbed disturbed = {};  ///< for estimates of what rounding does
-};
-
 /// The check of options with which `integrate` begins.
 void check_options(const Rhs& rhs, const std::vector<double>& initial, const Options& options);
 
+/// `piece` is for runs that come in pieces (piece.hpp).
+Trajectory integrate(const System& system, const std::vector<double>& initial, const Options& options,
+                     const Events& events = {}, const RunPiece& piece = {});
+
+/// A system that can no more than its right-hand side.
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
                      const Events& events = {});
+
+/// The system with `project` and `quick_times` of options in which a program of version 0.1 gives them.
+System with_abilities_in(const Options& options, System system);
 
 }  // namespace alembert

@@ -69,7 +69,7 @@ std::string method_names();
 
 /// The name that leaves the choice to the program.
 constexpr std::string_view automatic_method = "auto";
-/// Names that are kept for SUNDIALS' integrators (Options::by); they choose their own steps.
+/// Names that are kept for SUNDIALS' integrators (System::by); they choose their own steps.
 std::span<const std::string_view> sundials_methods();
 /// All words that may be written where a method is chosen: "auto", the methods, and those of SUNDIALS.
 std::vector<std::string> method_words();

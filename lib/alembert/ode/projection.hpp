@@ -7,6 +7,7 @@
 ///     Projection project(module, values);
 ///     project(t, state);                     // state: q, u, and quadratures, which stay as they are
 ///     const Rhs rhs = project.guarded(make_rhs(module, values), values);
+///     const Trajectory motion = integrate(System{.rhs = rhs, .project = project.after_steps()}, start, options);
 ///
 /// Positions: δq = −M⁻¹Aᵀ (A M⁻¹Aᵀ)⁺ f, repeated until f stops shrinking; then rates: δq' follows from A q' + b in
 /// the same way (Hairer & Wanner, Solving ODEs II, §VII.2). The mass-weighted norm leaves the motion along the
@@ -47,7 +48,7 @@ public:
     explicit Projection(const Module& module, const std::vector<double>& values = {});
     void operator()(double t, double* state);
 
-    /// This object as a function for Options::project; empty if the speeds have eliminated all constraints and
+    /// This object as a function for System::project; empty if the speeds have eliminated all constraints and
     /// none is holonomic.
     std::function<void(double t, double* state)> after_steps();
 

@@ -25,8 +25,8 @@
 
 #include <Eigen/Dense>
 
-#include "alembert/ode/hamiltonian.hpp"
 #include "alembert/ode/formula.hpp"
+#include "alembert/ode/hamiltonian.hpp"
 #include "alembert/ode/symplectic.hpp"
 
 namespace alembert {

@@ -22,8 +22,8 @@
 #include <cmath>
 #include <vector>
 
-#include "alembert/ode/integrate.hpp"
 #include "alembert/ode/methods.hpp"
+#include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 

@@ -106,26 +106,34 @@ Rhs system_of(const OwnTime& own) {
 /// The run in s, and what it tells in t.
 class OwnTimeRun {
 public:
-    OwnTimeRun(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
-        : own_(own_time_of(rhs, initial, options)),
+    OwnTimeRun(const System& given, const std::vector<double>& initial, const Options& options,
+               const Events& events, const RunPiece& piece)
+        : own_(own_time_of(given.rhs, initial, options)),
           options_(options),
+          piece_(piece),
           events_(events),
-          system_(system_of(own_)),
+          system_{.rhs = system_of(own_), .on_method = given.on_method},
           end_(options.start + options.duration),
           interval_(sample_interval(options)),
-          grid_(options.grid.value_or(options.start)),
+          grid_(grid_of(options, piece)),
           step_start_(initial),
           row_(initial.size() + 1) {
         step_start_.push_back(options.start);
         rate_.resize(initial.size());
-        result_.dimension = rhs.dimension;
-        result_.names = rhs.names;
+        result_.dimension = given.rhs.dimension;
+        result_.names = given.rhs.names;
+        if (given.project)
+            system_.project = [this, project = given.project](double, double* state) {
+                project(time_of(state), state);
+            };
         add_row(step_start_);
-        if (options.grid) next_row_ += static_cast<long>(std::floor((options.start - grid_) / interval_ + 1e-9));
+        if (piece.grid) next_row_ += static_cast<long>(std::floor((options.start - grid_) / interval_ + 1e-9));
     }
 
     Trajectory go() && {
-        const Trajectory inner = integrate(system_, step_start_, inner_options(), events_in_own_time());
+        const Trajectory inner =
+            integrate(system_, step_start_, inner_options(), events_in_own_time(),
+                      {.late = piece_.late, .on_step_view = [this](const StepView& step) { return look(step); }});
         result_.statistics = inner.statistics;
         result_.statistics.evaluations += further_evaluations_;
         result_.statistics.work += further_evaluations_;
@@ -148,18 +156,11 @@ private:
         inner.start = 0;
         inner.duration = far * (options_.step > 0 ? options_.step : options_.duration);
         inner.sample = inner.duration;
-        inner.grid = {};
-        inner.quick_times = {};  // they are in t
         inner.when_stiff = {};
         inner.when_stuck = {};
-        inner.rhs_when_stiff = {};
         inner.when_cheaper = {};
-        inner.by = {};
         if (options_.duration == 0) inner.duration = 0;
-        inner.on_step_view = [this](const StepView& step) { return look(step); };
         inner.on_step = [this](double, std::span<const double> state, std::span<const double>) { tell(state); };
-        if (options_.project)
-            inner.project = [this](double, double* state) { options_.project(time_of(state), state); };
         return inner;
     }
 
@@ -233,12 +234,11 @@ private:
         double left = 0;
         for (int round = 0; round < most_rounds && h > 0; ++round) {
             Options last = inner_options();
-            last.on_step_view = {};
             last.on_step = {};
             last.start = 0;
             last.duration = last.sample = h;
             if (has_fixed_step(options_.method)) last.step = h;
-            const Trajectory piece = integrate(system_, step_start_, last);
+            const Trajectory piece = integrate(system_, step_start_, last, {}, {.late = piece_.late});
             further_evaluations_ += piece.statistics.evaluations + 1;
             if (piece.failure) break;
             state.assign(piece.final_state().begin(), piece.final_state().end());
@@ -295,10 +295,7 @@ private:
     void fail(Failure failure) {
         failure.time = time_of(failure.state.data());
         if (failure.kind == FailureKind::budget_used_up)
-            failure.message = fmt::format(
-                "{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen the "
-                "tolerance or shorten the duration",
-                options_.budget, failure.time);
+            failure.message = budget_is_used_up(options_.budget, failure.time);
         else if (failure.kind == FailureKind::step_underflow)
             failure.message = fmt::format(
                 "step size underflow at t = {}; there may be a singularity here, or the "
@@ -320,8 +317,9 @@ private:
 
     OwnTime own_;
     const Options& options_;
+    const RunPiece& piece_;
     const Events& events_;
-    Rhs system_;
+    System system_;  ///< in s; quick times are in t
     double end_, interval_, grid_;
     std::vector<double> step_start_, end_state_, row_, rate_, inner_rate_;
     Trajectory result_;
@@ -331,9 +329,9 @@ private:
 
 }  // namespace
 
-Trajectory integrate_regularized(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
-                                 const Events& events) {
-    return OwnTimeRun(rhs, initial, options, events).go();
+Trajectory integrate_regularized(const System& system, const std::vector<double>& initial, const Options& options,
+                                 const Events& events, const RunPiece& piece) {
+    return OwnTimeRun(system, initial, options, events, piece).go();
 }
 
 }  // namespace alembert

@@ -30,6 +30,9 @@
 /// between two steps is a state on the step's dense output whose t is that of the row. The last step is repeated
 /// with lengths from Newton's method until it ends at the end of the run.
 ///
+/// It is one piece with another clock, and no mode of the automaton (hybrid/automaton.hpp): its right-hand side,
+/// rows and end are different from those in t, and nothing comes after it.
+///
 /// Sources: S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287-295; M. Preto & S. Tremaine,
 /// Astron. J. 118 (1999) 2532-2541; Hairer, Lubich, Wanner,
 /// Geometric Numerical Integration, 2nd ed. 2006, §VIII.2.
@@ -41,7 +44,7 @@ namespace alembert {
 /// What `integrate` calls if Options::regularization is given. Throws std::invalid_argument if the right-hand side
 /// has no energies or has quadratures, if V is not negative at the start, for the canonical form of a state that
 /// is not (q, q'), and for methods that need more of a system than its right-hand side (taylor, rattle).
-Trajectory integrate_regularized(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
-                                 const Events& events);
+Trajectory integrate_regularized(const System& system, const std::vector<double>& initial, const Options& options,
+                                 const Events& events, const RunPiece& piece);
 
 }  // namespace alembert
