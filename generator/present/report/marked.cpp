@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
-#include "check/slip_words.hpp"
 #include "present/report/check.hpp"
 #include "present/report/page.hpp"
 #include "scene/text.hpp"

@@ -5,7 +5,6 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
-#include "check/slip_words.hpp"
 #include "check/written/read.hpp"
 #include "present/report/html.hpp"
 #include "present/report/marked.hpp"
