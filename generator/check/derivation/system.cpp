@@ -4,6 +4,7 @@
 #include "analysis/state/force_balance.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
+#include "model/formalism/needs.hpp"
 #include "model/formalism/routh.hpp"
 
 namespace alembert {
@@ -47,28 +48,27 @@ std::vector<ex> DerivedSystem::euler_lagrange(const ex& function) const {
     return result;
 }
 
-// The rows of the speeds and of the constraints, as far as they are independent in this order, are a square
-// matrix.
+// Kane's equations solve the speeds and the constraints for the rates.
+std::vector<std::vector<ex>> DerivedSystem::solved_speeds() const {
+    const Equations solved = formalism_for(Need::minimal_speeds).derive(derived_.mechanism);
+    m_.z->adopt(*solved.z);
+    std::vector<std::vector<ex>> result(m_.speeds.size());
+    for (const ex& rate : solved.h) {
+        const std::vector<ex> slopes = m_.z->pull_back({{rate, 1}}, solved.u);
+        for (std::size_t k = 0; k < result.size(); ++k)
+            for (std::size_t j = 0; j < solved.u.size(); ++j)
+                if (solved.u[j].get_name() == m_.speeds[k].u.get_name()) result[k].push_back(slopes[j]);
+    }
+    return result;
+}
+
 std::vector<ex> DerivedSystem::rates_by_speed(std::size_t speed) const {
-    constexpr std::size_t most = 7;
-    const std::size_t n = m_.q.size();
-    if (n > most || m_.speeds.size() + e_.A.size() < n) return {};
-    GiNaC::matrix rows(static_cast<unsigned>(n), static_cast<unsigned>(n)), unit(static_cast<unsigned>(n), 1);
-    for (std::size_t k = 0; k < n; ++k) {
-        const bool of_speed = k < m_.speeds.size();
-        const std::vector<ex>& row = of_speed ? m_.speeds[k].row : e_.A[k - m_.speeds.size()];
-        for (std::size_t i = 0; i < n; ++i)
-            rows(static_cast<unsigned>(k), static_cast<unsigned>(i)) = m_.z->expand(row[i]);
-        unit(static_cast<unsigned>(k), 0) = k == speed ? 1 : 0;
-    }
-    try {
-        const GiNaC::matrix inverse = rows.inverse();
-        std::vector<ex> result;
-        for (unsigned i = 0; i < n; ++i) result.push_back(m_.z->name(inverse.mul(unit)(i, 0)));
-        return result;
-    } catch (const std::exception&) {  // singular
-        return {};
-    }
+    if (!rates_by_speed_) try {
+            rates_by_speed_ = solved_speeds();
+        } catch (const std::exception&) {  // the speeds do not determine the rates
+            rates_by_speed_.emplace(m_.speeds.size());
+        }
+    return (*rates_by_speed_)[speed];
 }
 
 ex DerivedSystem::without_accelerations(const ex& e) const {

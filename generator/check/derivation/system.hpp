@@ -58,6 +58,10 @@ public:
                                     const std::map<std::string, GiNaC::ex>& known) const;
 
 private:
+    std::vector<std::vector<GiNaC::ex>> solved_speeds() const;
+
+    mutable std::optional<std::vector<std::vector<GiNaC::ex>>>
+        rates_by_speed_;  ///< made when it is first asked for
     Derived derived_;
     std::string by_;
     Mechanism m_;
