@@ -354,7 +354,9 @@ def slip_in(rng, formula, coordinates):
         changed = ("-" if sign == "+" else "+", term)
     elif kind == "factor":
         halves = one_place(rng, r"\\frac\{1\}\{2\} ", "", term)
-        changed = (sign, halves if halves else "2 " + term)
+        number = re.match(r"\d+(?= )", term)
+        doubled = f"{2 * int(number.group())}{term[number.end():]}" if number else "2 " + term
+        changed = (sign, halves if halves else doubled)
     elif kind == "lost_dot":
         new = one_place(rng, r"\\ddot", r"\\dot", term) or one_place(
             rng, rf"\\dot\{{({LETTER})\}}", r"\1", term)

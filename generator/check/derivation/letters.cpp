@@ -75,6 +75,8 @@ std::string index_word(const std::string& index) {
     std::string result;
     for (const char c : in_latin(index))
         if (std::isalnum(static_cast<unsigned char>(c)) != 0) result += c;
+    for (const char* const variant : {"varphi", "vartheta", "varepsilon", "varrho"})  // u_\\varphi is u_phi
+        if (const std::size_t at = result.find(variant); at != std::string::npos) result.erase(at, 3);
     return result;
 }
 

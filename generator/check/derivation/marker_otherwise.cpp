@@ -42,7 +42,7 @@ bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
 bool Marker::is_assumption(MarkedLine& line, const Sides& sides) const {
     const auto is_plain = [&](const Math& math) {
         const Math& inner = math.kind == Kind::negate ? *math.args[0] : math;
-        return inner.kind == Kind::number || inner.kind == Kind::letter;
+        return inner.kind == Kind::number || (inner.kind == Kind::letter && inner.dots < 2);
     };
     if (statement_->displayed || !is_plain(*sides.lhs) || !is_plain(*sides.rhs)) return false;
     const auto moves = [&](const ClaimText& side) {
