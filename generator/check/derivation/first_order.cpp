@@ -32,12 +32,13 @@ std::vector<BaseState> base_states(const Scene& scene) {
     return result;
 }
 
-bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_constant,
-              const DerivedSystem& system) {
+namespace {
+
+/// The expression along deviations of this size.
+ex along_deviations(const ex& residual, const BaseState& base, const GiNaC::symbol& small,
+                    const DerivedSystem& system) {
     const Mechanism& m = system.mechanism();
-    if (m.z->tree_size(residual) > longest) return false;
     World world(system.scene(), m, system.sheets());
-    const GiNaC::symbol small("small");
     GiNaC::exmap near;
     for (int i = 0; i < m.size(); ++i) {
         ex value = 0;
@@ -47,13 +48,31 @@ bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_c
         near[m.qdot[i]] = small * m.qdot[i];
         near[m.qddot[i]] = small * m.qddot[i];
     }
-    ex along = m.z->expand(residual).subs(near, GiNaC::subs_options::no_pattern);
+    return m.z->expand(residual).subs(near, GiNaC::subs_options::no_pattern);
+}
+
+}  // namespace
+
+bool is_small(const ex& residual, const BaseState& base, int order, bool up_to_constant,
+              const DerivedSystem& system) {
+    const Mechanism& m = system.mechanism();
+    if (m.z->tree_size(residual) > longest) return false;
+    const GiNaC::symbol small("small");
+    ex along = along_deviations(residual, base, small, system);
     for (int k = 0; k <= order; ++k) {
         const ex at = along.subs(small == 0, GiNaC::subs_options::no_pattern);
         if ((k > 0 || !up_to_constant) && !is_identically_zero(at, m)) return false;
         if (k < order) along = along.diff(small);
     }
     return true;
+}
+
+std::optional<ex> linear_part(const ex& residual, const BaseState& base, const DerivedSystem& system) {
+    const Mechanism& m = system.mechanism();
+    if (m.z->tree_size(residual) > longest) return std::nullopt;
+    const GiNaC::symbol small("small");
+    const ex along = along_deviations(residual, base, small, system);
+    return along.diff(small).subs(small == 0, GiNaC::subs_options::no_pattern);
 }
 
 std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,

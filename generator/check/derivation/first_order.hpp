@@ -26,6 +26,10 @@ std::vector<BaseState> base_states(const Scene& scene);
 bool is_small(const GiNaC::ex& residual, const BaseState& base, int order, bool up_to_constant,
               const DerivedSystem& system);
 
+/// The part of first order in the deviations; nothing for what is too long.
+std::optional<GiNaC::ex> linear_part(const GiNaC::ex& residual, const BaseState& base,
+                                     const DerivedSystem& system);
+
 /// Whether the line holds on every motion near the state, to first order; nothing if that cannot be told (the
 /// state is no equilibrium).
 std::optional<CheckedClaim> checked_near(const LineClaim& line, const BaseState& base, const DerivedSystem& system,

@@ -215,6 +215,11 @@ bool Marker::follows(MarkedLine& line, const Sides& sides) {
     line.follows_from = rows.is_identity(own) == true ? own_.wrong_in(sides.own_names())
                                                       : own_.explained_by(own, speaks_of_small_);
     if (!line.follows_from) line.follows_from = own_.explained_by_relations(own.residual);
+    if (!line.follows_from && speaks_of_small_) {
+        const BaseState base = near_ ? *near_ : base_states(system_.scene()).front();
+        line.follows_from = own_.explained_by_linearizing(
+            own.residual, [&](const ex& e) { return linear_part(e, base, system_); });
+    }
     if (!line.follows_from) return false;
     line.status = LineStatus::follows;
     line.reason = say("it follows from line {}", lines[*line.follows_from].line);

@@ -280,6 +280,22 @@ std::optional<std::size_t> OwnWorld::explains_frequency(const ex& square) {
     return is_identically_zero(m.z->name(rows.determinant()), m) ? wrong : std::nullopt;
 }
 
+std::optional<std::size_t> OwnWorld::explained_by_linearizing(
+    const ex& residual, const std::function<std::optional<ex>(const ex&)>& linear) {
+    MotionRows& rows = system_.rows();
+    const std::optional<ex> small = linear(residual);
+    if (!small) return std::nullopt;
+    const MotionRow row = rows.row(*small);
+    for (auto equation = equations_.rbegin(); equation != equations_.rend(); ++equation) {
+        if (!equation->is_wrong || equation->is_near) continue;
+        const std::optional<ex> own = linear(equation->row.residual);
+        if (!own) continue;
+        const MotionRow given = rows.row(*own);
+        if (rows.follows(row, {&given}, false)) return equation->line;
+    }
+    return std::nullopt;
+}
+
 bool OwnWorld::founds(const MotionRow& row) {
     MotionRows& rows = system_.rows();
     std::vector<const MotionRow*> given;

@@ -10,6 +10,7 @@
 /// What the derivation does not state is as it is in the system, and what follows from its own values follows: L
 /// is T − V, p is ∂L/∂q'. Each value knows the wrong line that it comes from, if there is one.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -56,6 +57,9 @@ public:
     /// The wrong line that explains this ω²: the derivation's own equations near an equilibrium have this
     /// frequency.
     std::optional<std::size_t> explains_frequency(const GiNaC::ex& square);
+    /// The wrong equation that gives this row once both are linearized by `linear`.
+    std::optional<std::size_t> explained_by_linearizing(
+        const GiNaC::ex& residual, const std::function<std::optional<GiNaC::ex>(const GiNaC::ex&)>& linear);
     /// Whether a right equation follows from the derivation's own quantities or equations, or these are all right.
     bool founds(const MotionRow& row);
     /// Whether generalized forces contain those of the potential: d/dt ∂T/∂q' − ∂T/∂q = Q.
