@@ -15,7 +15,6 @@
 #include "checked.hpp"
 #include "model/formalism/routh.hpp"
 #include "model/formulas.hpp"
-#include "model/own_quantities.hpp"
 #include "oracle.hpp"
 #include "program/interpret.hpp"
 #include "program/lower/lower.hpp"
@@ -217,35 +216,6 @@ H = p_theta^2/(m*l^2) - m*g*l*cos(theta)
 )"));
     check_verdicts(result, {Verdict::proved, Verdict::proved, Verdict::proved, Verdict::proved, Verdict::proved,
                             Verdict::refuted});
-}
-
-TEST_CASE("claims: in a mechanism with stated quantities, what follows from them is right") {
-    Scene scene = pendulum();
-    const Mechanism m = prepared(scene).mechanism;
-    std::vector<Diagnostic> none;
-    const auto value = [&](const std::string& text) {
-        Formulas formulas(scene, m);
-        return formulas.value(parse_expression(text, {}, none));
-    };
-    const auto verdicts = [&](const Mechanism& world, const std::string& claims) {
-        std::vector<Verdict> result;
-        for (const CheckedClaim& c : check(with_claims(scene, claims, "claims.txt"), world).claims)
-            result.push_back(c.verdict);
-        return result;
-    };
-    const std::string claims =
-        "T = m*l^2*theta'^2\n2*l*theta'' + g*sin(theta) = 0\nl*theta'' + g*sin(theta) = 0\np_theta = "
-        "2*m*l^2*theta'\n";
-    using enum Verdict;
-    CHECK(verdicts(m, claims) == std::vector{refuted, refuted, proved, refuted});
-    const Mechanism own = with_own(m, {.kinetic = value("m*l^2*theta'^2")});
-    CHECK(verdicts(own, claims) == std::vector{proved, proved, refuted, proved});
-    const Mechanism by_L = with_own(m, {.lagrangian = value("m*l^2*theta'^2/2 - m*g*l*cos(theta)")});
-    CHECK(verdicts(by_L, "l*theta'' - g*sin(theta) = 0\nT = m*l^2*theta'^2/2\n") == std::vector{proved, proved});
-    const Mechanism by_Q =
-        with_own(m, {.forces = {{"theta", value("m*g*l*sin(theta)")}}, .forces_are_whole = true});
-    CHECK(verdicts(by_Q, "l*theta'' - g*sin(theta) = 0\nQ_theta = m*g*l*sin(theta)\n") ==
-          std::vector{proved, proved});
 }
 
 // The plumb position of the pendulum; energies are held to second order there.
@@ -488,33 +458,6 @@ TEST_CASE(
     CHECK(compared >= test::at_least(25));
 }
 
-// x'' m = 2 x λ: with T = m v² it becomes 2 m x'' = 2 x λ, and with V = −m g y the weight is turned over.
-TEST_CASE("claims: stated quantities go into equations with multipliers and into what follows from these") {
-    const Scene scene = read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml"));
-    const Mechanism m = prepared(scene).mechanism;
-    std::vector<Diagnostic> none;
-    const auto value = [&](const std::string& text) {
-        Formulas formulas(scene, m);
-        return formulas.value(parse_expression(text, {}, none));
-    };
-    const auto verdicts = [&](const Mechanism& world, const std::string& claims) {
-        std::vector<Verdict> result;
-        for (const CheckedClaim& c : check(with_claims(scene, claims, "claims.txt"), world).claims)
-            result.push_back(c.verdict);
-        return result;
-    };
-    using enum Verdict;
-    const std::string claims =
-        "2*m*x'' = 2*x*lambda_rod\nm*y'' - m*g = 2*y*lambda_rod\nE = m*(x'^2+y'^2)\nE' = 0\nH = E\n"
-        "m*l^2*x''*y - m*l^2*x*y'' = m*g*x*l^2\nx^2 + y^2 = l^2\n";
-    CHECK(verdicts(m, claims) == std::vector{refuted, refuted, refuted, proved, proved, proved, proved});
-    const Mechanism heavy = with_own(m, {.kinetic = value("m*(x'^2+y'^2)"), .potential = GiNaC::ex(0)});
-    CHECK(verdicts(heavy, claims) == std::vector{proved, refuted, proved, proved, proved, refuted, proved});
-    const Mechanism turned = with_own(m, {.potential = value("-m*g*y")});
-    CHECK(verdicts(turned, claims) == std::vector{refuted, proved, refuted, proved, proved, refuted, proved});
-    CHECK(verdicts(m, claims)[0] == refuted);  // the mechanism itself has not changed
-}
-
 TEST_CASE("claims: equilibria, frequencies and modes") {
     const Scene scene = pendulum();
     const Mechanism m = prepared(scene).mechanism;
@@ -533,8 +476,9 @@ TEST_CASE("claims: equilibria, frequencies and modes") {
     CHECK(wrong.nearest == "omega^2 = g/l");
     CHECK(check_frequency(standing, e("-g/l")).verdict == Verdict::proved);
 
-    const Scene two = read_scene(test::source_path("scenes/textbook/coupled_oscillators.toml"));
-    const Mechanism undamped = with_own(prepared(two).mechanism, {.forces = {{"x1", 0}, {"x2", 0}}});
+    Scene two = read_scene(test::source_path("scenes/textbook/coupled_oscillators.toml"));
+    two.dampers.clear();
+    const Mechanism undamped = prepared(two).mechanism;
     const AtPoint rest{two, undamped, {{"x1", e("0")}, {"x2", e("0")}}};
     const std::string half = "((k1 + k2)/m1 + (k2 + k3)/m2)/2",
                       root = "sqrt(((k1 + k2)/m1 - (k2 + k3)/m2)^2/4 + k2^2/(m1*m2))";

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+
+#include "check/derivation/letters.hpp"
 
 namespace alembert {
 
@@ -15,19 +16,11 @@ struct Place3 {
     bool named = false;
 };
 
-std::string plain(const std::string& text) {
-    std::string result;
-    for (const char c : text)
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
-
 /// Does the index name the k-th thing of this name?
 bool names(const std::string& index, const std::string& name, std::size_t k) {
-    const std::string word = plain(index);
+    const std::string word = plain_word(index);
     if (word.empty()) return false;
-    const std::string full = plain(name);
+    const std::string full = plain_word(name);
     return word == full || word == std::to_string(k + 1) || (!full.empty() && full.substr(0, 1) == word) ||
            (full.size() > 1 && full.substr(1) == word);
 }
@@ -37,7 +30,7 @@ std::vector<Place3> matching(const std::vector<std::string>& things, const std::
     std::vector<Place3> result;
     for (const bool exactly : {true, false}) {
         for (std::size_t k = 0; k < things.size(); ++k)
-            if (exactly ? plain(index) == plain(things[k]) : names(index, things[k], k))
+            if (exactly ? plain_word(index) == plain_word(things[k]) : names(index, things[k], k))
                 result.push_back({things[k], true});
         if (!result.empty()) return result;
     }
@@ -56,11 +49,11 @@ std::vector<Place3> points_for(const std::string& index, const Scene& scene) {
     const std::vector<std::string> masses = masses_of(scene);
     std::vector<Place3> result = matching(masses, index);
     const bool named = !result.empty() && result[0].named;
-    if (named && !plain(index).empty()) return result;
+    if (named && !plain_word(index).empty()) return result;
     std::vector<std::string> points;
     for (const Point& p : scene.points) points.push_back(p.name.text);
     const std::vector<Place3> others = matching(points, index);
-    if (!plain(index).empty() && !others.empty() && others[0].named) return others;
+    if (!plain_word(index).empty() && !others.empty() && others[0].named) return others;
     for (Place3 other : others) {
         other.named = false;
         result.push_back(other);

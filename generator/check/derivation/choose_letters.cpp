@@ -14,7 +14,8 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t most_trials = 240;
+constexpr std::size_t most_trials = 240, fewest_trials = 8;
+constexpr std::size_t most_lines_tried = 4000;  // about 20 s
 
 std::string shown(const Letter& letter) {
     Math math{.kind = Math::Kind::letter};
@@ -32,7 +33,8 @@ Letter letter_in(const std::string& text) {
     throw SceneError(say("'{}' is not one letter; expected such as \\ell or \\theta_1", text), {});
 }
 
-/// Letters of the derivation that nothing gives a meaning: they stand in no scene, and no line introduces them.
+/// Letters of the derivation that nothing gives a meaning: they stand in no scene, and no line introduces them
+/// before they are used.
 struct OpenLetters {
     std::vector<Letter> moving, constant;
 };
@@ -40,14 +42,14 @@ struct OpenLetters {
 OpenLetters open_letters(const Written& written, const Letters& letters) {
     std::map<Letter, int> all;
     std::set<Letter> introduced;
-    for (const WrittenStatement& statement : written.statements)
-        for (std::size_t k = 0; k < statement.sides.size(); ++k) {
-            const Math* side = statement.sides[k].get();
-            collect_letters(*side, all);
-            if (side->kind == Math::Kind::power) side = side->args[0].get();
-            if (side->kind == Math::Kind::letter && side->dots == 0 && statement.sides.size() > 1)
-                introduced.insert(side->letter);
+    for (const WrittenStatement& statement : written.statements) {
+        for (const MathPtr& whole : statement.sides) {
+            const Math* const side = whole->kind == Math::Kind::power ? whole->args[0].get() : whole.get();
+            const bool alone = side->kind == Math::Kind::letter && side->dots == 0 && statement.sides.size() > 1;
+            if (alone && !all.contains(side->letter)) introduced.insert(side->letter);
         }
+        for (const MathPtr& side : statement.sides) collect_letters(*side, all);
+    }
     OpenLetters result;
     for (const auto& [letter, dots] : all) {
         if (letters.name_of(letter) || introduced.contains(letter)) continue;
@@ -74,11 +76,13 @@ std::vector<std::string> unused(const std::vector<std::string>& names, const Wri
 using Assignment = std::vector<std::pair<Letter, std::string>>;
 
 /// All ways to give each letter another name, as long as there are not too many.
-std::vector<Assignment> assignments(const std::vector<Letter>& letters, const std::vector<std::string>& names) {
+std::vector<Assignment> assignments(const std::vector<Letter>& letters, const std::vector<std::string>& names,
+                                    std::size_t most) {
     std::vector<Assignment> result{{}};
     for (const Letter& letter : letters) {
         std::vector<Assignment> longer;
         for (const Assignment& begun : result) {
+            longer.push_back(begun);  // none of them
             for (const std::string& name : names) {
                 const bool taken =
                     std::any_of(begun.begin(), begun.end(), [&](const auto& pair) { return pair.second == name; });
@@ -86,9 +90,8 @@ std::vector<Assignment> assignments(const std::vector<Letter>& letters, const st
                 longer.push_back(begun);
                 longer.back().emplace_back(letter, name);
             }
-            longer.push_back(begun);  // or none
         }
-        if (longer.size() > most_trials) return result;
+        if (longer.size() > most) return result;
         result = std::move(longer);
     }
     return result;
@@ -174,17 +177,19 @@ ChosenLetters choose_letters(DerivedSystem& system, const Written& written,
     for (const Input& i : scene.inputs) parameters.push_back(i.name.text);
     for (const GiNaC::symbol& multiplier : system.equations().lambda) parameters.push_back(multiplier.get_name());
     Assignment best;
+    const std::size_t most = std::clamp(most_lines_tried / std::max<std::size_t>(1, written.statements.size()),
+                                        fewest_trials, most_trials);
     for (const auto& [letters, names] :
          {std::pair(open.moving, unused(result.letters.coordinates(), written, result.letters)),
           std::pair(open.constant, unused(parameters, written, result.letters))}) {
         if (letters.empty() || names.empty()) continue;
-        double most = -1e9;
+        double highest = -1e9;
         Assignment chosen;
-        for (const Assignment& trial : assignments(letters, names)) {
+        for (const Assignment& trial : assignments(letters, names, most)) {
             Assignment whole = best;
             whole.insert(whole.end(), trial.begin(), trial.end());
             const double score = score_of(system, written, with(result.letters, whole));
-            if (score > most) most = score, chosen = whole;
+            if (score > highest) highest = score, chosen = whole;
         }
         best = chosen;
     }

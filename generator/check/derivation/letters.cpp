@@ -104,6 +104,14 @@ std::optional<MechanicalQuantity> quantity_of(const Letter& letter) {
     return std::nullopt;
 }
 
+std::string plain_word(const std::string& text) {
+    std::string result;
+    for (const char c : text)
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
 std::string identifier_of(const Letter& letter) {
     std::string result = letter.base;
     if (!letter.accent.empty() &&

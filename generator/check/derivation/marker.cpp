@@ -274,9 +274,9 @@ bool Marker::speaks_of_law_in_general(const Math& math) const {
     return std::any_of(letters.begin(), letters.end(), [&](const auto& item) {
         const Letter& letter = item.first;
         const bool general = letter.base == "q" || letter.base == "Q" || letter.base == "p";
-        const bool open = letter.index.empty() || letter.index == "i" || letter.index == "j" ||
-                          letter.index == "k" || letter.index == "r" || letter.index == "s" ||
-                          letter.index == "q" || letter.index == "alpha";
+        const bool open = (letter.index.empty() && letter.base == "q") || letter.index == "i" ||
+                          letter.index == "j" || letter.index == "k" || letter.index == "r" ||
+                          letter.index == "s" || letter.index == "q" || letter.index == "alpha";
         return general && open && !letters_.name_of(letter);
     });
 }

@@ -108,7 +108,7 @@ private:
     bool has_quantities(const Sides& sides) const;
     bool repeats_law(const Sides& sides) const;
     bool speaks_of_quantity(const LineNotes& notes) const;
-    std::optional<CheckedClaim> with_other_forces(const LineClaim& claim);
+    std::map<std::string, GiNaC::ex> known_to_check() const;
     void locate_term(MarkedLine& line, const LineNotes& notes) const;
     void adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict);
 

@@ -221,13 +221,7 @@ bool Marker::bind_to_scene(MarkedLine& line, const Math& letter, const Math& rhs
         if (rows.is_identity(rows.row(power_of_truth - value)) == true) return tell(truth, true);
         if (binding.named && !named) named = truth;
     }
-    if (!named) return false;
-    if (const auto wrong = own_.wrong_in(own.names)) {  // the derivation's own lengths explain it, perhaps
-        tell(*named, false);
-        line.follows_from = wrong;
-        return true;
-    }
-    return tell(*named, false);
+    return named && tell(*named, false);
 }
 
 /// A letter that stands among others: one of the scene's places and speeds with which the line is right, or a
@@ -292,7 +286,7 @@ bool Marker::determine(MarkedLine& line, const Math& lhs, const Math& rhs, const
     known_[name] = *truth;
     truth_.know(name, *truth);
     own_.state(name, own.value_or(*truth), own_.wrong_in(sides.own_names()));
-    line.status = LineStatus::right;
+    line.status = LineStatus::definition;  // it may absorb any slip
     line.claim = sides.left.text + " = " + sides.right.text;
     line.reason = say("it determines {}", name);
     return true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
+#include "check/total_derivative.hpp"
 
 namespace alembert {
 
@@ -118,7 +119,7 @@ bool Marker::holds_up_to(MarkedLine& line, const Sides& sides, const ex& residua
         }
     }
     if (!speaks_of({MechanicalQuantity::lagrangian})) return false;
-    for (const ex& row : system_.euler_lagrange(residual))
+    for (const ex& row : euler_operator(residual, m))
         if (rows.is_identity(rows.row(row)) != true) return false;
     line.status = LineStatus::right_up_to_derivative;
     return true;

@@ -10,9 +10,13 @@ namespace alembert {
 
 namespace {
 
+bool is_up_to(LineStatus status) {
+    return status == LineStatus::right_up_to_constant || status == LineStatus::right_up_to_derivative;
+}
+
 bool is_checked(LineStatus status) {
     return status == LineStatus::right || status == LineStatus::mistake || status == LineStatus::unfounded ||
-           status == LineStatus::undecided;
+           status == LineStatus::undecided || is_up_to(status);
 }
 
 /// The verdicts together; where that fails, of each claim alone.
@@ -43,24 +47,21 @@ void Marker::verify() {
             claims.push_back(notes_[k].claim);
             asked.push_back(k);
         }
-    std::vector<CheckedClaim> verdicts = verdicts_on(claims, known_, system_);
+    const std::map<std::string, GiNaC::ex> known = known_to_check();
+    std::vector<CheckedClaim> verdicts = verdicts_on(claims, known, system_);
     for (std::size_t i = 0; i < asked.size(); ++i) {
         LineNotes& notes = notes_[asked[i]];
         if (verdicts[i].verdict == Verdict::undecided && !system_.scene().unilateral.empty()) {
             notes.claim.open = true;  // a quantity is what it is whether contacts are closed or not
-            if (speaks_of_quantity(notes)) verdicts[i] = verdicts_on({notes.claim}, known_, system_)[0];
+            if (speaks_of_quantity(notes)) verdicts[i] = verdicts_on({notes.claim}, known, system_)[0];
         }
         adopt(lines[asked[i]], notes, std::move(verdicts[i]));
         MarkedLine& line = lines[asked[i]];
         const bool unknown = !line.checked.likely || line.checked.likely->kind == "unknown";
         if (line.status != LineStatus::mistake || !unknown) continue;
-        if (const auto other = with_other_forces(notes.claim)) {  // which forces Q means was not clear yet
-            adopt(line, notes, *other);
-            continue;
-        }
         if (notes.near) {
             CheckedClaim near = line.checked;
-            near.likely = slip_near(notes.claim, *notes.near, system_, known_);
+            near.likely = slip_near(notes.claim, *notes.near, system_, known);
             if (near.likely) adopt(line, notes, std::move(near));
             continue;
         }
@@ -77,19 +78,22 @@ bool Marker::speaks_of_quantity(const LineNotes& notes) const {
     return is_own(notes.claim.lhs) || is_own(notes.claim.rhs);
 }
 
-/// The verdict on a claim about generalized forces where these are the others; nothing if it shows no slip.
-std::optional<CheckedClaim> Marker::with_other_forces(const LineClaim& claim) {
-    if (!claim.lhs.starts_with("Q_") && !claim.rhs.starts_with("Q_")) return std::nullopt;
-    use_all_forces(!all_forces_);
-    std::vector<CheckedClaim> verdicts = verdicts_on({claim}, known_, system_);
-    use_all_forces(!all_forces_);
-    const bool shows =
-        verdicts[0].verdict == Verdict::refuted && verdicts[0].likely && verdicts[0].likely->kind != "unknown";
-    return shows ? std::optional(std::move(verdicts[0])) : std::nullopt;
+/// Names beside those that claims know themselves: T, V, L, E, H, momenta and generalized forces, which the check
+/// reads in either of their meanings.
+std::map<std::string, GiNaC::ex> Marker::known_to_check() const {
+    std::map<std::string, GiNaC::ex> result = known_;
+    for (const char* const letter : {"T", "V", "L", "E", "H"}) result.erase(letter);
+    for (const std::string& q : letters_.coordinates()) result.erase("p_" + q), result.erase("Q_" + q);
+    return result;
 }
 
 void Marker::adopt(MarkedLine& line, LineNotes& notes, CheckedClaim verdict) {
     line.checked = std::move(verdict);
+    if (is_up_to(line.status)) {
+        if (line.checked.verdict != Verdict::proved) line.checked = {};
+        line.reason = line.checked.reason;
+        return;
+    }
     switch (line.checked.verdict) {
         case Verdict::refuted:
             if (line.status != LineStatus::unfounded) line.status = LineStatus::mistake;

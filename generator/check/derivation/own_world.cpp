@@ -12,6 +12,12 @@ namespace alembert {
 
 using GiNaC::ex;
 
+namespace {
+
+constexpr std::size_t most_equations = 60;  // from which a line may follow: the last ones
+
+}  // namespace
+
 std::optional<std::size_t> later(std::optional<std::size_t> a, std::optional<std::size_t> b) {
     return a && b ? std::max(a, b) : a ? a : b;
 }
@@ -135,7 +141,9 @@ std::map<std::string, ex> OwnWorld::values() const {
 }
 
 void OwnWorld::add_equation(MotionRow row, std::size_t line, bool is_wrong, bool is_near) {
-    if (row.linear && row.is_known()) equations_.push_back({std::move(row), line, is_wrong, is_near});
+    if (!row.linear || !row.is_known()) return;
+    if (equations_.size() == most_equations) equations_.erase(equations_.begin());
+    equations_.push_back({std::move(row), line, is_wrong, is_near});
 }
 
 std::optional<OwnWorld::Stated> OwnWorld::step(const std::string& text) const {

@@ -2,7 +2,8 @@
 #include "check/derivation/parts.hpp"
 
 #include <algorithm>
-#include <cctype>
+
+#include "check/total_derivative.hpp"
 
 namespace alembert {
 
@@ -10,18 +11,10 @@ using GiNaC::ex;
 
 namespace {
 
-std::string plain(const std::string& text) {
-    std::string result;
-    for (const char c : text)
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
-
 /// Does the word name the part: its label, its body, its place in the list, the kind of energy?
 bool names(const std::string& word, const Origin& origin, std::size_t place, bool by_label) {
-    if (by_label) return word == plain(label(origin)) || word == plain(shown_label(origin));
-    if (word == plain(origin.name) || word == std::to_string(place + 1)) return true;
+    if (by_label) return word == plain_word(label(origin)) || word == plain_word(shown_label(origin));
+    if (word == plain_word(origin.name) || word == std::to_string(place + 1)) return true;
     if (origin.kind == Origin::Kind::gravity) return word == "g" || word == "grav" || word == "gravity";
     if (origin.kind == Origin::Kind::spring) return word == "s" || word == "k" || word == "spring" || word == "el";
     if (origin.kind == Origin::Kind::rotation) return word == "rot" || word == "r";
@@ -63,7 +56,7 @@ std::optional<ex> force_of(const std::string& word, std::size_t coordinate, cons
 
 std::optional<ex> part_named(const Letter& letter, const Letters& letters, const DerivedSystem& system) {
     const Mechanism& m = system.mechanism();
-    const std::string word = plain(letter.raised.empty() ? letter.index : letter.raised);
+    const std::string word = plain_word(letter.raised.empty() ? letter.index : letter.raised);
     if (word.empty() || m.given_lagrangian) return std::nullopt;
     const std::string& base = letter.base;
     if (base == "T" || base == "K") return sum_of(m.kinetic, word, m);
@@ -74,10 +67,10 @@ std::optional<ex> part_named(const Letter& letter, const Letters& letters, const
     if (name.empty() || q == m.q.end()) return std::nullopt;
     const auto i = static_cast<std::size_t>(q - m.q.begin());
     const bool starred = letter.raised == "*" || letter.raised == "\\ast";
-    if (starred && (base == "F" || base == "Q")) return m.z->name(-system.euler_lagrange(m.kinetic_energy())[i]);
+    if (starred && (base == "F" || base == "Q")) return m.z->name(-euler_operator(m.kinetic_energy(), m)[i]);
     if (base == "F" && letter.raised.empty()) return system.forces(true)[i];
     if (base == "E" && letter.raised.empty())
-        return m.z->name(system.euler_lagrange(m.lagrangian())[i] - system.forces(false)[i]);
+        return m.z->name(euler_operator(m.lagrangian(), m)[i] - system.forces(false)[i]);
     if (base == "Q" && !letter.raised.empty()) return force_of(word, i, m);
     return std::nullopt;
 }

@@ -40,14 +40,6 @@ ex DerivedSystem::reaction(int i) const {
     return m_.z->name(GiNaC::add(std::move(terms)));
 }
 
-std::vector<ex> DerivedSystem::euler_lagrange(const ex& function) const {
-    const std::vector<ex> momenta = m_.z->pull_back({{function, 1}}, m_.qdot);
-    const std::vector<ex> rates = m_.time_derivative(momenta), slopes = m_.z->pull_back({{function, 1}}, m_.q);
-    std::vector<ex> result;
-    for (std::size_t i = 0; i < rates.size(); ++i) result.push_back(m_.z->name(rates[i] - slopes[i]));
-    return result;
-}
-
 // Kane's equations solve the speeds and the constraints for the rates.
 std::vector<std::vector<ex>> DerivedSystem::solved_speeds() const {
     const Equations solved = formalism_for(Need::minimal_speeds).derive(derived_.mechanism);

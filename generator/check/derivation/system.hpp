@@ -44,8 +44,6 @@ public:
     std::vector<GiNaC::ex> forces(bool with_potential) const;
     /// Σ λ ∂f/∂q of the constraints along coordinate i.
     GiNaC::ex reaction(int i) const;
-    /// d/dt ∂L/∂q'_i − ∂L/∂q_i of any function of the state.
-    std::vector<GiNaC::ex> euler_lagrange(const GiNaC::ex& function) const;
 
     /// ∂q'/∂u of the generalized speed at this place in Mechanism::speeds, along motions that the constraints
     /// allow; empty if the speeds do not determine the rates.
