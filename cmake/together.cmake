@@ -3,11 +3,11 @@
 # take 12 s of processor time if they are compiled together, and 44 s one by one (g++ 12). The preset `debug`
 # compiles each file by itself, which is faster for a person who changes one file after the other.
 #   alembert_together(TARGET [MOST COUNT] [ALONE FILE...])
-# At most COUNT files (12) form a group, so that two processors have work. The files after ALONE use the same short names for
-# different things and are compiled by themselves.
+# At most COUNT files (24) form a group, so that two processors have work, and each has enough with a gigabyte and a
+# half. The files after ALONE use the same short names for different things and are compiled by themselves.
 function(alembert_together target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "MOST" "ALONE")
-  set(most 12)
+  set(most 24)
   if(arg_MOST)
     set(most ${arg_MOST})
   endif()

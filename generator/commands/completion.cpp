@@ -22,7 +22,7 @@ std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
     return app.get_subcommands({});
 }
 
-std::string names_of(const CLI::App& app) {
+std::string names_of_verbs(const CLI::App& app) {
     std::string names;
     for (const CLI::App* verb : verbs_of(app)) names += (names.empty() ? "" : " ") + verb->get_name();
     return names;
@@ -104,7 +104,7 @@ _alembert() {{
 }}
 complete -F _alembert alembert
 )",
-                       names_of(app), options, all, positions);
+                       names_of_verbs(app), options, all, positions);
 }
 
 /// The text in single quotes for a shell.

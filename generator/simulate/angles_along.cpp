@@ -12,9 +12,9 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 /// The rotation between two times, as a function of s from 0 to 1 (Hermite's polynomial of degree 5).
-class Between {
+class TurnBetween {
 public:
-    Between(const Turning& a, const Turning& b) {
+    TurnBetween(const Turning& a, const Turning& b) {
         const double h = b.t - a.t;
         c_[0] = a.e;
         c_[1] = h * a.rate;
@@ -43,7 +43,7 @@ Eigen::Quaterniond quaternion_of(const Vector4d& e) {
 /// Finds points between which neither the rotation nor the direction of the lock changes by much.
 class Points {
 public:
-    Points(const AnglesOfFrame& of, const Between& between, double through)
+    Points(const AnglesOfFrame& of, const TurnBetween& between, double through)
         : of_(of), between_(between), through_(through) {
         const Point first = at(0), last = at(1);
         beside_ = refine(first, last);
@@ -82,7 +82,7 @@ private:
     }
 
     const AnglesOfFrame& of_;
-    const Between& between_;
+    const TurnBetween& between_;
     double through_;
     bool beside_ = false;
     std::vector<Vector4d> list_;
@@ -91,7 +91,7 @@ private:
 }  // namespace
 
 void AnglesAlong::go_to(const Turning& next) {
-    const Between between(last_, next);
+    const TurnBetween between(last_, next);
     const Points points(of_, between, through_);
     if (of_.from_lock(quaternion_of(next.e)).norm() < through_)
         angles_ = angles_in_lock(of_, quaternion_of(next.e), angles_);

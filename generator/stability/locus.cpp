@@ -15,7 +15,7 @@ namespace alembert {
 namespace {
 
 constexpr double farthest = 0.03;  // a root's way between two values, of the largest root
-constexpr int deepest = 10;
+constexpr int deepest_halving = 10;
 
 /// The roots in the order of those before: the nearest pairs first.
 Spectra::Roots in_order(const Spectra::Roots& before, const Spectra::Roots& now) {
@@ -57,7 +57,7 @@ public:
         if (!locus_.roots.empty() && !roots.empty() && !locus_.roots.back().empty()) {
             const Spectra::Roots ordered = in_order(locus_.roots.back(), roots);
             const double before = locus_.values.back(), middle = (before + value) / 2;
-            if (depth < deepest && way(locus_.roots.back(), ordered) > farthest) {
+            if (depth < deepest_halving && way(locus_.roots.back(), ordered) > farthest) {
                 add(middle, at(middle), depth + 1);
                 add(value, roots, depth + 1);
                 return;

@@ -11,10 +11,6 @@ namespace alembert {
 
 namespace {
 
-Json or_null(const std::optional<std::string>& text) {
-    return text ? Json(*text) : Json(nullptr);
-}
-
 /// "A + m*d^2 = 0.31", or only the number.
 std::string with_number(const std::optional<std::string>& text, double value) {
     const std::string number = fmt::format("{:.10g}", value == 0 ? 0.0 : value);
