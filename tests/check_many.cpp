@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "algebra/notation/text.hpp"
-#include "algebra/notation/tree.hpp"
 #include "analysis/derive/derive.hpp"
 #include "check/claim_tree.hpp"
+#include "check/phrase_tree.hpp"
 #include "checked.hpp"
 
 namespace check_many {

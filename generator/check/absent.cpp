@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <functional>
 
-#include "algebra/notation/tree.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "analysis/derive/derivation.hpp"
 #include "check/nearest.hpp"
+#include "check/phrase_tree.hpp"
 
 namespace alembert {
 

@@ -2,7 +2,7 @@
 #include "check/alien_force.hpp"
 
 #include "algebra/notation/readable.hpp"
-#include "algebra/notation/tree.hpp"
+#include "check/phrase_tree.hpp"
 
 namespace alembert {
 

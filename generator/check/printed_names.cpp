@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "algebra/notation/tree.hpp"
 #include "analysis/derive/derive.hpp"
+#include "check/phrase_tree.hpp"
 #include "scene/book_letters.hpp"
 
 namespace alembert {

@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "algebra/notation/readable.hpp"
-#include "algebra/notation/tree.hpp"
 #include "check/alien_force.hpp"
 #include "check/claim_arithmetic.hpp"
 #include "check/edits.hpp"
 #include "check/nearest.hpp"
 #include "check/needed_factor.hpp"
+#include "check/phrase_tree.hpp"
 #include "check/steady_factor.hpp"
 
 namespace alembert {

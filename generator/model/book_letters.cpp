@@ -18,46 +18,6 @@ using GiNaC::ex;
 
 namespace {
 
-/// The names by which a claim may call a part.
-std::vector<std::string> names_of(const Origin& origin) {
-    using Kind = Origin::Kind;
-    const std::string number = std::to_string(origin.index + 1);
-    switch (origin.kind) {
-        case Kind::particle:
-            return {origin.name};
-        case Kind::body:
-            return {origin.name, "translation_" + origin.name};
-        case Kind::rotation:
-            return {origin.name, "rotation_" + origin.name};
-        case Kind::gravity:
-            return {origin.name, "gravity_" + origin.name, "gravity"};
-        case Kind::spring:
-            return {"spring_" + number, "springs"};
-        case Kind::damper:
-            return {"damper_" + number, "dampers"};
-        case Kind::force:
-            return {origin.name, "force_" + number};
-        case Kind::torque:
-            return {origin.name, "torque_" + number};
-        case Kind::impulse:
-            return {origin.name, "impulse_" + number};
-        case Kind::generalized_force:
-        case Kind::generalized_impulse:
-            return {origin.name, "force_" + origin.name};
-        case Kind::given_kinetic:
-        case Kind::given_potential:
-        case Kind::given_lagrangian:
-            return {"energy"};
-        case Kind::rayleigh:
-            return {"dissipation"};
-        case Kind::friction:
-            return {origin.name, "friction_" + origin.name};
-        case Kind::armature:
-            return {origin.name, "armature_" + origin.name};
-    }
-    return {};
-}
-
 /// The values of the parts of that name; nothing if there are none. The names that there are, are added to
 /// `known`.
 class Chosen {

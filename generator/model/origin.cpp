@@ -3,52 +3,21 @@
 
 #include <fmt/format.h>
 
-#include "base/language/say.hpp"
+#include <algorithm>
+#include <iterator>
 
 namespace alembert {
 
 namespace {
 
-/// With a place for the number, {0}, and for the name, {1}.
+const OriginWords& words_of(const Origin& origin) {
+    return *std::find_if(std::begin(origin_words), std::end(origin_words),
+                         [&](const OriginWords& one) { return one.kind == origin.kind; });
+}
+
 const char* pattern(const Origin& origin) {
-    using Kind = Origin::Kind;
-    switch (origin.kind) {
-        case Kind::particle:
-            return to_say("particle {1}");
-        case Kind::body:
-            return to_say("body {1}");
-        case Kind::rotation:
-            return to_say("rotation of body {1}");
-        case Kind::gravity:
-            return origin.on_body ? to_say("gravity on body {1}") : to_say("gravity on particle {1}");
-        case Kind::spring:
-            return to_say("spring {0}");
-        case Kind::damper:
-            return to_say("damper {0}");
-        case Kind::force:
-            return to_say("force {0} at {1}");
-        case Kind::torque:
-            return to_say("torque {0} on {1}");
-        case Kind::impulse:
-            return to_say("impulse {0} at {1}");
-        case Kind::generalized_force:
-            return to_say("force on {1}");
-        case Kind::generalized_impulse:
-            return to_say("impulse on {1}");
-        case Kind::given_kinetic:
-            return "[energy] kinetic";
-        case Kind::given_potential:
-            return "[energy] potential";
-        case Kind::given_lagrangian:
-            return "[energy] lagrangian";
-        case Kind::rayleigh:
-            return "[dissipation]";
-        case Kind::friction:
-            return to_say("friction {1}");
-        case Kind::armature:
-            return to_say("armature of {1}");
-    }
-    return "";
+    return origin.kind == Origin::Kind::gravity && origin.on_body ? to_say("gravity on body {1}")
+                                                                  : words_of(origin).text;
 }
 
 }  // namespace
@@ -61,6 +30,14 @@ std::string label(const Origin& origin) {
 std::string shown_label(const Origin& origin) {
     const int number = origin.index + 1;
     return translated_with(pattern(origin), fmt::make_format_args(number, origin.name));
+}
+
+std::vector<std::string> names_of(const Origin& origin) {
+    const int number = origin.index + 1;
+    std::vector<std::string> names;
+    for (const char* const name : words_of(origin).names)
+        if (name != nullptr) names.push_back(fmt::vformat(name, fmt::make_format_args(number, origin.name)));
+    return names;
 }
 
 Origin gravity_on(const Origin& mass) {

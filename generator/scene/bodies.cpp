@@ -140,6 +140,8 @@ std::vector<Rotation> read_rotations(const Table& table, std::string_view key) {
     return rotations;
 }
 
+namespace {
+
 void read_frame(Table table, Scene& scene) {
     table.allow("frame");
     Frame frame;
@@ -193,6 +195,18 @@ void read_body(Table table, Scene& scene) {
         table.complain("about", say("{} says about which point the inertia is, but there is no 'inertia'",
                                     table.what("about")));
     scene.bodies.push_back(std::move(body));
+}
+
+}  // namespace
+
+std::span<const TableReader> body_sections() {
+    static constexpr TableReader all[] = {
+        {"frame", read_frame},
+        {"point", read_point},
+        {"particle", read_particle},
+        {"body", read_body},
+    };
+    return all;
 }
 
 }  // namespace alembert

@@ -153,8 +153,6 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
     if (armature) read_armatures(*armature, joint, scene);
 }
 
-}  // namespace
-
 void read_joint(Table table, Scene& scene) {
     const std::size_t mistakes = table.reading().diagnostics.size();
     table.allow("joint");
@@ -172,6 +170,15 @@ void read_joint(Table table, Scene& scene) {
     read_coordinates_of(table, joint, scene);
     joint.is_whole = table.reading().diagnostics.size() == mistakes;
     scene.joints.push_back(std::move(joint));
+}
+
+}  // namespace
+
+std::span<const TableReader> joint_sections() {
+    static constexpr TableReader all[] = {
+        {"joint", read_joint},
+    };
+    return all;
 }
 
 }  // namespace alembert

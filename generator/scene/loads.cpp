@@ -35,8 +35,6 @@ Link read_link(const Table& table, std::string_view constant) {
     return link;
 }
 
-}  // namespace
-
 void read_force(Table table, Scene& scene) {
     table.allow("force");
     Force force;
@@ -131,8 +129,6 @@ void read_unilateral(Table table, Scene& scene) {
     scene.unilateral.push_back(std::move(rule));
 }
 
-namespace {
-
 /// One expression, or two in an array: components along perpendicular directions.
 void read_slip(const Table& table, FrictionRule& rule) {
     const Entry* const entry = table.find("slip");
@@ -148,8 +144,6 @@ void read_slip(const Table& table, FrictionRule& rule) {
     rule.slip = read_expression(table.reading(), *list->get(0), table.what("slip"));
     rule.across = read_expression(table.reading(), *list->get(1), table.what("slip"));
 }
-
-}  // namespace
 
 void read_friction(Table table, Scene& scene) {
     table.allow("friction");
@@ -173,6 +167,17 @@ void read_friction(Table table, Scene& scene) {
                            "impacts",
                            table.title()));
     scene.frictions.push_back(std::move(rule));
+}
+
+}  // namespace
+
+std::span<const TableReader> load_sections() {
+    static constexpr TableReader all[] = {
+        {"force", read_force},     {"impulse", read_impulse},       {"torque", read_torque},
+        {"spring", read_spring},   {"damper", read_damper},         {"constraint", read_constraint},
+        {"rolling", read_rolling}, {"unilateral", read_unilateral}, {"friction", read_friction},
+    };
+    return all;
 }
 
 }  // namespace alembert

@@ -32,53 +32,16 @@ namespace {
 
 constexpr int most_syntax_mistakes = 10;
 
-template <void (*read)(const Table&, Scene&)>
-void one(const Table& table, Scene& scene) {
-    read(table, scene);
+const std::vector<TableReader>& sections() {
+    static const std::vector<TableReader> all = [] {
+        std::vector<TableReader> result;
+        for (const auto& some :
+             {symbol_sections(), body_sections(), joint_sections(), load_sections(), run_sections()})
+            result.insert(result.end(), some.begin(), some.end());
+        return result;
+    }();
+    return all;
 }
-
-template <void (*read)(Table, Scene&)>
-void each(const Table& table, Scene& scene) {
-    read(table, scene);
-}
-
-struct Section {
-    std::string_view name;  ///< in scene/keys.hpp
-    void (*read)(const Table&, Scene&);
-};
-
-constexpr Section sections[] = {
-    {"parameters", one<read_parameters>},
-    {"inputs", one<read_inputs>},
-    {"coordinates", one<read_coordinates>},
-    {"speeds", one<read_speeds>},
-    {"definitions", one<read_definitions>},
-    {"functions", one<read_functions>},
-    {"frame", each<read_frame>},
-    {"point", each<read_point>},
-    {"particle", each<read_particle>},
-    {"body", each<read_body>},
-    {"joint", each<read_joint>},
-    {"force", each<read_force>},
-    {"torque", each<read_torque>},
-    {"spring", each<read_spring>},
-    {"damper", each<read_damper>},
-    {"constraint", each<read_constraint>},
-    {"rolling", each<read_rolling>},
-    {"unilateral", each<read_unilateral>},
-    {"friction", each<read_friction>},
-    {"impulse", each<read_impulse>},
-    {"impulses", one<read_impulses>},
-    {"energy", one<read_energy>},
-    {"dissipation", one<read_dissipation>},
-    {"forces", one<read_forces>},
-    {"outputs", one<read_outputs>},
-    {"event", each<read_event>},
-    {"polynomial", one<read_polynomial>},
-    {"simulation", one<read_simulation>},
-    {"letters", one<read_letters>},
-    {"claim", each<read_claim>},
-};
 
 /// The place of a table's header; for a table written `x = { … }`, that of the key.
 Place header_of(const Entry& entry) {
@@ -110,7 +73,7 @@ std::string table_given(std::string_view name) {
                              name, one);
 }
 
-void read_section(const Reading& reading, const Section& section, const Entry& entry, Scene& scene) {
+void read_section(const Reading& reading, const TableReader& section, const Entry& entry, Scene& scene) {
     if (table_named(section.name).shape != TableKeys::Shape::list) {
         if (const toml::table* const table = entry.node->as_table())
             return section.read(Table(reading, *table, fmt::format("[{}]", section.name), header_of(entry)),
@@ -152,7 +115,7 @@ std::string advice_on_table(const std::string& word) {
 void refuse_unknown(const Reading& reading, const Entry& entry) {
     const std::span<const std::string_view> own = keys_of("");
     std::vector<std::string> known(own.begin(), own.end());
-    for (const Section& section : sections) known.emplace_back(section.name);
+    for (const TableReader& section : sections()) known.emplace_back(section.name);
     const bool is_table = entry.node->is_table() || entry.node->is_array_of_tables();
     std::string advice = advice_on_table(entry.key);
     if (advice.empty())
@@ -167,9 +130,9 @@ void refuse_unknown(const Reading& reading, const Entry& entry) {
 void read_tables(const Reading& reading, const toml::table& root, Scene& scene) {
     const Table top(reading, root, say("the scene"), {1, 1});
     for (const Entry& entry : top.entries()) {
-        const auto section = std::find_if(std::begin(sections), std::end(sections),
-                                          [&](const Section& s) { return s.name == entry.key; });
-        if (section != std::end(sections))
+        const auto section = std::find_if(sections().begin(), sections().end(),
+                                          [&](const TableReader& s) { return s.name == entry.key; });
+        if (section != sections().end())
             read_section(reading, *section, entry, scene);
         else if (entry.key == "gravity")
             scene.gravity = top.vector("gravity");
@@ -280,7 +243,7 @@ Scene parse_scene(std::string text, std::string file) {
 
 Scene read_joints(const std::string& file) {
     return filled(text_of_file(file), file, [](const Reading& reading, const toml::table& root, Scene& scene) {
-        const Section joints{"joint", each<alembert::read_joint>};
+        const TableReader& joints = joint_sections().front();
         const Table top(reading, root, say("the file"), {1, 1});
         for (const Entry& entry : top.entries())
             if (entry.key == joints.name)

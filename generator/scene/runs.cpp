@@ -60,9 +60,7 @@ std::optional<Name> read_method(const Table& table) {
     return given;
 }
 
-}  // namespace
-
-void read_polynomial(const Table& table, Scene& scene) {
+void read_polynomial(Table table, Scene& scene) {
     table.allow("polynomial");
     scene.polynomial = PolynomialRule{table.place(), {}};
     const Entry* const entry = table.find("coefficients");
@@ -81,7 +79,7 @@ void read_polynomial(const Table& table, Scene& scene) {
             read_expression(table.reading(), node, say("a coefficient of [polynomial]")));
 }
 
-void read_simulation(const Table& table, Scene& scene) {
+void read_simulation(Table table, Scene& scene) {
     table.allow("simulation");
     Simulation& simulation = scene.simulation;
     simulation.start = table.has("start") ? table.expression("start") : zero(table.place());
@@ -97,8 +95,6 @@ void read_simulation(const Table& table, Scene& scene) {
     simulation.method = read_method(table);
     simulation.regularize = table.flag("regularize");
 }
-
-namespace {
 
 /// +1, −1, or 0 for both.
 int read_direction(const Table& table) {
@@ -139,8 +135,6 @@ std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
         impulses.push_back({name, value});
     return impulses;
 }
-
-}  // namespace
 
 void read_event(Table table, Scene& scene) {
     table.allow("event");
@@ -188,6 +182,18 @@ void read_claim(Table table, Scene& scene) {
     else
         claim.equation = read_equality(table.reading(), *equation->node, claim.at == Claim::At::impact);
     scene.claims.push_back(std::move(claim));
+}
+
+}  // namespace
+
+std::span<const TableReader> run_sections() {
+    static constexpr TableReader all[] = {
+        {"polynomial", read_polynomial},
+        {"simulation", read_simulation},
+        {"event", read_event},
+        {"claim", read_claim},
+    };
+    return all;
 }
 
 }  // namespace alembert

@@ -37,18 +37,18 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what, 
     return item;
 }
 
-}  // namespace
-
-void read_parameters(const Table& table, Scene& scene) {
+void read_parameters(Table table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.parameters.push_back(
             read_item<Parameter>(table, entry, labelled(say("parameter"), entry.key), "parameters.*"));
 }
 
-void read_inputs(const Table& table, Scene& scene) {
+void read_inputs(Table table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.inputs.push_back(read_item<Input>(table, entry, labelled(say("input"), entry.key), "inputs.*"));
 }
+
+}  // namespace
 
 Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
     const std::string what = labelled(say("coordinate"), entry.key);
@@ -80,12 +80,14 @@ Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
     return coordinate;
 }
 
-void read_coordinates(const Table& table, Scene& scene) {
+namespace {
+
+void read_coordinates(Table table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.coordinates.push_back(read_coordinate(table.reading(), entry));
 }
 
-void read_speeds(const Table& table, Scene& scene) {
+void read_speeds(Table table, Scene& scene) {
     for (const Entry& entry : table.entries()) {
         const std::string what = labelled(say("speed"), entry.key);
         Speed speed{.name = {entry.key, entry.place}, .form = {}, .initial = {}, .unit = {}, .about = {}};
@@ -102,8 +104,6 @@ void read_speeds(const Table& table, Scene& scene) {
         scene.speeds.push_back(std::move(speed));
     }
 }
-
-namespace {
 
 /// (x)*ex(N) + (y)*ey(N) + (z)*ez(N)
 Expression along_N(const Vector& vector, const Reading& reading) {
@@ -126,9 +126,7 @@ Expression along_N(const Vector& vector, const Reading& reading) {
     return parse_expression(std::move(text), std::move(places), reading.diagnostics);
 }
 
-}  // namespace
-
-void read_definitions(const Table& table, Scene& scene) {
+void read_definitions(Table table, Scene& scene) {
     for (const Entry& entry : table.entries()) {
         const std::string what = labelled(say("definition"), entry.key);
         const bool has_components = entry.node->is_array();
@@ -140,7 +138,7 @@ void read_definitions(const Table& table, Scene& scene) {
     }
 }
 
-void read_functions(const Table& table, Scene& scene) {
+void read_functions(Table table, Scene& scene) {
     constexpr std::size_t most_arguments = 4;
     for (const Entry& entry : table.entries()) {
         UnspecifiedFunction made{
@@ -154,7 +152,7 @@ void read_functions(const Table& table, Scene& scene) {
     }
 }
 
-void read_letters(const Table& table, Scene& scene) {
+void read_letters(Table table, Scene& scene) {
     const KnownNames& names = table.reading().names;
     for (const Entry& entry : table.entries()) {
         std::optional<Name> name =
@@ -174,7 +172,7 @@ void read_letters(const Table& table, Scene& scene) {
     }
 }
 
-void read_energy(const Table& table, Scene& scene) {
+void read_energy(Table table, Scene& scene) {
     table.allow("energy");
     scene.kinetic = table.expression("kinetic");
     scene.potential = table.expression("potential");
@@ -184,30 +182,46 @@ void read_energy(const Table& table, Scene& scene) {
                        say("'lagrangian' stands for the whole energy; leave out 'kinetic' and 'potential'"));
 }
 
-void read_dissipation(const Table& table, Scene& scene) {
+void read_dissipation(Table table, Scene& scene) {
     table.allow("dissipation");
     scene.rayleigh = table.needed_expression("rayleigh");
 }
 
-void read_forces(const Table& table, Scene& scene) {
+}  // namespace
+
+void read_forces(Table table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.generalized_forces.push_back(
             {{table.reading().names.spelled(entry.key), entry.place},
              read_expression(table.reading(), *entry.node, labelled(say("the force along"), entry.key))});
 }
 
-void read_impulses(const Table& table, Scene& scene) {
+namespace {
+
+void read_impulses(Table table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.generalized_impulses.push_back(
             {{table.reading().names.spelled(entry.key), entry.place},
              read_expression(table.reading(), *entry.node, labelled(say("the impulse along"), entry.key))});
 }
 
-void read_outputs(const Table& table, Scene& scene) {
+void read_outputs(Table table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.outputs.push_back(
             {{entry.key, entry.place},
              read_expression(table.reading(), *entry.node, labelled(say("output"), entry.key))});
+}
+
+}  // namespace
+
+std::span<const TableReader> symbol_sections() {
+    static constexpr TableReader all[] = {
+        {"parameters", read_parameters}, {"inputs", read_inputs},           {"coordinates", read_coordinates},
+        {"speeds", read_speeds},         {"definitions", read_definitions}, {"functions", read_functions},
+        {"letters", read_letters},       {"energy", read_energy},           {"dissipation", read_dissipation},
+        {"forces", read_forces},         {"impulses", read_impulses},       {"outputs", read_outputs},
+    };
+    return all;
 }
 
 }  // namespace alembert

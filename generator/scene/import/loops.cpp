@@ -2,6 +2,7 @@
 #include "scene/import/loops.hpp"
 
 #include "base/language/say.hpp"
+#include "scene/import/scene_words.hpp"
 #include "scene/joint_moves.hpp"
 #include "scene/joints_file.hpp"
 #include "scene/text.hpp"
@@ -32,28 +33,13 @@ public:
 
 private:
     Robot::Type type_of(const Joint& joint) {
-        switch (joint.type) {
-            case Joint::Type::fixed:
-                return Robot::Type::fixed;
-            case Joint::Type::revolute:
-                return Robot::Type::revolute;
-            case Joint::Type::prismatic:
-                return Robot::Type::prismatic;
-            case Joint::Type::universal:
-                return Robot::Type::universal;
-            case Joint::Type::spherical:
-                return Robot::Type::spherical;
-            case Joint::Type::planar:
-                return Robot::Type::planar;
-            case Joint::Type::screw:
-                return Robot::Type::screw;
-            case Joint::Type::cylindrical:
-                return Robot::Type::cylindrical;
-            case Joint::Type::free:
-                break;
-        }
-        mistakes_.push_back({joint.name.place, say("a free joint closes no loop")});
-        return Robot::Type::floating;
+        using enum Robot::Type;
+        const std::string& word = moves_of(joint.type).name;
+        for (const Robot::Type type :
+             {fixed, revolute, prismatic, universal, spherical, planar, screw, cylindrical})
+            if (joint_word(type) == word) return type;
+        mistakes_.push_back({joint.name.place, say("a {} joint closes no loop", word)});
+        return floating;
     }
 
     int link(const Joint::Side& side) {

@@ -32,31 +32,6 @@ std::vector<std::string> to_own_axes(Robot::Type type, const Real3& axis, const 
                 : fmt::format("[{}, {}]", scene_axis({-a[1], a[0], 0}), scene_angle(std::atan2(across, a[2])))};
 }
 
-const char* name_of(Robot::Type type) {
-    switch (type) {
-        case Robot::Type::fixed:
-            return "fixed";
-        case Robot::Type::revolute:
-        case Robot::Type::continuous:
-            return "revolute";
-        case Robot::Type::prismatic:
-            return "prismatic";
-        case Robot::Type::planar:
-            return "planar";
-        case Robot::Type::floating:
-            return "free";
-        case Robot::Type::spherical:
-            return "spherical";
-        case Robot::Type::universal:
-            return "universal";
-        case Robot::Type::screw:
-            return "screw";
-        case Robot::Type::cylindrical:
-            return "cylindrical";
-    }
-    return "";
-}
-
 bool has_axis(Robot::Type type) {
     return type == Robot::Type::revolute || type == Robot::Type::continuous || type == Robot::Type::prismatic ||
            type == Robot::Type::screw || type == Robot::Type::cylindrical;
@@ -171,7 +146,7 @@ void SceneWriter::hinge(const Robot::Joint& joint, const Group& child, const Sta
                                     ? say("{} starts at {}, between its stops", q, scene_number(initial))
                                     : say("{} starts at 0, outside its limits", q));
     }
-    joint_table(joint_names_[index(joint)], name_of(joint.type), at, {&child, -child.centre, {}},
+    joint_table(joint_names_[index(joint)], joint_word(joint.type), at, {&child, -child.centre, {}},
                 fmt::format("{}coordinates = {{ {} }}\n{}", axis_lines(joint.type, joint.axis, joint.pitch),
                             coordinate(&joint, q, slides ? "m" : "rad", about, initial),
                             joint.armature == 0 ? ""
@@ -204,7 +179,7 @@ void SceneWriter::several(const Robot::Joint& joint, const Group& child, Stand a
     at.rotate.insert(at.rotate.end(), turns.begin(), turns.end());
     const bool angles = joint.type == Robot::Type::spherical && !options_.quaternion;
     joint_table(
-        joint_names_[index(joint)], name_of(joint.type), at, {&child, -child.centre, turns},
+        joint_names_[index(joint)], joint_word(joint.type), at, {&child, -child.centre, turns},
         fmt::format("{}coordinates = {{ {} }}\n", angles ? "angles = \"zyx\"\n" : "", fmt::join(list, ", ")));
     if (joint.type == Robot::Type::spherical) in_space(joint, child, {});
 }
@@ -262,7 +237,7 @@ void SceneWriter::loop(const Robot::Loop& loop) {
     const std::vector<std::string> turns = to_own_axes(loop.type, loop.axis, loop.second);
     for (Stand* side : {&parent, &child}) side->rotate.insert(side->rotate.end(), turns.begin(), turns.end());
     const std::string name = joints_taken_.given(loop.name);
-    joint_table(name, name_of(loop.type), parent, child, axis_lines(loop.type, loop.axis, loop.pitch));
+    joint_table(name, joint_word(loop.type), parent, child, axis_lines(loop.type, loop.axis, loop.pitch));
     result_.loops.push_back(name);
 }
 

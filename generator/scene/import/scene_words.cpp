@@ -67,6 +67,31 @@ void add_term(std::string& sum, double factor, const std::string& what) {
     sum += term;
 }
 
+const char* joint_word(Robot::Type type) {
+    switch (type) {
+        case Robot::Type::fixed:
+            return "fixed";
+        case Robot::Type::revolute:
+        case Robot::Type::continuous:
+            return "revolute";
+        case Robot::Type::prismatic:
+            return "prismatic";
+        case Robot::Type::planar:
+            return "planar";
+        case Robot::Type::floating:
+            return "free";
+        case Robot::Type::spherical:
+            return "spherical";
+        case Robot::Type::universal:
+            return "universal";
+        case Robot::Type::screw:
+            return "screw";
+        case Robot::Type::cylindrical:
+            return "cylindrical";
+    }
+    return "";
+}
+
 std::string SceneNames::given(const std::string& wanted) {
     std::string name;
     for (std::size_t i = 0; i < wanted.size();) {

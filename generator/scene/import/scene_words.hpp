@@ -35,6 +35,9 @@ std::string scene_list(const std::vector<std::string>& list);
 /// The name as a key: in quotation marks if TOML requires them.
 std::string scene_key(const std::string& name);
 
+/// The type of a joint in a scene: "revolute" also for a continuous joint, "free" for a floating one.
+const char* joint_word(Robot::Type type);
+
 /// Adds factor·what to the text of a sum, or factor alone if `what` is empty; nothing if the factor is 0.
 void add_term(std::string& sum, double factor, const std::string& what);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Products and quotients are flat in trees: a·(b/c) is the product of a, b and 1/c. A sign belongs to the first
 // factor of what follows it, as it does in text.
-#include "algebra/notation/tree.hpp"
+#include "check/phrase_tree.hpp"
 
 #include <cln/integer.h>
 #include <cln/integer_io.h>
@@ -10,6 +10,7 @@
 
 #include "algebra/notation/text.hpp"
 #include "algebra/notation/unspecified.hpp"
+#include "check/claim_tree.hpp"
 
 namespace alembert {
 
@@ -17,10 +18,6 @@ namespace {
 
 using Form = Phrase::Kind;
 using Kind = Tree::Kind;
-
-TreePtr made(Kind kind, std::vector<TreePtr> args, std::string text = {}, int primes = 0) {
-    return std::make_shared<const Tree>(Tree{kind, std::move(text), primes, std::move(args), -1, 0});
-}
 
 bool stands_in_parentheses(const Phrase& phrase) {
     return phrase.kind == Form::sum || phrase.kind == Form::negative;
