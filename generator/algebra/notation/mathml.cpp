@@ -20,7 +20,8 @@ namespace {
 
 using Kind = Phrase::Kind;
 
-const std::string times = "<mo>&#x2062;</mo>";    // invisible
+const std::string times = "<mo>&#x2062;</mo>";  // invisible
+const std::string thin_space = "<mspace width=\"0.1667em\"></mspace>";
 const std::string applied = "<mo>&#x2061;</mo>";  // function application, invisible
 
 std::string write(const Phrase& phrase);
@@ -45,7 +46,7 @@ bool is_signed_or_sum(const Phrase& phrase) {
 }
 
 std::string parenthesized(const std::string& content) {
-    return row(operation("(") + content + operation(")"));
+    return in_brackets(content, "(", ")");
 }
 
 std::string enclosed(const Phrase& phrase, bool parentheses) {
@@ -85,10 +86,20 @@ std::string symbol_mathml(const SymbolInfo& info) {
     return row(letter + applied + parenthesized(element("mi", "t")));
 }
 
+/// Whether it begins with the upright name of a function, before which TeX sets a thin space: sin θ, sin² θ.
+bool has_function_first(const Phrase& phrase) {
+    const Phrase& first = phrase.kind == Kind::power ? phrase.args[0] : phrase;
+    return first.kind == Kind::call && !first.name.empty() && first.name != "sqrt" && first.name != "exp" &&
+           first.name != "abs" && !unspecified_phrase(first);
+}
+
 std::string write_product(const Phrase& phrase) {
     std::string result;
     for (const Phrase& factor : phrase.args) {
-        if (!result.empty()) result += factor.kind == Kind::number ? operation("&#x22C5;") : times;
+        if (!result.empty())
+            result += factor.kind == Kind::number  ? operation("&#x22C5;")
+                      : has_function_first(factor) ? times + thin_space
+                                                   : times;
         result += enclosed(factor, is_signed_or_sum(factor));
     }
     return row(result);
@@ -157,7 +168,7 @@ std::string write_call(const Phrase& phrase, const std::string& name) {
     for (const Phrase& each : phrase.args)
         args += fmt::format("{}{}", args.empty() ? "" : "<mo>,</mo>", write(each));
     if (phrase.name.empty()) return parenthesized(args);
-    return row(name + applied + (bare ? args : parenthesized(args)));
+    return row(name + applied + (bare ? thin_space + args : parenthesized(args)));
 }
 
 /// 3/2 on the line, not as a fraction in small print.
@@ -216,6 +227,13 @@ std::string math(const std::string& content) {
 }
 
 }  // namespace
+
+std::string in_brackets(const std::string& content, const std::string& open, const std::string& close) {
+    const auto has = [&](const char* tall) { return content.find(tall) != std::string::npos; };
+    const bool is_tall = has("<mfrac") || has("<msqrt") || has("<mtable");
+    const std::string bracket = is_tall ? "<mo stretchy=\"true\">" : "<mo stretchy=\"false\">";
+    return row(bracket + open + "</mo>" + content + bracket + close + "</mo>");
+}
 
 std::string mathml(const Phrase& phrase) {
     return math(write(phrase));

@@ -15,4 +15,8 @@ std::string mathml(const Phrase& phrase);
 /// lhs = rhs
 std::string mathml(const Phrase& lhs, const Phrase& rhs);
 
+/// A row in brackets, which grow with what is tall; around what is flat, a font's brackets that can grow stand too
+/// far off.
+std::string in_brackets(const std::string& content, const std::string& open = "(", const std::string& close = ")");
+
 }  // namespace alembert

@@ -188,12 +188,14 @@ public:
         for (const Derivation::Rubs& f : shown_.frictions) add_friction(f);
         for (std::size_t i = 0; i < shown_.equations.size(); ++i)
             if (shown_.equations[i].divided_by)
-                begin(scaling(shown_.rows[i], *shown_.equations[i].divided_by, n_));
+                begin(scaling(shown_.rows[i], *shown_.equations[i].divided_by, n_), Kind::remark);
         return std::move(blocks_);
     }
 
 private:
-    void begin(const std::string& words) { blocks_.push_back({words, {}}); }
+    using Kind = Block::Kind;
+
+    void begin(const std::string& words, Kind kind) { blocks_.push_back({words, {}, kind}); }
     void add(std::string left, std::string right) {
         blocks_.back().equalities.emplace_back(std::move(left), std::move(right));
     }
@@ -210,37 +212,38 @@ private:
     /// The intermediate symbols, or the steps of the derivation.
     void add_definitions(bool with_steps) {
         if (!shown_.definitions.empty()) {
-            begin(say("The equations are beyond the readable size; intermediate symbols:"));
+            begin(say("The equations are beyond the readable size; intermediate symbols:"), Kind::definition);
             add(shown_.definitions);
             for (const Section& section : shown_.sections) {
                 if (!with_steps) break;
-                begin(section.words);
+                begin(section.words, Kind::step);
                 add(section.statements);
             }
         } else if (with_steps) {
             blocks_ = steps(shown_, n_);
         }
-        if (!shown_.choice.empty()) begin(shown_.choice);
+        if (!shown_.choice.empty()) begin(shown_.choice, Kind::equation);
         add(shown_.speeds);
     }
 
     void add_equations() {
-        begin(words_before_equations(d_));
+        begin(words_before_equations(d_), Kind::equation);
         add(shown_.equations);
         if (!shown_.abbreviations.empty()) {
-            begin(say("with the scene's definitions:"));
+            begin(say("with the scene's definitions:"), Kind::equation);
             add(shown_.abbreviations);
         }
         if (shown_.has_unit_quaternions)
-            begin(say("e.e = 1 of each quaternion e has been used in all terms, after differentiation."));
+            begin(say("e.e = 1 of each quaternion e has been used in all terms, after differentiation."),
+                  Kind::equation);
         for (const Phrase& positive : shown_.positive)
-            begin(say("on the sheet of roots where {} > 0", n_.inline_phrase(positive)));
+            begin(say("on the sheet of roots where {} > 0", n_.inline_phrase(positive)), Kind::equation);
         if (!shown_.kinematics.empty()) {
-            begin(say("with the rates of the coordinates:"));
+            begin(say("with the rates of the coordinates:"), Kind::equation);
             add(shown_.kinematics);
         }
         for (const Phrase& pole : shown_.poles)
-            begin(say("They do not follow from the speeds where {} = 0.", n_.inline_phrase(pole)));
+            begin(say("They do not follow from the speeds where {} = 0.", n_.inline_phrase(pole)), Kind::equation);
     }
 
     void add_constraints() {
@@ -248,50 +251,54 @@ private:
             const bool all = d_.equations.A.empty();
             begin(all ? say("The constraints, which the speeds obey:")
                       : say("with the constraints (multipliers stand on the right with a plus: M q'' = F "
-                            "+ A^T lambda):"));
-            for (const auto& [name, phrase] : shown_.constraints) add(n_.phrase(phrase), "0");
+                            "+ A^T lambda):"),
+                  Kind::equation);
+            for (const auto& [name, phrase] : shown_.constraints)
+                add(n_.phrase(phrase), n_.phrase(phrases::number(0)));
         }
         if (!shown_.shares.empty()) {
-            begin(say("with the least reactions, since constraints depend on each other:"));
+            begin(say("with the least reactions, since constraints depend on each other:"), Kind::equation);
             add(shown_.shares);
         }
     }
 
     void add_reactions() {
         if (!shown_.reactions.empty()) {
-            begin(say("Reactions as generalized forces, Q = A^T lambda:"));
+            begin(say("Reactions as generalized forces, Q = A^T lambda:"), Kind::remark);
             add(shown_.reactions);
         }
         if (!d_.joint_loads.empty()) {
-            begin(
-                say("Joints bear, as force and moment on the child at its point, along the joint's axes "
-                    "in the parent:"));
+            begin(say("Joints bear, as force and moment on the child at its point, along the joint's axes "
+                      "in the parent:"),
+                  Kind::remark);
             add(d_.joint_loads);
         }
         if (!d_.normal_reactions.empty()) {
-            begin(say("The ground presses bodies that roll with the normal reactions (lambda_NAME_normal):"));
+            begin(say("The ground presses bodies that roll with the normal reactions (lambda_NAME_normal):"),
+                  Kind::remark);
             add(d_.normal_reactions);
         }
     }
 
     void add_gaps() {
         if (shown_.gaps.empty()) return;
-        begin(say("with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:"));
+        begin(say("with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:"),
+              Kind::equation);
         for (const auto& [name, phrase] : shown_.gaps)
             add(n_.left({Statement::Kind::energy, "gap", name, {}, {}}), n_.phrase(phrase));
     }
 
     void add_friction(const Derivation::Rubs& f) {
-        begin(
-            say("Friction '{}' acts with the force {} against the sliding velocity {}. Where that is 0 it "
-                "sticks: the velocity stays 0, and a force of at most {} takes the place of the sliding "
-                "one.",
-                f.name, n_.inline_phrase(f.sliding),
-                f.across ? fmt::format("({}, {})", n_.inline_phrase(f.slip), n_.inline_phrase(*f.across))
-                         : n_.inline_phrase(f.slip),
-                n_.inline_phrase(f.sticking)));
+        begin(say("Friction '{}' acts with the force {} against the sliding velocity {}. Where that is 0 it "
+                  "sticks: the velocity stays 0, and a force of at most {} takes the place of the sliding "
+                  "one.",
+                  f.name, n_.inline_phrase(f.sliding),
+                  f.across ? fmt::format("({}, {})", n_.inline_phrase(f.slip), n_.inline_phrase(*f.across))
+                           : n_.inline_phrase(f.slip),
+                  n_.inline_phrase(f.sticking)),
+              Kind::remark);
         if (f.held.empty()) return;
-        begin(say("While '{}' sticks, with its force {}:", f.name, fmt::join(f.forces, ", ")));
+        begin(say("While '{}' sticks, with its force {}:", f.name, fmt::join(f.forces, ", ")), Kind::remark);
         add(f.held);
     }
 

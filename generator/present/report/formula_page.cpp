@@ -94,37 +94,14 @@ constexpr std::array<Spelled, 32> spelled{{
     {"q' = B u + b", "\\dot{q} = B u + b"},
     {"B = dq'/du", "B = \\partial \\dot{q}/\\partial u"},
     {"E dq'/du", "E \\, \\partial \\dot{q}/\\partial u"},
-    {"dW* = sum of Q* dq", "dW^{*} = \\sum Q^{*} \\, dq"},
-    {"dW = sum of Q(q) dq", "dW = \\sum Q_{q} \\, dq"},
-    {"dW = sum of Q dq", "dW = \\sum Q \\, dq"},
+    {"dW* = sum of Q* dq", "\\delta W^{*} = \\sum Q^{*} \\, \\delta q"},
+    {"dW = sum of Q(q) dq", "\\delta W = \\sum Q_{q} \\, \\delta q"},
+    {"dW = sum of Q dq", "\\delta W = \\sum Q \\, \\delta q"},
     {"S = sum of m a^2/2 + alpha.I alpha/2 + alpha.(w x I w)",
      "S = \\sum m a^{2}/2 + \\alpha \\cdot I \\alpha/2 + \\alpha \\cdot (\\omega \\times I \\omega)"},
     {"gap >= 0, lambda >= 0, lambda*gap = 0",
      "\\mathrm{gap} \\ge 0,\\ \\lambda \\ge 0,\\ \\lambda \\, \\mathrm{gap} = 0"},
 }};
-
-/// Words for LaTeX, with the formulas among them typeset.
-std::string typeset(const std::string& words) {
-    std::string result;
-    for (std::size_t i = 0; i < words.size();) {
-        const bool begins = i == 0 || (std::isalnum(static_cast<unsigned char>(words[i - 1])) == 0 &&
-                                       std::string_view("/'^*").find(words[i - 1]) == std::string_view::npos);
-        const auto found = std::find_if(spelled.begin(), spelled.end(), [&](const Spelled& s) {
-            return begins && std::string_view(words).substr(i).starts_with(s.plain);
-        });
-        if (found == spelled.end()) {
-            result += words[i++];
-            continue;
-        }
-        const bool has_space = found->plain.back() == ' ';
-        result += formula_begins;
-        result += found->latex.substr(0, found->latex.size() - (has_space ? 1 : 0));
-        result += formula_ends;
-        if (has_space) result += ' ';
-        i += found->plain.size();
-    }
-    return result;
-}
 
 std::string text_left(const Statement& s) {
     switch (s.kind) {
@@ -282,6 +259,28 @@ std::string mathml_page(const std::vector<Block>& blocks) {
 }
 
 }  // namespace
+
+std::string typeset(const std::string& words) {
+    std::string result;
+    for (std::size_t i = 0; i < words.size();) {
+        const bool begins = i == 0 || (std::isalnum(static_cast<unsigned char>(words[i - 1])) == 0 &&
+                                       std::string_view("/'^*").find(words[i - 1]) == std::string_view::npos);
+        const auto found = std::find_if(spelled.begin(), spelled.end(), [&](const Spelled& s) {
+            return begins && std::string_view(words).substr(i).starts_with(s.plain);
+        });
+        if (found == spelled.end()) {
+            result += words[i++];
+            continue;
+        }
+        const bool has_space = found->plain.back() == ' ';
+        result += formula_begins;
+        result += found->latex.substr(0, found->latex.size() - (has_space ? 1 : 0));
+        result += formula_ends;
+        if (has_space) result += ' ';
+        i += found->plain.size();
+    }
+    return result;
+}
 
 Notation notation_of(const std::string& format) {
     const auto plain = [](const Phrase& p) { return text(p); };

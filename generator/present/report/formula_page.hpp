@@ -16,8 +16,15 @@ inline constexpr char formula_begins = '\x01', formula_ends = '\x02';
 
 /// Words, then the formulas that they announce.
 struct Block {
+    enum class Kind {
+        step,        ///< of the derivation
+        definition,  ///< intermediate symbols of equations that are beyond the readable size
+        equation,    ///< of motion, with what belongs to it: definitions, rates, constraints, gaps
+        remark,      ///< what can be said besides: reactions, friction, factors
+    };
     std::string words;
     std::vector<std::pair<std::string, std::string>> equalities;
+    Kind kind = Kind::step;
 };
 
 /// The functions with which a format writes formulas, left-hand sides of statements, and blocks.
@@ -30,5 +37,9 @@ struct Notation {
 
 /// `format`: text, latex or mathml; text for any other.
 Notation notation_of(const std::string& format);
+
+/// Words in which the formulas of steps ("d/dt dT/dq' - dT/dq = Q") have become LaTeX between `formula_begins` and
+/// `formula_ends`.
+std::string typeset(const std::string& words);
 
 }  // namespace alembert

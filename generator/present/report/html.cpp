@@ -81,14 +81,15 @@ std::string inline_math(const Phrase& phrase) {
 }
 
 std::string breakable(const std::vector<std::string>& rows) {
-    std::string result = "<div class=\"equation\"><math displaystyle=\"true\"><mrow>";
+    std::string result = "<div class=\"equation\"><math class=\"lines\" displaystyle=\"true\"><mrow>";
     bool after_sign = true;
     for (const std::string& row : rows)
         for (const std::string& part : is_relation(row) ? std::vector{row} : children(row)) {
             const bool relates = is_relation(part);
             if ((is_sign(part) || relates) && !after_sign)
-                result += "</mrow></math> <math displaystyle=\"true\"><mrow>" + part.substr(0, 3) +
-                          " form=\"infix\"" + part.substr(3);
+                result += "</mrow> <mrow>" + part.substr(0, 3) + " form=\"infix\" lspace=\"0\"" + part.substr(3);
+            else if (is_sign(part))  // of the first term behind a relation
+                result += part.substr(0, 3) + " form=\"prefix\"" + part.substr(3);
             else
                 result += part;
             after_sign = relates;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The derivation, the claims, the agreement of formalisms, the constraints.
+/// The equations of motion, the derivation, the agreement of formalisms, the constraints.
 #include "algebra/notation/latex.hpp"
 #include "algebra/notation/text.hpp"
 #include "base/language/say.hpp"
 #include "present/report/agree.hpp"
 #include "present/report/audit.hpp"
-#include "present/report/check.hpp"
 #include "present/report/derivation.hpp"
 #include "present/report/page_parts.hpp"
+#include "present/report/written_mathml.hpp"
 
 namespace alembert {
 
@@ -15,6 +15,7 @@ namespace {
 
 // The most definitions shown for equations with intermediate symbols.
 constexpr std::size_t definitions_shown = 150;
+constexpr std::size_t most_in_sight = 12;  // longer lists are folded
 
 Notation html_notation() {
     Notation n = notation_of("mathml");
@@ -22,34 +23,43 @@ Notation html_notation() {
     return n;
 }
 
-/// Words with formulas among them. (The reader of scenes refuses control characters.)
+/// Words with formulas among them, in MathML or in LaTeX. (The reader of scenes refuses control characters.)
 std::string words_of_block(const std::string& words) {
+    const std::string typeset_words = typeset(words);
     std::string result, plain;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (words[i] != formula_begins) {
-            plain += words[i];
+    for (std::size_t i = 0; i < typeset_words.size(); ++i) {
+        if (typeset_words[i] != formula_begins) {
+            plain += typeset_words[i];
             continue;
         }
-        const std::size_t end = words.find(formula_ends, i);
-        result += html(plain) + words.substr(i + 1, end - i - 1);
+        const std::size_t end = typeset_words.find(formula_ends, i);
+        const std::string formula = typeset_words.substr(i + 1, end - i - 1);
+        result += html(plain) + (formula.starts_with("<math>") ? formula : latex_math(formula));
         plain.clear();
         i = end;
     }
     return result + html(plain);
 }
 
-void add_blocks(PageParts& page, const std::vector<Block>& blocks) {
-    for (const Block& block : blocks) {
-        put(page.body, "<p>{}</p>\n", words_of_block(block.words));
-        std::size_t shown = 0;
-        for (const auto& [left, right] : block.equalities) {
-            if (++shown > definitions_shown) {
-                put(page.body, "<p>{}</p>\n", say("… and {} more.", block.equalities.size() - definitions_shown));
-                break;
-            }
-            page.body += equation(left, right);
+void add_equalities(std::string& body, const Block& block) {
+    std::size_t shown = 0;
+    for (const auto& [left, right] : block.equalities) {
+        if (++shown > definitions_shown) {
+            put(body, "<p>{}</p>\n", say("… and {} more.", block.equalities.size() - definitions_shown));
+            return;
         }
+        body += equation(left, right);
     }
+}
+
+void add_block(std::string& body, const Block& block) {
+    const bool folded = block.equalities.size() > (block.kind == Block::Kind::definition ? 0 : most_in_sight);
+    if (folded)
+        put(body, "<details><summary>{} ({})</summary>\n", words_of_block(block.words), block.equalities.size());
+    else
+        put(body, "<p>{}</p>\n", words_of_block(block.words));
+    add_equalities(body, block);
+    if (folded) body += "</details>\n";
 }
 
 std::string equations_in(const Derivation& shown, std::string (*write)(const Phrase&), const char* separator) {
@@ -61,21 +71,18 @@ std::string equations_in(const Derivation& shown, std::string (*write)(const Phr
 
 }  // namespace
 
-void add_derivation(PageParts& page, const Overview& all) {
-    page.section("derivation", say("Derivation"));
+void add_equations(PageParts& page, const Overview& all) {
+    page.section("equations", say("Equations of motion"), Fold::never);
+    add_badges(page, all);
     if (!all.derived.value) {
         page.problem(all.derived.problem);
         page.end();
         return;
     }
     const DerivedScene& d = *all.derived.value;
-    const Notation n = html_notation();
-    const std::vector<Block> plain = blocks_of(d, n, false), whole = blocks_of(d, n, true);
-    const std::size_t steps = whole.size() - plain.size();
-    const bool is_long = !d.shown.definitions.empty();
-    if (!is_long && steps > 0)
-        add_blocks(page, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(steps)});
-    add_blocks(page, plain);
+    for (const Block& block : blocks_of(d, html_notation(), false))
+        if (block.kind == Block::Kind::equation || block.kind == Block::Kind::definition)
+            add_block(page.body, block);
     put(page.body, "<p class=\"buttons\">");
     page.copy("LaTeX", equations_in(d.shown, latex, " \\\\\n"));
     page.copy(say("text"), equations_in(d.shown, text, "\n"));
@@ -83,64 +90,16 @@ void add_derivation(PageParts& page, const Overview& all) {
     page.end();
 }
 
-namespace {
-
-/// The claim as its author wrote it, with the wrong term marked.
-std::string marked(const std::string& equation, const std::optional<Slip>& likely) {
-    const bool is_there = likely && likely->kind != "missing_term" && !likely->term.empty();
-    std::string term = is_there ? likely->term : "";
-    std::size_t at = is_there ? equation.find(term) : std::string::npos;
-    if (is_there && at == std::string::npos && (term[0] == '-' || term[0] == '+')) {
-        term.erase(0, 1);
-        at = equation.find(term);
-    }
-    if (at == std::string::npos) return html(equation);
-    return html(equation.substr(0, at)) + "<mark>" + html(term) + "</mark>" +
-           html(equation.substr(at + term.size()));
-}
-
-void add_claim(std::string& body, const Claim& claim, const CheckedClaim& c) {
-    const std::string equation = text_of(claim.equation);
-    put(body, "<li class=\"claim {}\"><p><strong class=\"verdict\">{}</strong> <code>{}</code></p>\n",
-        name_of(c.verdict), translated(name_of(c.verdict)), marked(equation, c.likely));
-    if (!claim.source.empty()) put(body, "<p class=\"source\">{}</p>\n", html(claim.source));
-    if (!c.reason.empty()) put(body, "<p>{}</p>\n", html(c.reason));
-    if (c.verdict == Verdict::proved)
-        put(body, "<p class=\"hint\">{}</p>\n",
-            c.normal_form ? say("Proved by normal form.")
-                          : say("Proved by exact evaluation at random states; the chance of an error is below {}.",
-                                fmt::format("2<sup>{:.0f}</sup>", c.failure)));
-    if (c.verdict == Verdict::refuted) {
-        if (c.likely) put(body, "<p>{}</p>\n", html(say("Probable slip: {}.", words_of(*c.likely))));
-        if (!c.nearest.empty())
-            put(body, "<p>{}<code class=\"repair\">{}</code></p>\n", say("Correct equation: "), html(c.nearest));
-        if (!c.difference.empty() && !is_missing_term(c))
-            put(body, "<p>{}<code>{}</code></p>\n", say("Extra in your equation: "), html(c.difference));
-        if (!c.counterexample.empty()) {
-            put(body, "<details><summary>{}</summary><dl class=\"state\">", say("A state at which it fails"));
-            for (const auto& [name, value] : c.counterexample)
-                put(body, "<div><dt>{}</dt><dd>{}</dd></div>", html(name), html(value));
-            put(body, "</dl><p>{}</p></details>\n", html(say("There left − right = {}", c.residual)));
-        }
-    }
-    put(body, "</li>\n");
-}
-
-}  // namespace
-
-void add_claims(PageParts& page, const Overview& all) {
-    if (!all.checked.was_asked) return;
-    page.section("claims", say("Claims"));
-    if (!all.checked.value) {
-        page.problem(all.checked.problem);
-        page.end();
-        return;
-    }
-    const Checked& checked = all.checked.value->checked;
-    put(page.body, "<ol class=\"claims\">\n");
-    for (std::size_t k = 0; k < checked.claims.size(); ++k)
-        add_claim(page.body, all.checked.value->scene.claims[k], checked.claims[k]);
-    put(page.body, "</ol>\n<p>{}</p>\n", html(words_of_completeness(checked)));
+void add_derivation(PageParts& page, const Overview& all) {
+    if (!all.derived.value) return;
+    std::vector<Block> blocks;
+    const bool is_long = !all.derived.value->shown.definitions.empty();
+    for (Block& block : blocks_of(*all.derived.value, html_notation(), !is_long))
+        if (block.kind == Block::Kind::step || block.kind == Block::Kind::remark)
+            blocks.push_back(std::move(block));
+    if (blocks.empty()) return;
+    page.section("derivation", say("Derivation"));
+    for (const Block& block : blocks) add_block(page.body, block);
     page.end();
 }
 

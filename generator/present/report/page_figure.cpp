@@ -84,7 +84,7 @@ void add_waiting_forces(Drawing& drawing, std::vector<Pose>& poses) {
 }  // namespace
 
 void add_figure(PageParts& page, const Overview& all) {
-    page.section("figure", say("Figure and motion"));
+    page.section("figure", say("Figure and motion"), Fold::never);
     std::optional<Drawing> drawing = all.drawing.value;
     if (!drawing || !drawing->obstacle.empty()) {
         page.problem(drawing ? drawing->obstacle : all.drawing.problem);
@@ -159,54 +159,38 @@ std::string six_digits(double x) {
 void add_mechanism(PageParts& page, const Overview& all) {
     const Mechanism& m = all.mechanism;
     page.section("mechanism", say("Coordinates and parameters"));
-    if (all.derived.value) {
-        const int freedom = all.derived.value->shown.degrees_of_freedom;
-        put(page.body, "<p>{}</p>\n",
-            say("The system has {}{} degree{} of freedom{}.", "<strong>", freedom, freedom == 1 ? "" : "s",
-                "</strong>"));
-    }
-    std::string& body = page.body;
-    begin_table(body, say("Coordinates"),
-                {say("symbol"), say("at the start"), say("rate at the start"), say("unit"), say("meaning")});
+    std::vector<std::vector<std::string>> rows;
     for (std::size_t k = 0; k < m.q.size(); ++k)
-        put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            symbol(m, m.q[k]), six_digits(ShownUnit(m.shown_units[k]).value(all.start.q[k])),
-            six_digits(ShownUnit(m.shown_units[k]).value(all.start.qdot[k])),
-            html(unit_text(ShownUnit(m.shown_units[k]).text(m.units[k]))),
-            html(k < all.scene.coordinates.size() ? all.scene.coordinates[k].about : ""));
-    put(body, "</tbody></table></div>\n");
-    if (!m.speeds.empty()) {
-        begin_table(body, say("Generalized speeds"), {say("symbol"), say("form"), say("unit"), say("meaning")});
-        for (std::size_t k = 0; k < m.speeds.size(); ++k)
-            put(body, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
-                symbol(m, m.speeds[k].u), html(all.scene.speeds[k].form.text),
-                html(unit_text(ShownUnit(m.speeds[k].shown).text(m.speeds[k].unit))),
-                html(all.scene.speeds[k].about));
-        put(body, "</tbody></table></div>\n");
+        rows.push_back({symbol(m, m.q[k]), six_digits(ShownUnit(m.shown_units[k]).value(all.start.q[k])),
+                        six_digits(ShownUnit(m.shown_units[k]).value(all.start.qdot[k])),
+                        html(unit_text(ShownUnit(m.shown_units[k]).text(m.units[k]))),
+                        html(k < all.scene.coordinates.size() ? all.scene.coordinates[k].about : "")});
+    add_table(page.body, say("Coordinates"),
+              {say("symbol"), say("at the start"), say("rate at the start"), say("unit"), say("meaning")}, rows);
+    rows.clear();
+    for (std::size_t k = 0; k < m.speeds.size(); ++k)
+        rows.push_back({symbol(m, m.speeds[k].u), "<code>" + html(all.scene.speeds[k].form.text) + "</code>",
+                        html(unit_text(ShownUnit(m.speeds[k].shown).text(m.speeds[k].unit))),
+                        html(all.scene.speeds[k].about)});
+    if (!rows.empty())
+        add_table(page.body, say("Generalized speeds"), {say("symbol"), say("form"), say("unit"), say("meaning")},
+                  rows);
+    rows.clear();
+    for (std::size_t k = 0; k < m.parameters.size(); ++k) {
+        const Parameter& given = all.scene.parameters[k];
+        rows.push_back({symbol(m, m.parameters[k].symbol),
+                        html(given.shown.unit.empty() ? given.value.text : given.shown.value),
+                        html(unit_text(ShownUnit(given.shown).text(given.unit))), html(given.about)});
     }
-    if (!m.parameters.empty()) {
-        begin_table(body, say("Parameters"), {say("symbol"), say("value"), say("unit"), say("meaning")});
-        for (std::size_t k = 0; k < m.parameters.size(); ++k) {
-            const Parameter& given = all.scene.parameters[k];
-            put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                symbol(m, m.parameters[k].symbol),
-                html(given.shown.unit.empty() ? given.value.text : given.shown.value),
-                html(unit_text(ShownUnit(given.shown).text(given.unit))), html(given.about));
-        }
-        put(body, "</tbody></table></div>\n");
-    }
-    if (!m.inputs.empty()) {
-        begin_table(body, say("Given functions of time"),
-                    {say("symbol"), say("value"), say("unit"), say("meaning")});
-        for (const Input& input : all.scene.inputs)
-            put(body,
-                "<tr><th scope=\"row\"><span class=\"letters\">{}</span></th><td><code>{}</code></td><td>{}</td>"
-                "<td>{}</td></tr>\n",
-                html_letters(input.name.text),
-                html(input.shown.unit.empty() ? input.value.text : input.shown.value),
-                html(unit_text(ShownUnit(input.shown).text(input.unit))), html(input.about));
-        put(body, "</tbody></table></div>\n");
-    }
+    const std::vector<std::string> of_values{say("symbol"), say("value"), say("unit"), say("meaning")};
+    if (!rows.empty()) add_table(page.body, say("Parameters"), of_values, rows);
+    rows.clear();
+    for (const Input& input : all.scene.inputs)
+        rows.push_back(
+            {"<span class=\"letters\">" + html_letters(input.name.text) + "</span>",
+             "<code>" + html(input.shown.unit.empty() ? input.value.text : input.shown.value) + "</code>",
+             html(unit_text(ShownUnit(input.shown).text(input.unit))), html(input.about)});
+    if (!rows.empty()) add_table(page.body, say("Given functions of time"), of_values, rows);
     page.end();
 }
 

@@ -9,19 +9,29 @@
 
 namespace alembert {
 
+/// Whether a section is a fold that a reader opens, or stands there at once.
+enum class Fold { closed, open, never };
+
 struct PageParts {
     std::string body = {};
     Json data = Json::object();
     std::vector<std::pair<std::string, std::string>> contents = {};  ///< id and heading of each section
 
     /// Begins a section with its heading.
-    void section(const std::string& id, const std::string& heading);
-    void end() { body += "</section>\n"; }
+    void section(const std::string& id, const std::string& heading, Fold fold = Fold::closed);
+    void end();
     /// Adds a button that copies the text.
     void copy(const std::string& what, const std::string& text);
     /// Adds the reason why a part is missing.
     void problem(const std::string& message);
+
+private:
+    bool in_fold_ = false;
 };
+
+/// A table of cells in HTML, the first of each row as its heading; columns in which nothing stands are left out.
+void add_table(std::string& body, const std::string& caption, const std::vector<std::string>& columns,
+               const std::vector<std::vector<std::string>>& rows);
 
 /// Begins a table, whose rows follow, with a heading for each column.
 void begin_table(std::string& body, const std::string& caption, const std::vector<std::string>& columns);
@@ -31,6 +41,8 @@ std::string unit_text(std::string unit);
 
 void add_figure(PageParts& page, const Overview& all);
 void add_mechanism(PageParts& page, const Overview& all);
+void add_badges(PageParts& page, const Overview& all);
+void add_equations(PageParts& page, const Overview& all);
 void add_derivation(PageParts& page, const Overview& all);
 void add_claims(PageParts& page, const Overview& all);
 void add_agreement(PageParts& page, const Overview& all);

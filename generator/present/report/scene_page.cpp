@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "present/report/scene_page.hpp"
 
+#include <algorithm>
+
 #include "base/language/say.hpp"
 #include "present/report/page_files.hpp"
 #include "present/report/page_parts.hpp"
@@ -44,10 +46,41 @@ void begin_table(std::string& body, const std::string& caption, const std::vecto
     put(body, "</tr></thead>\n<tbody>\n");
 }
 
-void PageParts::section(const std::string& id, const std::string& heading) {
+void add_table(std::string& body, const std::string& caption, const std::vector<std::string>& columns,
+               const std::vector<std::vector<std::string>>& rows) {
+    const auto is_used = [&](std::size_t column) {
+        return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return !row.at(column).empty(); });
+    };
+    std::vector<std::size_t> used;
+    std::vector<std::string> headings;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        if (!is_used(k)) continue;
+        used.push_back(k);
+        headings.push_back(columns[k]);
+    }
+    begin_table(body, caption, headings);
+    for (const std::vector<std::string>& row : rows) {
+        body += "<tr>";
+        for (const std::size_t k : used)
+            body += (k == 0 ? "<th scope=\"row\">" : "<td>") + row.at(k) + (k == 0 ? "</th>" : "</td>");
+        body += "</tr>\n";
+    }
+    body += "</tbody></table></div>\n";
+}
+
+// The browser opens a fold for a link to what lies in it, so the section has the name, and not the fold.
+void PageParts::section(const std::string& id, const std::string& heading, Fold fold) {
     contents.emplace_back(id, heading);
-    put(body, "<section id=\"{0}\" aria-labelledby=\"{0}-heading\">\n<h2 id=\"{0}-heading\">{1}</h2>\n", id,
-        html(heading));
+    in_fold_ = fold != Fold::never;
+    if (in_fold_)
+        put(body, "<details class=\"fold\"{}><summary><h2 id=\"{}-heading\">{}</h2></summary>\n",
+            fold == Fold::open ? " open" : "", id, html(heading));
+    put(body, "<section id=\"{0}\" aria-labelledby=\"{0}-heading\">\n", id);
+    if (!in_fold_) put(body, "<h2 id=\"{}-heading\">{}</h2>\n", id, html(heading));
+}
+
+void PageParts::end() {
+    body += in_fold_ ? "</section>\n</details>\n" : "</section>\n";
 }
 
 void PageParts::copy(const std::string& what, const std::string& text) {
@@ -68,12 +101,15 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
                            {"pause", say("Pause")},
                            {"copied", say("Copied")},
                            {"refused", say("Copying is not allowed")}};
+    parts.body += "<div class=\"first\">\n";
     add_figure(parts, all);
+    add_equations(parts, all);
+    parts.body += "</div>\n";
     add_mechanism(parts, all);
     add_derivation(parts, all);
     add_claims(parts, all);
     if (!options.derivation.empty()) {
-        parts.section("hand-derivation", say("Derivation by hand"));
+        parts.section("hand-derivation", say("Derivation by hand"), Fold::open);
         parts.body += options.derivation;
         parts.end();
     }

@@ -5,7 +5,10 @@
 #include <array>
 #include <map>
 
+#include "alembert/base/error.hpp"
+#include "algebra/notation/mathml.hpp"
 #include "base/language/greek.hpp"
+#include "check/written/read.hpp"
 #include "present/report/html.hpp"
 
 namespace alembert {
@@ -23,11 +26,6 @@ std::string row_of(const std::string& content) {
 std::string sign_of(const std::string& sign) {
     return element_of("mo", sign);
 }
-std::string bracketed(const std::string& content, const std::string& open = "(", const std::string& close = ")") {
-    return row_of("<mo stretchy=\"true\">" + open + "</mo>" + content + "<mo stretchy=\"true\">" + close +
-                  "</mo>");
-}
-
 const std::string thin_space = "<mspace width=\"0.17em\"></mspace>";
 const std::string minus_sign = "<mo>&#x2212;</mo>", no_sign = "<mo>&#x2062;</mo>", of_sign = "<mo>&#x2061;</mo>",
                   partial_sign = "<mi>&#x2202;</mi>";
@@ -60,7 +58,7 @@ std::string dotted(const std::string& letter, int dots) {
     if (dots <= 0) return letter;
     if (dots < 5)
         return "<mover accent=\"true\">" + letter + sign_of(signs[static_cast<std::size_t>(dots)]) + "</mover>";
-    return element_of("msup", letter + bracketed(element_of("mn", std::to_string(dots))));
+    return element_of("msup", letter + in_brackets(element_of("mn", std::to_string(dots))));
 }
 
 /// "1,2", "cm", "theta_1" below or above a letter.
@@ -117,7 +115,7 @@ private:
 
     std::string in_product(const Math& math) {
         const bool needs = math.kind == Kind::sum || math.kind == Kind::negate;
-        return needs ? bracketed(write(math)) : write(math);
+        return needs ? in_brackets(write(math)) : write(math);
     }
 
     std::string after_minus(const Math& math) { return in_product(math); }
@@ -165,25 +163,26 @@ private:
                           argument(*base.args[0]));
         const bool is_atom = base.kind == Kind::letter || base.kind == Kind::number || base.kind == Kind::vector ||
                              base.kind == Kind::matrix;
-        return element_of("msup", (is_atom ? write(base) : bracketed(write(base))) + write(exponent));
+        return element_of("msup", (is_atom ? write(base) : in_brackets(write(base))) + write(exponent));
     }
 
     std::string argument(const Math& math) {
         const bool is_atom = math.kind == Kind::letter || math.kind == Kind::number;
-        return is_atom ? thin_space + write(math) : bracketed(write(math));
+        return is_atom ? thin_space + write(math) : in_brackets(write(math));
     }
 
     std::string call(const Math& math) {
         if (math.args.empty()) return element_of("mi", html(math.text));
         if (math.text == "sqrt") return element_of("msqrt", write(*math.args[0]));
-        if (math.text == "abs") return bracketed(write(*math.args[0]), "|", "|");
+        if (math.text == "abs") return in_brackets(write(*math.args[0]), "|", "|");
+        if (math.text == "sum" && math.args.size() == 1) return row_of(sign_of("&#x2211;") + write(*math.args[0]));
         if (math.text == "exp") return element_of("msup", element_of("mi", "e") + row_of(write(*math.args[0])));
         static const std::map<std::string, std::string> names{
             {"asin", "arcsin"}, {"acos", "arccos"}, {"atan", "arctan"}, {"sign", "sgn"}};
         const auto found = names.find(math.text);
         const std::string name = element_of("mi", html(found == names.end() ? math.text : found->second));
         if (math.args.size() == 1) return row_of(name + of_sign + argument(*math.args[0]));
-        return row_of(name + of_sign + bracketed(list(math.args)));
+        return row_of(name + of_sign + in_brackets(list(math.args)));
     }
 
     /// d/dt or ∂/∂x of an argument: a letter stands above, anything longer beside.
@@ -197,7 +196,7 @@ private:
     }
 
     std::string bracketed_once(const Math& of) {
-        return of.kind == Kind::partial || of.kind == Kind::rate ? bracketed(write(of)) : argument(of);
+        return of.kind == Kind::partial || of.kind == Kind::rate ? in_brackets(write(of)) : argument(of);
     }
 
     std::string partial(const Math& math) {
@@ -223,7 +222,7 @@ private:
                 cells = element_of("mtd", write(*one));
             rows += element_of("mtr", cells);
         }
-        return bracketed(element_of("mtable", rows));
+        return in_brackets(element_of("mtable", rows));
     }
 
     std::string plain(const Math& math) {
@@ -235,7 +234,7 @@ private:
             case Kind::call:
                 return call(math);
             case Kind::applied:
-                return row_of(letter_mathml(math.letter, math.dots) + of_sign + bracketed(list(math.args)));
+                return row_of(letter_mathml(math.letter, math.dots) + of_sign + in_brackets(list(math.args)));
             case Kind::sum:
                 return sum(math);
             case Kind::product:
@@ -253,7 +252,7 @@ private:
             case Kind::variation: {
                 const bool is_letter = math.args[0]->kind == Kind::letter;
                 return row_of(element_of("mi", "δ") +
-                              (is_letter ? write(*math.args[0]) : bracketed(write(*math.args[0]))));
+                              (is_letter ? write(*math.args[0]) : in_brackets(write(*math.args[0]))));
             }
             case Kind::vector:
             case Kind::matrix:
@@ -273,6 +272,20 @@ private:
 
 std::string written_mathml(const Math& math, const WrongPart& wrong) {
     return Writer(wrong).write(math);
+}
+
+std::string latex_math(const std::string& latex) {
+    try {
+        const Written written = read_derivation("\\[" + latex + "\\]", "formula.tex");
+        if (written.statements.size() == 1 && !written.statements[0].sides.empty()) {
+            std::string result;
+            for (const MathPtr& side : written.statements[0].sides)
+                result += (result.empty() ? "" : sign_of("=")) + written_mathml(*side);
+            return "<math>" + row_of(result) + "</math>";
+        }
+    } catch (const SceneError&) {  // NOLINT(bugprone-empty-catch): the text is shown instead
+    }
+    return "<code>" + html(latex) + "</code>";
 }
 
 }  // namespace alembert

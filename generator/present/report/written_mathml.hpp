@@ -21,4 +21,7 @@ struct WrongPart {
 
 std::string written_mathml(const Math& math, const WrongPart& wrong = {});
 
+/// A formula of LaTeX among words, with its <math>; its text where it cannot be read.
+std::string latex_math(const std::string& latex);
+
 }  // namespace alembert
