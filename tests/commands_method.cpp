@@ -57,18 +57,18 @@ void check_choice(const std::vector<std::string>& options, const std::string& me
 }  // namespace
 
 TEST_CASE("auto: tolerance, step, structure and length choose the method, and the run says why") {
-    check_choice({"--tolerance", "1e-4", "--code", "compiled"}, "dop853", "tolerance is 0.0001");
+    check_choice({"--tolerance", "1e-4", "--code", "compiled"}, "dop853", "the tolerance 0.0001");
     if (alembert::machine::can_run()) check_choice({"--tolerance", "1e-3"}, "taylor", "power series");
-    check_choice({"--tolerance", "1e-5", "--code", "compiled"}, "verner98", "tolerance is 1e-05");
+    check_choice({"--tolerance", "1e-5", "--code", "compiled"}, "verner98", "the tolerance 1e-05");
     if (alembert::machine::can_run()) check_choice({"--tolerance", "1e-5"}, "taylor", "power series");
-    check_choice({"--tolerance", "1e-9", "--code", "compiled"}, "verner98", "tolerance is 1e-09");
+    check_choice({"--tolerance", "1e-9", "--code", "compiled"}, "verner98", "the tolerance 1e-09");
     check_choice({"--tolerance", "1e-11"}, "taylor", "power series");
     check_choice({"--tolerance", "1e-14"}, "taylor", "power series");
     check_choice({"--step", "0.01"}, "rk4", "fixed step");
     check_choice({"--step", "0.001"}, "kahanli8", "20000 steps");
     const auto text = run({"simulate", temporary("oscillator.toml", oscillator), "--tolerance", "1e-4", "--code",
                            "compiled", "--no-estimate"});
-    CHECK(text.out.find("dop853: the tolerance is 0.0001") != std::string::npos);
+    CHECK(text.out.find("method: dop853, chosen for the tolerance 0.0001") != std::string::npos);
     // For a method given by name no reason is given.
     CHECK(!simulated(temporary("oscillator.toml", oscillator), {"--method", "dop853"}).contains("method_why"));
 }

@@ -70,7 +70,7 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SimulateVerb>(
         app, chosen,
         {.name = "simulate",
-         .about = say("makes code, integrates, and says how large the error is"),
+         .about = say("makes code, integrates, and estimates the error"),
          .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
         run, [](Verb& verb, SimulateVerb& options) {
             add_run_options(verb, options);

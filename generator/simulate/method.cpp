@@ -99,18 +99,19 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
     if (asks_regularization(request, d.mechanism)) {
         if (step > 0)
             return {.method = inseparable(d) ? Method::gauss : Method::kahanli8,
-                    .why = say("a fixed step was asked for, in a time of its own")};
+                    .why = say("chosen for a fixed step in a time of its own")};
         return {.method = without_series(tolerance),
-                .why = say("the tolerance is {:g}, and the run is regularized", tolerance)};
+                .why = say("chosen for the tolerance {:g} of a regularized run", tolerance)};
     }
     if (step > 0) {
         const double steps = duration / step;
         if (steps >= many_steps && !inseparable(d))
             return {.method = Method::kahanli8,
-                    .why = say("a fixed step was asked for, forces depend on positions alone, and in "
-                               "{:.0f} steps the energy must not drift",
+                    .why = say("chosen for a fixed step: forces depend on positions alone, and in {:.0f} steps "
+                               "the energy must "
+                               "not drift",
                                steps)};
-        return {.method = Method::rk4, .why = say("a fixed step was asked for")};
+        return {.method = Method::rk4, .why = say("chosen for a fixed step")};
     }
     const bool constrained = !d.mechanism.constraints.empty(), linked = is_linked(d.mechanism);
     const Strict& strict = needs_compiler_for_series(request) ? by_compiler : in_memory;
@@ -123,19 +124,20 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
             return {.method = Method::taylor,
                     .when_stiff = Method::radau,
                     .when_stuck = constrained ? std::optional(Method::dop853) : std::nullopt,
-                    .why = say("the tolerance is {:g} and the motion has a power series ({:g} products at "
-                               "each order); if the system turns out "
-                               "stiff, radau goes on",
-                               tolerance, *products)};
+                    .why = say(
+                        "chosen for the tolerance {:g} (the motion has a short power series; radau takes over if "
+                        "the system turns out stiff)",
+                        tolerance)};
     const bool may_find_series =
         tolerance < loosest_of_series && !needs_compiler_for_series(request) && d.mechanism.unilateral.empty();
     const double below = !linked                              ? verner98_below.free
                          : needs_compiler_for_series(request) ? by_compiler.linked
                                                               : verner98_below.linked;
-    return {.method = without_series(tolerance, below),
-            .when_stiff = Method::radau,
-            .when_cheaper = may_find_series ? std::optional(Method::taylor) : std::nullopt,
-            .why = say("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
+    return {
+        .method = without_series(tolerance, below),
+        .when_stiff = Method::radau,
+        .when_cheaper = may_find_series ? std::optional(Method::taylor) : std::nullopt,
+        .why = say("chosen for the tolerance {:g} (radau takes over if the system turns out stiff)", tolerance)};
 }
 
 std::string name_given(const RunOptions& request, const Derived& d) {

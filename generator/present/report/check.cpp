@@ -18,7 +18,7 @@ const char* name_of(Verdict verdict) {
 std::string words_of_completeness(const Checked& checked) {
     if (checked.complete) return say("With the constraints, the claims that hold determine the motion.");
     const int missing = checked.missing, all = checked.freedom;
-    if (missing == 0) return say("The claims that hold do not determine the motion.");
+    if (missing == 0) return say("The equations that are proved do not yet determine the motion.");
     if (all == 1) return say("The equation of motion is still missing.");
     return missing == 1 ? say("1 of {} equations of motion is still missing.", all)
                         : say("{} of {} equations of motion are still missing.", missing, all);

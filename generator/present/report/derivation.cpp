@@ -237,7 +237,7 @@ private:
             begin(say("e.e = 1 of each quaternion e has been used in all terms, after differentiation."),
                   Kind::equation);
         for (const Phrase& positive : shown_.positive)
-            begin(say("on the sheet of roots where {} > 0", n_.inline_phrase(positive)), Kind::equation);
+            begin(say("valid while {} > 0", n_.inline_phrase(positive)), Kind::equation);
         if (!shown_.kinematics.empty()) {
             begin(say("with the rates of the coordinates:"), Kind::equation);
             add(shown_.kinematics);

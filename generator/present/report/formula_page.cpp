@@ -260,8 +260,11 @@ std::string mathml_page(const std::vector<Block>& blocks) {
 
 }  // namespace
 
-std::string typeset(const std::string& words) {
-    std::string result;
+std::string typeset(const std::string& given) {
+    std::string words = given, result;
+    const std::string sum = "Σ ";  // in Chinese
+    for (std::size_t at = words.find(sum); at != std::string::npos; at = words.find(sum))
+        words.replace(at, sum.size(), "sum of ");
     for (std::size_t i = 0; i < words.size();) {
         const bool begins = i == 0 || (std::isalnum(static_cast<unsigned char>(words[i - 1])) == 0 &&
                                        std::string_view("/'^*").find(words[i - 1]) == std::string_view::npos);

@@ -40,6 +40,6 @@ Notation notation_of(const std::string& format);
 
 /// Words in which the formulas of steps ("d/dt dT/dq' - dT/dq = Q") have become LaTeX between `formula_begins` and
 /// `formula_ends`.
-std::string typeset(const std::string& words);
+std::string typeset(const std::string& given);
 
 }  // namespace alembert

@@ -205,7 +205,7 @@ void add_motion(std::string& page, const Run& run) {
     say_on(page, "{} with {}: {}, {} rejected, {}{}\n", translated_parts(run.solver.formulation), s.method,
            shown_count(s.steps, to_say("step")), s.rejected, shown_count(s.evaluations, to_say("evaluation")),
            of_operations(run));
-    if (!run.why_method.empty()) put(page, "{}: {}\n", s.method, run.why_method);
+    if (!run.why_method.empty()) put(page, "{}\n", say("method: {}, {}", s.method, run.why_method));
     if (run.is_regularized)
         say_on(page, "regularized: steps are those of a time of its own, short where the potential is deep\n");
     if (s.switched) put(page, "{}\n", described(*s.switched));

@@ -149,7 +149,7 @@ std::string error_page(const std::string& file, const std::string& message) {
         "<pre class=\"problem\" role=\"alert\">{}</pre>\n<p>{}</p>\n</section></main>\n</body>\n</html>\n",
         say("The scene has a mistake"),
         say("alembert cannot read {}. It says:", "<code>" + html(file) + "</code>"), html(message),
-        say("Repair this and make the page again."));
+        say("Correct the scene and make the page again."));
     return page;
 }
 
