@@ -147,6 +147,49 @@ TEST_CASE("simulate: the line that --plot draws is the motion, read back by its 
     }
 }
 
+TEST_CASE("simulate: --plot - draws the motion into the text, and each dot is where the motion is") {
+    const std::string scene = temporary("cosine.toml",
+                                        "title = \"cos\"\n[coordinates]\nx = 1\n[energy]\n"
+                                        "kinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n"
+                                        "[simulation]\nduration = 6.283185307179586\n");
+    const std::string text = run({"simulate", scene, "--plot", "-"}).out;
+    const std::size_t begin = text.find("\nx\n");
+    REQUIRE(begin != std::string::npos);
+    std::istringstream lines(text.substr(begin + 3));
+    std::vector<std::pair<int, int>> dots;  // from the left, from above
+    std::string line;
+    int row = 0, across = 0;
+    for (; row < 4 && std::getline(lines, line); ++row) {
+        const std::size_t bar = line.find("│");
+        REQUIRE(bar != std::string::npos);
+        if (row == 0) CHECK(std::stod(line.substr(0, bar)) == doctest::Approx(1).epsilon(1e-3));
+        if (row == 3) CHECK(std::stod(line.substr(0, bar)) == doctest::Approx(-1).epsilon(1e-3));
+        across = 0;
+        for (std::size_t at = bar + 3; at + 3 <= line.size(); at += 3, ++across) {
+            const int bits = (line[at + 1] & 0x3f) << 6 | (line[at + 2] & 0x3f);  // of U+2800 + bits, in UTF-8
+            constexpr int of_dots[2][4] = {{0x01, 0x02, 0x04, 0x40}, {0x08, 0x10, 0x20, 0x80}};
+            for (int x = 0; x < 2; ++x)
+                for (int y = 0; y < 4; ++y)
+                    if ((bits & 0xff & of_dots[x][y]) != 0) dots.emplace_back(2 * across + x, 4 * row + y);
+        }
+    }
+    REQUIRE(row == 4);
+    std::set<int> columns;
+    for (const auto& [x, y] : dots) {
+        columns.insert(x);
+        double nearest = 1e9;  // a dot belongs to some time within its column
+        for (int k = -60; k <= 60; ++k) {
+            const double t = 2 * M_PI * (x + k / 100.0) / (2 * across - 1);
+            nearest = std::min(nearest, std::abs((1 - std::cos(t)) / 2 * 15 - y));
+        }
+        CHECK(nearest <= 0.75);
+    }
+    CHECK(columns.size() == static_cast<std::size_t>(2 * across));
+    const std::string digits = run({"simulate", scene, "--digits"}).out;
+    CHECK(std::regex_search(digits, std::regex("x +(1|0\\.9999999[0-9]{6,})")));
+    CHECK(digits.find("│") == std::string::npos);  // not on a terminal, and not asked for
+}
+
 TEST_CASE("simulate: --show chooses what is drawn; impacts and closed contacts are marked") {
     const std::string ball = alembert::test::source_path("scenes/textbook/bouncing_ball.toml");
     const std::string svg = picture({"simulate", ball, "--show", "y', energy"}, "--plot");

@@ -19,17 +19,22 @@ namespace alembert {
 
 namespace {
 
+constexpr const char* in_text = "-";
+constexpr int columns_of_a_file = 80;
+
 struct SimulateVerb : RunVerb {
-    std::string plot;         ///< an SVG file; empty for none
-    std::string section;      ///< of Poincaré; empty for none
+    std::string plot;     ///< an SVG file, or "-" for lines of text; empty for none, and for text on a terminal
+    std::string section;  ///< of Poincaré; empty for none
     std::string sensitivity;  ///< names with commas; empty for none
     std::string wanted;       ///< of what the sensitivity is; empty for the state
+    bool all_digits = false;  ///< the values at the end with 16 digits
     std::string show;         ///< the names of the columns that it shows, with commas; if empty, all
 };
 
 int run(const SimulateVerb& verb) {
     check_output(verb.output, FileForm::table, {verb.scene});
-    check_output(verb.plot, FileForm::picture, {verb.scene});
+    const bool plots_in_text = verb.plot == in_text;
+    if (!plots_in_text) check_output(verb.plot, FileForm::picture, {verb.scene});
     need_table_form(verb.output);
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
@@ -49,15 +54,19 @@ int run(const SimulateVerb& verb) {
     progress.wipe();
     warn(run.warnings);
     if (!verb.output.empty()) write_file(verb.output, table_file(run, verb.output), {verb.scene});
-    if (!verb.plot.empty()) write_file(verb.plot, motion_plot(run, wishes.columns), {verb.scene});
+    if (!verb.plot.empty() && !plots_in_text)
+        write_file(verb.plot, motion_plot(run, wishes.columns), {verb.scene});
     if (verb.json) {
         Json all = as_json(run);
         if (!verb.section.empty()) all["poincare"] = as_json(section, run);
         show(all);
     } else {
-        show_formulas(as_text(run, ink_for(STDOUT_FILENO)));
+        show_formulas(as_text(run, ink_for(STDOUT_FILENO), verb.all_digits ? 16 : 6));
         if (!verb.section.empty()) show_formulas(as_text(section, run));
-        for (const std::string& file : {verb.output, verb.plot})
+        const std::optional<int> columns = columns_of(STDOUT_FILENO);
+        if (plots_in_text || (columns && verb.plot.empty()))
+            show(braille_plot(run, wishes.columns, columns.value_or(columns_of_a_file)));
+        for (const std::string& file : {verb.output, plots_in_text ? std::string() : verb.plot})
             if (!file.empty()) show(say("wrote {}\n", file));
     }
     if (run.failure) throw IntegrationError(*run.failure, run.motion.failure->time, run.motion.failure->state);
@@ -78,7 +87,8 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.add_option("--sample", options.wishes.sample, say("time between rows of the table"))
                 .type_name(values::seconds)
                 .positive();
-            verb.add_option("--plot", options.plot, say("SVG picture of the motion over time"))
+            verb.add_flag("--digits", options.all_digits, say("the values at the end with all 16 digits"));
+            verb.add_option("--plot", options.plot, say("SVG picture of the motion over time; - for text"))
                 .type_name(values::file);
             add_show_option(verb, options.show, "--plot");
             verb.add_option("--poincare", options.section, say("section of Poincare, as in \"theta1 = 0\""))

@@ -52,28 +52,6 @@ ShownUnit shown_unit(const Mechanism& m, std::size_t column, const MotionTable& 
     return ShownUnit({});
 }
 
-/// The named columns, or all except reactions, with their points.
-std::vector<PlottedLine> lines_of(const Run& run, const std::vector<std::string>& names) {
-    std::vector<PlottedLine> all = columns_of(run), result;
-    const MotionTable& rows = run.rows;
-    for (std::size_t column = 1; column < rows.columns.size(); ++column) {
-        const ShownUnit unit = shown_unit(run.mechanism, column, rows);
-        PlottedLine& line = all[column - 1];
-        line.unit = line.group == rate ? unit.text(run.mechanism.units[column - 1 - run.mechanism.units.size()], 1)
-                                       : unit.text(line.unit);
-        for (std::size_t row = 0; row < rows.rows(); ++row)
-            line.points.emplace_back(rows.at(row, 0), unit.value(rows.at(row, column)));
-    }
-    if (names.empty()) {
-        std::erase_if(all, [](const PlottedLine& line) { return line.group == reaction; });
-        return all;
-    }
-    for (const std::string& name : names)
-        for (const PlottedLine& one : all)
-            if (one.name == name) result.push_back(one);
-    return result;
-}
-
 /// "event strike at t = 1.2 and 3 more; contact floor: 12 impacts, 1 rest", for the caption.
 std::string account_of(const Run& run) {
     std::string text;
@@ -129,6 +107,27 @@ std::string happenings(const Run& run, const PlotArea& area) {
 }
 
 }  // namespace
+
+std::vector<PlottedLine> lines_of(const Run& run, const std::vector<std::string>& names) {
+    std::vector<PlottedLine> all = columns_of(run), result;
+    const MotionTable& rows = run.rows;
+    for (std::size_t column = 1; column < rows.columns.size(); ++column) {
+        const ShownUnit unit = shown_unit(run.mechanism, column, rows);
+        PlottedLine& line = all[column - 1];
+        line.unit = line.group == rate ? unit.text(run.mechanism.units[column - 1 - run.mechanism.units.size()], 1)
+                                       : unit.text(line.unit);
+        for (std::size_t row = 0; row < rows.rows(); ++row)
+            line.points.emplace_back(rows.at(row, 0), unit.value(rows.at(row, column)));
+    }
+    if (names.empty()) {
+        std::erase_if(all, [](const PlottedLine& line) { return line.group == reaction; });
+        return all;
+    }
+    for (const std::string& name : names)
+        for (const PlottedLine& one : all)
+            if (one.name == name) result.push_back(one);
+    return result;
+}
 
 std::vector<std::string> column_units(const Run& run) {
     std::vector<std::string> units{"s"};

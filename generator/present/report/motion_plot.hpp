@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "present/report/plot_panels.hpp"
 #include "simulate/simulate.hpp"
 
 namespace alembert {
@@ -20,6 +21,13 @@ namespace alembert {
 /// `columns` are the names of the table's columns to draw (check_columns); if empty, all except the reactions of
 /// joints.
 std::string motion_plot(const Run& run, const std::vector<std::string>& columns);
+
+/// The named columns of the table, or all except the reactions of joints, with their points.
+std::vector<PlottedLine> lines_of(const Run& run, const std::vector<std::string>& names);
+
+/// The same as lines of text: a chart of dots (Braille's letters) for each quantity, one above the other, at most
+/// `columns` letters wide. Where no names are given it shows coordinates alone, at most four.
+std::string braille_plot(const Run& run, const std::vector<std::string>& names, int columns);
 
 /// The units of all columns of the table, in their order; empty where a unit is not known.
 std::vector<std::string> column_units(const Run& run);

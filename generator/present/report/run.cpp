@@ -200,7 +200,7 @@ std::string of_operations(const Run& run) {
 }
 
 /// Adds the method, the end of the motion and the contacts that were closed then.
-void add_motion(std::string& page, const Run& run) {
+void add_motion(std::string& page, const Run& run, int digits) {
     const Statistics& s = run.motion.statistics;
     say_on(page, "{} with {}: {}, {} rejected, {}{}\n", translated_parts(run.solver.formulation), s.method,
            shown_count(s.steps, to_say("step")), s.rejected, shown_count(s.evaluations, to_say("evaluation")),
@@ -235,11 +235,13 @@ void add_motion(std::string& page, const Run& run) {
     const std::size_t width = column_for(speeds, column_for(coordinates, 16));
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
         const ShownUnit unit(m.shown_units[i]);
-        say_on(page, "{:<{}}{:>24.16g}   rate {:>24.16g}\n", coordinates[i], width,
-               unit.value(run.final_coordinates[i]), unit.value(run.final_rates[i]));
+        say_on(page, "{:<{}}{:>{}.{}g}   rate {:>{}.{}g}\n", coordinates[i], width,
+               unit.value(run.final_coordinates[i]), digits + 8, digits, unit.value(run.final_rates[i]),
+               digits + 8, digits);
     }
     for (std::size_t k = 0; k < speeds.size(); ++k)
-        put(page, "{:<{}}{:>24.16g}\n", speeds[k], width, ShownUnit(m.speeds[k].shown).value(run.final_speeds[k]));
+        put(page, "{:<{}}{:>{}.{}g}\n", speeds[k], width, ShownUnit(m.speeds[k].shown).value(run.final_speeds[k]),
+            digits + 8, digits);
     if (run.contacts.empty()) return;
     std::string closed;
     for (const int k : run.motion.phases.back().closed)
@@ -248,7 +250,7 @@ void add_motion(std::string& page, const Run& run) {
 }
 
 /// Adds ∂(end)/∂(start, parameters).
-void add_sensitivity(std::string& page, const Sensitivity& s) {
+void add_sensitivity(std::string& page, const Sensitivity& s, int digits) {
     const std::string steps = shown_count(s.steps, to_say("step"));
     if (s.adjoint)
         say_on(page, "\nderivatives at t = {:.15g} (adjoint equations, {})\n", s.time, steps);
@@ -260,12 +262,12 @@ void add_sensitivity(std::string& page, const Sensitivity& s) {
     const std::vector<std::string>&rows = down ? by : s.of, &columns = down ? s.of : by;
     const std::size_t width = column_for(rows, 16);
     put(page, "{:<{}}", "", width);
-    for (const std::string& name : columns) put(page, "{:>24}", name);
+    for (const std::string& name : columns) put(page, "{:>{}}", name, digits + 8);
     page += '\n';
     for (std::size_t i = 0; i < rows.size(); ++i) {
         put(page, "{:<{}}", rows[i], width);
         for (std::size_t k = 0; k < columns.size(); ++k)
-            put(page, "{:>24.16g}", down ? s.values[k][i] : s.values[i][k]);
+            put(page, "{:>{}.{}g}", down ? s.values[k][i] : s.values[i][k], digits + 8, digits);
         page += '\n';
     }
 }
@@ -355,12 +357,12 @@ Json as_json(const Run& run) {
     return result;
 }
 
-std::string as_text(const Run& run, const Ink& ink) {
+std::string as_text(const Run& run, const Ink& ink, int digits) {
     std::string page;
     if (const std::string warning = warning_of(run); !warning.empty())
         put(page, "{}{}{}\n", ink.bad, warning, ink.end);
-    add_motion(page, run);
-    if (run.sensitivity) add_sensitivity(page, *run.sensitivity);
+    add_motion(page, run, digits);
+    if (run.sensitivity) add_sensitivity(page, *run.sensitivity, digits);
     add_account(page, run);
     return page;
 }

@@ -11,7 +11,8 @@ namespace alembert {
 const char* name_of(ContactEvent::Kind kind);
 
 Json as_json(const Run& run);
-std::string as_text(const Run& run, const Ink& ink = {});
+/// `digits`: of the values at the end, 16 for all that there are.
+std::string as_text(const Run& run, const Ink& ink = {}, int digits = 6);
 
 /// A section of Poincaré: its equation, and the states at which the motion crossed it.
 struct SectionOfRun {
