@@ -60,7 +60,7 @@ TEST_CASE("linearize: JSON has the matrices, the states and the eigenvalues") {
 }
 
 TEST_CASE("linearize: a state that is not steady gives exit 3 and the residual") {
-    const auto result = run({"linearize", bicycle});
+    const auto result = run({"linearize", bicycle, "--at", "lean'=0.5"});
     CHECK(result.exit == 3);
     CHECK(result.out.empty());
     CHECK(result.err.find("lean' = 0.5, and lean is not cyclic") != std::string::npos);
@@ -362,7 +362,7 @@ duration = 2
 
 TEST_CASE("linearize: about any state, A, B and the rest are the derivatives and the rates there") {
     const std::string scene = temporary("driven.toml", driven);
-    const Run refused = run({"linearize", scene});
+    const Run refused = run({"linearize", scene, "--at", "theta=0.8"});
     CHECK(refused.exit == 3);
     CHECK(refused.err.find("--affine") != std::string::npos);
     const Json json = json_of({"linearize", scene, "--affine", "--at", "t=0.4", "--at", "theta=0.8"});

@@ -99,8 +99,7 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.add_option("--sensitivity-of", options.wanted, say("of these components and outputs alone"))
                 .type_name(values::names)
                 .needs("--sensitivity");
-            verb.add_flag("--regularize", options.wishes.regularize,
-                          say("short steps near collisions"));
+            verb.add_flag("--regularize", options.wishes.regularize, say("short steps near collisions"));
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));
             add_reactions_option(verb, options.wishes.reactions);

@@ -277,7 +277,8 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
 
 }  // namespace
 
-Stability stability(Scene scene, const StabilityOptions& options) {
+Stability stability(Scene scene, const StabilityOptions& wishes) {
+    StabilityOptions options = wishes;
     argument::need_positive_if_given("period", options.period);
     const bool periodic = options.period > 0 || scene.simulation.period;
     if (!options.lyapunov.empty() && (scene.polynomial || periodic))
@@ -290,6 +291,7 @@ Stability stability(Scene scene, const StabilityOptions& options) {
     Stability result{.title = scene.title};
     LinearizeOptions linearize_options{.by = options.by, .at = options.at, .exact_at = options.exact_at};
     result.near = linearize(std::move(scene), linearize_options);
+    if (!result.near->reached.empty()) options.exact_at = result.near->reached;
     check_steady(*result.near);
     result.near->mechanism = with_potential_of_loads(result.near->mechanism);
     const LinearizedScene& near = *result.near;

@@ -9,6 +9,7 @@
 
 #include "algebra/notation/angles.hpp"
 #include "algebra/notation/differences.hpp"
+#include "algebra/notation/text.hpp"
 
 namespace alembert {
 
@@ -63,6 +64,21 @@ FactorPiece symbol_piece(const Factor& factor) {
                                                         : 2;
     piece.order = {level, info.rank, 0};
     return piece;
+}
+
+/// A sum that stands above and below the fraction line is left out: the factorizer may find above what is one atom
+/// below.
+void cancel(std::vector<FactorPiece>& pieces) {
+    for (FactorPiece& above : pieces)
+        for (FactorPiece& below : pieces) {
+            if (above.exponent <= 0 || below.exponent >= 0 || above.base.kind != Phrase::Kind::sum ||
+                text(above.base) != text(below.base))
+                continue;
+            const Rational both = above.exponent + below.exponent;
+            above.exponent = both > 0 ? both : Rational(0);
+            below.exponent = both < 0 ? both : Rational(0);
+        }
+    std::erase_if(pieces, [](const FactorPiece& piece) { return cln::zerop(piece.exponent); });
 }
 
 /// Steady terms first, then by degree, then in canonical order.
@@ -248,6 +264,7 @@ FactorPiece Composer::sum_piece(Polynomial sum, int exponent, Rational& unit) {
 
 Phrase Composer::fraction(std::vector<FactorPiece> pieces, const Rational& unit) const {
     std::stable_sort(pieces.begin(), pieces.end());
+    cancel(pieces);
     std::vector<Phrase> above, below;
     const Rational size = cln::abs(unit);
     const bool decimal = decimals_ && reads_as_decimal(size);

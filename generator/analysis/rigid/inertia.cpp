@@ -212,9 +212,11 @@ SceneInertia inertia(Scene scene, const InertiaOptions& options) {
         }
     }
     const PrincipalAxes<double> own = principal_axes<double>(result.tensor);
+    const double rounding = 1e-14 * own.moments.cwiseAbs().maxCoeff();  // of a rod's moment about its axis
     for (Eigen::Index k = 0; k < 3; ++k)
         result.principal.push_back(  // 0.0 is added because −0 is a confusing component
-            {own.moments[k], {own.R(0, k) + 0.0, own.R(1, k) + 0.0, own.R(2, k) + 0.0}});
+            {std::abs(own.moments[k]) <= rounding ? 0 : own.moments[k],
+             {own.R(0, k) + 0.0, own.R(1, k) + 0.0, own.R(2, k) + 0.0}});
     return result;
 }
 

@@ -201,6 +201,7 @@ Json as_json(const LinearizedScene& d) {
     result["time"] = start.t;
     result["motion"] = d.about == About::any ? "any" : near.moving.empty() ? "equilibrium" : "steady";
     result["moving"] = near.moving;
+    for (const auto& [name, value] : d.reached) result["reached"][name] = std::stod(value);
     result["coordinates"] = Json::object();
     result["rates"] = Json::object();
     for (int i = 0; i < d.mechanism.size(); ++i) {
@@ -239,6 +240,17 @@ Json as_json(const LinearizedScene& d) {
     return result;
 }
 
+std::string words_of_reached(const LinearizedScene& d) {
+    std::string state;
+    for (const auto& [name, value] : d.reached)
+        state += fmt::format("{}{} = {:.6g}", state.empty() ? "" : ", ", name, std::stod(value));
+    return state.empty()
+               ? state
+               : say("The start is no equilibrium and no steady motion; this is about the one that Newton's "
+                     "method reaches from it: {}\n",
+                     state);
+}
+
 std::string as_text(const LinearizedScene& d, bool with_modes) {
     const Linearization& near = d.matrices;
     const Start& start = d.start;
@@ -248,6 +260,7 @@ std::string as_text(const LinearizedScene& d, bool with_modes) {
         add_along(page, d);
         return page;
     }
+    page += words_of_reached(d);
     if (d.about == About::any)
         say_on(page, "About the state at t = {:.6g}\n", start.t);
     else if (near.moving.empty())

@@ -6,6 +6,9 @@
 
 namespace alembert {
 
+/// What is told where the start was no equilibrium and another state was taken; empty otherwise.
+std::string words_of_reached(const LinearizedScene& d);
+
 Json as_json(const LinearizedScene& near);
 std::string as_text(const LinearizedScene& near, bool with_modes = false);
 /// Of a motion: a row for each of its rows, t, x, c, A and B; "A(theta';theta)" is an element by its names.

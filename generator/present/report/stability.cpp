@@ -68,7 +68,8 @@ Json as_json(const Stability& s) {
     if (!s.routh.empty()) result["routh"] = s.routh;
     if (s.near) {
         const Json linear = as_json(*s.near);
-        for (const char* key : {"motion", "moving", "coordinates", "rates", "matrices"}) result[key] = linear[key];
+        for (const char* key : {"motion", "moving", "reached", "coordinates", "rates", "matrices"})
+            if (linear.contains(key)) result[key] = linear[key];
         Json rows = Json::array();
         for (Eigen::Index i = 0; i < s.A.rows(); ++i) {
             rows.push_back(Json::array());
@@ -82,6 +83,7 @@ Json as_json(const Stability& s) {
 std::string as_text(const Stability& s, bool with_modes) {
     std::string page;
     if (!s.title.empty()) put(page, "{}\n\n", s.title);
+    if (s.near) page += words_of_reached(*s.near);
     say_on(page, "{}: {}.\n", translated(name_of(s.verdict)), s.reason);
     if (s.theorem != StabilityTheorem::none) say_on(page, "By: {}\n", translated(name_of(s.theorem)));
     if (!s.states.empty())

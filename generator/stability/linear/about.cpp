@@ -17,6 +17,7 @@
 #include "model/friction.hpp"
 #include "program/lower/lower.hpp"
 #include "stability/linear/linearize_symbolic.hpp"
+#include "stability/linear/steady.hpp"
 
 namespace alembert {
 
@@ -96,6 +97,24 @@ void close_contacts(Derived& d, const Start& start) {
         d = derived_again(d, with_closed(d.mechanism, lasting.closed), formalism_for(Need::multipliers).name);
 }
 
+/// About the state that Newton's method reaches from the start; nothing if there is none, or it is refused.
+std::optional<LinearizedScene> linearize_near(const LinearizedScene& begun, const LinearizeOptions& options) {
+    const auto reached = steady_nearby(begun.mechanism, begun.equations, begun.start);
+    if (reached.empty()) return {};
+    LinearizeOptions there = options;
+    there.exact_at = reached;
+    for (const auto& [name, value] : reached) there.at.emplace_back(name, std::stod(value));
+    try {
+        LinearizedScene result = linearize(begun.scene, there);
+        result.reached = reached;
+        return result;
+    } catch (const ModelError&) {
+        return {};
+    } catch (const IntegrationError&) {
+        return {};
+    }
+}
+
 }  // namespace
 
 LinearizedScene linearize(Scene scene, const LinearizeOptions& options) {
@@ -118,6 +137,8 @@ LinearizedScene linearize(Scene scene, const LinearizeOptions& options) {
         return result;
     }
     choose_speeds(result, options, result.start);
+    if (options.at.empty() && !is_steady(result.mechanism, result.equations, result.start))
+        if (std::optional<LinearizedScene> other = linearize_near(result, options)) return std::move(*other);
     result.matrices = linearize(result.mechanism, result.equations, result.start);
     result.symbols = in_symbols(result.matrices, result, options);
     return result;

@@ -26,6 +26,9 @@ struct LinearizeOptions {
 struct LinearizedScene : Derived {
     Start start = {};  ///< the state, which obeys the constraints
     About about = About::steady;
+    /// The equilibrium or steady motion that Newton's method reached from a start that is none, as typed; empty if
+    /// the start is one, or a state was asked for.
+    std::vector<std::pair<std::string, std::string>> reached = {};
     Linearization matrices = {};
     std::vector<double> times = {};         ///< of the rows of the motion, if that was asked for
     std::vector<Linearization> along = {};  ///< about each; the first is `matrices`
@@ -34,6 +37,7 @@ struct LinearizedScene : Derived {
     std::vector<std::pair<std::string, std::vector<std::vector<std::string>>>> symbols = {};
 };
 
+/// Where no state is asked for and the start is no equilibrium or steady motion, it is about the one near it.
 /// Contacts that are closed at the state and stay closed count as constraints. Throws like the function of
 /// linearize.hpp and those of along.hpp, and ModelError for a contact that touches without a force.
 LinearizedScene linearize(Scene scene, const LinearizeOptions& options = {});

@@ -148,7 +148,9 @@ private:
     }
 
     [[noreturn]] void refuse(const std::string& residual) const {
-        const std::string nearby = steady_nearby(m_, e_, *start_);
+        std::string nearby;
+        for (const auto& [name, value] : steady_nearby(m_, e_, *start_))
+            nearby += fmt::format("{}--at {}={}", nearby.empty() ? "" : " ", name, value);
         throw ModelError(
             say("this state is no equilibrium and no steady motion: {}; expected zeros, or `linearize` with "
                 "--affine, about any state, or with --along, about a motion. {}",

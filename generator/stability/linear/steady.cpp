@@ -291,16 +291,18 @@ Start SteadyProblem::start_at(const Start& like, const Instant<long double>& at)
     return result;
 }
 
-std::string steady_nearby(const Mechanism& m, const Equations& e, const Start& start) try {
+std::vector<std::pair<std::string, std::string>> steady_nearby(const Mechanism& m, const Equations& e,
+                                                               const Start& start) try {
     const SteadyProblem problem(m, e, start);
     const auto root = problem.solve(problem.start());
     if (!root) return {};
-    std::string text;
-    for (int i = 0; i < m.size(); ++i)
-        if (problem.essential()[i])
-            text += say("{}--at {}={}", text.empty() ? "" : " ", m.q[i].get_name(),
-                        static_cast<double>(root->at.q[i]));
-    return text;
+    std::vector<std::pair<std::string, std::string>> state;
+    for (int i = 0; i < m.size(); ++i) {
+        if (!problem.essential()[i]) continue;
+        state.emplace_back(m.q[i].get_name(), fmt::format("{}", static_cast<double>(root->at.q[i])));
+        if (start.qdot[i] != 0) state.emplace_back(m.q[i].get_name() + "'", "0");
+    }
+    return state;
 } catch (const std::runtime_error&) {  // there is no such state to suggest
     return {};
 }

@@ -103,8 +103,9 @@ private:
     MatrixOf<long double> kept_speeds_;
 };
 
-/// The state that Newton's method reaches from that of `start`, as options: "--at theta=0"; empty if it reaches
-/// none.
-std::string steady_nearby(const Mechanism& mechanism, const Equations& equations, const Start& start);
+/// The state that Newton's method reaches from that of `start`, as a user would type it: {"theta", "0"}; empty if
+/// it reaches none.
+std::vector<std::pair<std::string, std::string>> steady_nearby(const Mechanism& mechanism,
+                                                               const Equations& equations, const Start& start);
 
 }  // namespace alembert

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// What people expect of an answer: the equilibrium near the start, shapes of modes in real numbers, no rounding in
+// place of a zero, quotients in lowest terms. The numbers are compared with closed forms.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "program.hpp"
+
+namespace commands_answers {
+
+using Json = nlohmann::json;
+using alembert::test::run;
+using alembert::test::temporary;
+
+namespace {
+
+Json asked(const std::vector<std::string>& words, int exit = 0) {
+    const auto result = run(words);
+    CAPTURE(result.err);
+    REQUIRE(result.exit == exit);
+    return Json::parse(result.out);
+}
+
+constexpr const char* pendulum =
+    "[coordinates]\nx = { initial = 0.5, rate = 0.3 }\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"-cos(x)\"\n";
+
+}  // namespace
+
+TEST_CASE("stability, linearize: a start that is no equilibrium leads to the one near it, which is told") {
+    const std::string scene = temporary("pendulum.toml", pendulum);
+    const Json near = asked({"stability", scene, "--json"});
+    CHECK(near["verdict"] == "stable");
+    CHECK(std::abs(near["reached"]["x"].get<double>()) < 1e-12);
+    CHECK(near["reached"]["x'"] == 0);
+    const auto text = run({"linearize", scene});
+    CHECK(text.exit == 0);
+    CHECK(text.out.find("The start is no equilibrium") != std::string::npos);
+    // A state that was asked for is judged as it is.
+    const auto given = run({"stability", scene, "--at", "x=0.5", "--at", "x'=0"});
+    CHECK(given.exit == 3);
+    CHECK(given.err.find("x'' = -0.479426") != std::string::npos);
+    const std::string falls =
+        temporary("falls.toml", "[coordinates]\nx = 0.5\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x\"\n");
+    CHECK(run({"stability", falls}).exit == 3);
+    // The equilibrium above is unstable, and the start is nearer to it.
+    const std::string above = temporary("above.toml", std::string(pendulum).replace(29, 3, "3.0"));
+    const Json judged = asked({"stability", above, "--json"}, 1);
+    CHECK(judged["reached"]["x"].get<double>() == doctest::Approx(std::numbers::pi));
+}
+
+TEST_CASE("stability: modes whose coordinates pass zero together have a real shape, those of a chain are sines") {
+    std::string scene = "[coordinates]\n", kinetic, potential = "(x1^2";
+    constexpr int n = 3;
+    for (int k = 1; k <= n; ++k) {
+        const std::string x = "x" + std::to_string(k), next = "x" + std::to_string(k + 1);
+        scene += x + " = 0\n";
+        kinetic += (k > 1 ? " + " : "") + x + "'^2/2";
+        potential += k < n ? " + (" + next + "-" + x + ")^2" : " + " + x + "^2)/2";
+    }
+    scene += "[energy]\nkinetic = \"" + kinetic + "\"\npotential = \"" + potential + "\"\n";
+    const Json modes = asked({"stability", temporary("chain.toml", scene), "--json"})["modes"];
+    REQUIRE(modes.size() == n);
+    for (const Json& mode : modes) {
+        const double omega = mode["eigenvalue"][1];
+        const int which = static_cast<int>(std::lround(2 * (n + 1) * std::asin(omega / 2) / std::numbers::pi));
+        double largest = 0;
+        for (int k = 1; k <= n; ++k)
+            largest = std::max(largest, std::abs(std::sin(which * k * std::numbers::pi / (n + 1))));
+        const double sign = mode["shape"]["x1"].get<double>() > 0 ? 1 : -1;
+        for (int k = 1; k <= n; ++k)
+            CHECK(sign * mode["shape"]["x" + std::to_string(k)].get<double>() ==
+                  doctest::Approx(std::sin(which * k * std::numbers::pi / (n + 1)) / largest).epsilon(1e-9));
+    }
+    // With damping that is not in proportion the coordinates do not pass zero together.
+    scene += "[dissipation]\nrayleigh = \"x1'^2/10\"\n";
+    for (const Json& mode : asked({"stability", temporary("damped.toml", scene), "--json"})["modes"])
+        CHECK(!mode.contains("shape"));
+}
+
+TEST_CASE("inertia: a rod has no moment about its axis, whichever way it lies") {
+    const std::string scene = temporary(
+        "rod.toml",
+        "[coordinates]\na = 0.7\n[[frame]]\nname = \"B\"\nrotate = [[\"z\", \"a\"]]\n[[body]]\nname = \"rod\"\n"
+        "mass = 3\nframe = \"B\"\nposition = [0, 0, 0]\ninertia = { xx = 0, yy = 0.1, zz = 0.1 }\n");
+    for (const Json& one : asked({"inertia", scene, "--json"})["principal"]) {
+        const double moment = one["moment"];
+        CHECK((moment == 0 || moment == doctest::Approx(0.1)));
+    }
+}
+
+TEST_CASE("derive: a sum that stands above and below a fraction line is cancelled") {
+    const std::string scene = temporary("parabola.toml",
+                                        "[parameters]\nm = 1\nk = 2\np = 1\nl0 = 0.1\n[coordinates]\nx = "
+                                        "0.5\n[[particle]]\nname = \"P\"\nmass = \"m\"\n"
+                                        "position = [\"x\", \"x^2/(2*p)\"]\n[[spring]]\nbetween = [\"O\", "
+                                        "\"P\"]\nstiffness = \"k\"\nlength = \"l0\"\n");
+    const std::string text = run({"derive", scene}).out;
+    CHECK(text.find("k*(2*p^2+x^2)*x ") != std::string::npos);
+    CHECK(text.find("(4*p^2+x^2)*x/(4*p^2+x^2)") == std::string::npos);
+}
+
+}  // namespace commands_answers
