@@ -162,7 +162,7 @@ class Verbs(unittest.TestCase):
 
     def test_methods_take_the_options_of_their_verbs(self):
         """Every option of the program is a keyword, unless Python has another form for it; and no keyword is another's."""
-        ways = {"output", "json", "strict", "language", "help", "format", "svg", "csv", "plot", "show", "html"}  # of showing
+        ways = {"digits", "output", "json", "strict", "language", "help", "format", "svg", "csv", "plot", "show", "html"}  # of showing
         others = {"derive": {"steps", "dimensions", "draw"},  # all steps are in .steps; Scene.draw
                   "check": {"complete", "letters", "scene_from"},  # Scene.mark
                   "equilibrium": {"follow"},  # Scene.branches
