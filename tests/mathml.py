@@ -253,6 +253,8 @@ def faults_of(program, scene, with_page):
             page = os.path.join(folder, "page.html")
             run(program, "report", scene, "--duration", "0.01", "--budget", "2000", "-o", page)
             text = pathlib.Path(page).read_text(encoding="utf-8")
+        if found := re.search(r"&lt;/?(?:code|p|math|mi|mo|mrow|span|strong)&gt;|&amp;#39;", text):
+            wrong.append(f"page: markup became text: {text[max(0, found.start() - 40):found.end() + 40]}")
         first = re.search(r'<section id="equations".*?</section>', text, re.S)[0]
         for left, right in equations_of_page(first):
             try:

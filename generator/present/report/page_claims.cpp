@@ -16,7 +16,7 @@ std::string marked(const Equality& equation, const std::optional<Slip>& likely) 
 }
 
 /// An equation that the program found.
-std::string typeset(const std::string& text) {
+std::string typeset_text(const std::string& text) {
     std::vector<Diagnostic> mistakes;
     const Equality equation = parse_equality(text, {}, mistakes, true);
     return mistakes.empty() ? typeset_equality(equation, "") : "<code>" + html(text) + "</code>";
@@ -35,7 +35,7 @@ void add_claim(std::string& body, const Claim& claim, const CheckedClaim& c) {
     if (c.verdict == Verdict::refuted) {
         if (c.likely) put(body, "<p>{}</p>\n", html(say("Probable slip: {}.", words_of(*c.likely))));
         if (!c.nearest.empty())
-            put(body, "<div class=\"repair\">{}{}</div>\n", say("Correct equation: "), typeset(c.nearest));
+            put(body, "<div class=\"repair\">{}{}</div>\n", say("Correct equation: "), typeset_text(c.nearest));
         if (!c.difference.empty() && !is_missing_term(c))
             put(body, "<p>{}<code>{}</code></p>\n", say("Extra in your equation: "), html(c.difference));
         if (!c.counterexample.empty()) {
