@@ -80,8 +80,8 @@ run_one() {
     failed=1
 }
 
-for path in "$root"/README.md "$root"/docs/*.md; do
-    [[ $path != *.zh.md ]] || continue # its blocks are those of the English page, see below
+for path in "$root"/README.md "$root"/README.zh.md "$root"/docs/*.md; do
+    [[ $path != */docs/*.zh.md ]] || continue # its blocks are those of the English page, see below
     file=${path#"$root"/}
     inside='' command='' at=0 number=0
     while IFS= read -r line || [ -n "$line" ]; do
@@ -103,9 +103,9 @@ for path in "$root"/README.md "$root"/docs/*.md; do
     done <"$path"
 done
 
-# The blocks of a translated page, apart from comments after "# ", are those of the English page in the same order.
+# The blocks of a translated page (README.zh.md speaks Chinese and is run), apart from comments after "# ", are those of the English page in the same order.
 blocks() { awk '/^```/ { inside = !inside; print; next } inside { sub(/[ \t]*(^|[ \t])# .*/, ""); print }' "$1"; }
-for page in README docs/guide docs/derivations; do
+for page in docs/guide docs/derivations; do
     diff <(blocks "$root/$page.md") <(blocks "$root/$page.zh.md") >"$work/blocks" && continue
     printf '%s.zh.md has other commands, scenes or outputs (>) than %s.md (<):\n' "$page" "$page"
     cat "$work/blocks"
