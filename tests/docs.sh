@@ -112,6 +112,16 @@ for page in docs/guide docs/derivations; do
     failed=1
 done
 
+# A number in the prose of an English page stands in its translation too.
+numbers() {
+    sed -E -e '/^```/,/^```/d' -e 's/`[^`]*`//g' -e 's/\]\([^)]*\)//g' -e 's/([0-9]),([0-9]{3})/\1\2/g' "$1" |
+        grep -oE '[0-9][0-9.]*[0-9](e-?[0-9]+)?' | sort
+}
+for page in README docs/guide docs/derivations; do
+    stale=$(comm -23 <(numbers "$root/$page.md") <(numbers "$root/$page.zh.md") | tr '\n' ' ')
+    [ -z "$stale" ] || { echo "$page.zh.md lacks numbers of $page.md: $stale"; failed=1; }
+done
+
 # The sections of docs/commands.md: "## `verb`", and what all verbs share under "## Options of all verbs".
 section() { awk -v title="$1" '/^## / { on = $0 == "## " title; next } on' "$root/docs/${2-commands.md}"; }
 agree() { # WHAT DOCUMENTED ACTUAL
