@@ -6,13 +6,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <regex>
 
 #include "program.hpp"
+#include "scenes.hpp"
 
 namespace commands_answers {
 
 using Json = nlohmann::json;
 using alembert::test::run;
+using alembert::test::source_path;
 using alembert::test::temporary;
 
 namespace {
@@ -78,6 +81,21 @@ TEST_CASE("stability: modes whose coordinates pass zero together have a real sha
     scene += "[dissipation]\nrayleigh = \"x1'^2/10\"\n";
     for (const Json& mode : asked({"stability", temporary("damped.toml", scene), "--json"})["modes"])
         CHECK(!mode.contains("shape"));
+}
+
+TEST_CASE("stability: squares of parameters are no conditions") {
+    for (const char* const name :
+         {"textbook/foucault_pendulum", "textbook/double_pendulum_joints", "stability/gyroscopic"}) {
+        CAPTURE(name);
+        const auto result = run({"stability", source_path(std::string("scenes/") + name + ".toml"), "--json"});
+        const Json conditions = Json::parse(result.out)["conditions"];
+        CHECK(!conditions.empty());
+        for (const Json& condition : conditions) {
+            CAPTURE(condition.get<std::string>());
+            CHECK(!std::regex_search(condition.get<std::string>(),
+                                     std::regex("(^|[*])[A-Za-z]\\w*\\^2([*][A-Za-z0-9]+)* > 0")));
+        }
+    }
 }
 
 TEST_CASE("inertia: a rod has no moment about its axis, whichever way it lies") {

@@ -39,8 +39,8 @@ void split(const ex& e, int power, Factors& into) {
     }
 }
 
-/// An expression of the same sign without denominators, because n/d has the sign of n·d. Nothing if it is
-/// positive.
+/// An expression of the same sign without denominators, because n/d has the sign of n·d, and without squares of
+/// parameters, which are taken to be other than zero. Nothing if it is positive.
 ex simplest(const ex& e, const std::vector<ex>& positive) {
     const ex parts = e.normal().numer_denom();
     if (parts.op(0).is_zero()) return 0;
@@ -58,7 +58,8 @@ ex simplest(const ex& e, const std::vector<ex>& positive) {
                            [&](const ex& p) { return (p + factor).expand().is_zero(); });
     };
     const auto take = [&](const ex& factor, int power, bool is_denominator) {
-        if (is_positive(factor) || (is_denominator && power % 2 == 0)) return;
+        const bool is_square = power % 2 == 0;
+        if (is_positive(factor) || (is_square && (is_denominator || GiNaC::is_a<GiNaC::symbol>(factor)))) return;
         if (is_negative(factor)) {
             if (power % 2 != 0) result = -result;
             return;
