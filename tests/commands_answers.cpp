@@ -83,6 +83,33 @@ TEST_CASE("stability: modes whose coordinates pass zero together have a real sha
         CHECK(!mode.contains("shape"));
 }
 
+TEST_CASE("stability: the period of coefficients that are sines of t is found") {
+    const auto scene = [](const std::string& factor) {
+        return temporary(
+            "swing.toml",
+            "[parameters]\na = 1.2\nq = 0.3\nw = 2\n[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\n"
+            "potential = \"(a - 2*q*" +
+                factor + ")*x^2/2\"\n");
+    };
+    const std::string mathieu = scene("cos(w*t)");
+    const auto found = run({"stability", mathieu, "--json"});
+    const auto given = run({"stability", mathieu, "--json", "--period", "3.14159265358979323846"});
+    const Json own = Json::parse(found.out), asked_for = Json::parse(given.out);
+    CHECK(found.exit == given.exit);
+    CHECK(own["verdict"] == asked_for["verdict"]);
+    CHECK(own["period"].get<double>() == doctest::Approx(std::numbers::pi).epsilon(1e-15));
+    CHECK(own["period_found"] == true);
+    CHECK(asked_for["period_found"] == false);
+    CHECK(std::abs(own["floquet"][0][0].get<double>() - asked_for["floquet"][0][0].get<double>()) < 1e-9);
+    const Json two = Json::parse(run({"stability", scene("(cos(w*t)+sin(3*w*t/2))"), "--json"}).out);
+    CHECK(two["period"].get<double>() == doctest::Approx(2 * std::numbers::pi).epsilon(1e-15));
+    const Json shifted = Json::parse(run({"stability", scene("cos(w*t+a)"), "--json", "--at", "w=4"}).out);
+    CHECK(shifted["period"].get<double>() == doctest::Approx(std::numbers::pi / 2).epsilon(1e-15));
+    CHECK(run({"stability", scene("cos(t^2)")}).exit == 3);
+    CHECK(run({"stability", scene("(cos(t)+cos(sqrt(2)*t))")}).exit == 3);
+    CHECK(run({"stability", scene("t*cos(t)")}).exit == 3);
+}
+
 TEST_CASE("stability: squares of parameters are no conditions") {
     for (const char* const name :
          {"textbook/foucault_pendulum", "textbook/double_pendulum_joints", "stability/gyroscopic"}) {

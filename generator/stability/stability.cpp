@@ -18,6 +18,7 @@
 #include "stability/critical.hpp"
 #include "stability/floquet.hpp"
 #include "stability/lyapunov.hpp"
+#include "stability/own_period.hpp"
 #include "stability/polynomial.hpp"
 #include "stability/potential.hpp"
 #include "stability/reversible.hpp"
@@ -246,9 +247,8 @@ void check_steady(const LinearizedScene& near) {
                         input.derivative[0].get_name()));
 }
 
-Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
-    Stability result{.title = scene.title};
-    const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at});
+Stability stability_of_periodic(const Derived& d, const StabilityOptions& options) {
+    Stability result{.title = d.scene.title};
     result.warnings = d.warnings;
     Start start = start_of(d.mechanism, options.at);
     assemble(start, d.mechanism, lower_constraints(d.mechanism), options.at);
@@ -261,6 +261,22 @@ Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
     result.periodic_start = found.start;
     take(result, found.decision);
     return result;
+}
+
+/// The verdict by the period that the equations have by how they are written; nothing if they have none, or no
+/// motion of that period is found.
+std::optional<Stability> by_own_period(const Scene& scene, StabilityOptions options) try {
+    const Derived d = derived(scene, {.by = options.by, .at = options.at});
+    const std::optional<double> period = own_period(d, start_of(d.mechanism, options.at));
+    if (!period) return {};
+    options.period = *period;
+    Stability result = stability_of_periodic(d, options);
+    result.is_own_period = true;
+    return result;
+} catch (const ModelError&) {
+    return {};
+} catch (const IntegrationError&) {
+    return {};
 }
 
 /// The verdict is what V proves; what is known without V is told beside.
@@ -287,12 +303,19 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
             "a "
             "[polynomial] or a periodic motion"));
     if (scene.polynomial) return stability_of_polynomial(scene, options);
-    if (periodic) return stability_of_periodic(std::move(scene), options);
+    if (periodic)
+        return stability_of_periodic(derived(std::move(scene), {.by = options.by, .at = options.at}), options);
     Stability result{.title = scene.title};
     LinearizeOptions linearize_options{.by = options.by, .at = options.at, .exact_at = options.exact_at};
-    result.near = linearize(std::move(scene), linearize_options);
+    try {
+        result.near = linearize(scene, linearize_options);
+        check_steady(*result.near);
+    } catch (const ModelError&) {
+        if (options.lyapunov.empty())
+            if (std::optional<Stability> other = by_own_period(scene, options)) return std::move(*other);
+        throw;
+    }
     if (!result.near->reached.empty()) options.exact_at = result.near->reached;
-    check_steady(*result.near);
     result.near->mechanism = with_potential_of_loads(result.near->mechanism);
     const LinearizedScene& near = *result.near;
     result.warnings = near.warnings;

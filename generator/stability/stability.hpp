@@ -79,7 +79,8 @@ struct Stability {
     std::optional<LinearizedScene> near = {};  ///< nothing of a polynomial
     std::vector<std::string> states = {};      ///< what the eigenvalues belong to
     Eigen::MatrixXd A = {};
-    double period = 0;  ///< s, of a periodic system; then these instead of eigenvalues
+    double period = 0;           ///< s, of a periodic system; then these instead of eigenvalues
+    bool is_own_period = false;  ///< it was not given, but found in the equations
     std::vector<std::complex<double>> multipliers = {};               ///< Floquet's, the largest first
     std::vector<double> radii = {};                                   ///< of the discs that hold them
     std::vector<std::pair<std::string, double>> periodic_start = {};  ///< coordinates and speeds, by name

@@ -48,6 +48,7 @@ Json as_json(const Stability& s) {
     }
     if (s.period > 0) {
         result["period"] = s.period;
+        result["period_found"] = s.is_own_period;
         result["floquet"] = Json::array();
         for (const std::complex<double>& rho : s.multipliers)
             result["floquet"].push_back({rho.real(), rho.imag()});
@@ -97,6 +98,7 @@ std::string as_text(const Stability& s, bool with_modes) {
                translated(s.lyapunov->rate_sign));
         if (!s.lyapunov->set.empty()) say_on(page, "dV/dt is zero where {}\n", s.lyapunov->set);
     }
+    if (s.is_own_period) page += say("The period follows from the sines and cosines of t in the equations.\n");
     if (!s.multipliers.empty()) {
         say_on(page, "\nPeriod {:.16g} s, multipliers over it:\n\n{:>24}{:>24}{:>20}{:>12}\n", s.period,
                say("real"), say("imaginary"), say("size"), say("radius"));
