@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// stability --over, --locus and --exponents as a user types them: files, pictures and refusals. The numbers are
+// stability --vary and --exponents as a user types them: files, pictures and refusals. The numbers are
 // held in stability_charts.cpp.
 #include <doctest/doctest.h>
 
@@ -51,7 +51,7 @@ TEST_CASE("charts: what cannot be drawn is refused, each with its reason") {
         CHECK(ran.exit == 3);
         CHECK(ran.err.find(with) != std::string::npos);
     };
-    refused({"--over", "P=0:1"}, "expected --over twice");
+    refused({"--vary", "P=0:1", "--vary", "c=1:2", "--vary", "a=1:2"}, "expected --vary twice");
     refused({"--over", "P=0:1", "--over", "P=0:2"}, "P is varied twice");
     refused({"--over", "P=0:1", "--over", "a=0:2"}, "a cannot be varied");
     refused({"--over", "P=0:1", "--over", "nothing=0:2"}, "nothing");
@@ -59,7 +59,7 @@ TEST_CASE("charts: what cannot be drawn is refused, each with its reason") {
     refused({"--locus", "P=0"}, "expected NAME=FROM:TO");
     refused({"--locus", "P=0:1", "--at", "P=2"}, "cannot be held");
     refused({"--locus", "P=0:1", "--exponents", "1"}, "expected one of them");
-    refused({"--svg", "x.svg"}, "--over or --locus");
+    refused({"--svg", "x.svg"}, "expected --vary with it");
     refused({"--exponents", "0"}, "expected how many");
     refused({"--exponents", "9"}, "has 4 dimensions");
     refused({"--duration", "3"}, "--duration belongs to --exponents");

@@ -420,7 +420,7 @@ TEST_CASE("equilibrium: scenes without equilibria are refused, each with its rea
     says({"equilibrium", textbook("rotating_hoop"), "--follow", "theta=0:1"}, 3, "as an unknown");
     says({"equilibrium", textbook("rotating_hoop"), "--follow", "Omega=1"}, 3, "expected NAME=FROM:TO");
     says({"equilibrium", textbook("rotating_hoop"), "--follow", "Omega=1:1"}, 3, "two different numbers");
-    says({"equilibrium", textbook("rotating_hoop"), "--svg", "x.svg"}, 3, "expected --follow");
+    says({"equilibrium", textbook("rotating_hoop"), "--svg", "x.svg"}, 3, "expected --vary");
 }
 
 }  // namespace commands_equilibrium

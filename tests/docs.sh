@@ -122,8 +122,15 @@ for page in README docs/guide docs/derivations; do
     [ -z "$stale" ] || { echo "$page.zh.md lacks numbers of $page.md: $stale"; failed=1; }
 done
 
-# The sections of docs/commands.md: "## `verb`", and what all verbs share under "## Options of all verbs".
-section() { awk -v title="$1" '/^## / { on = $0 == "## " title; next } on' "$root/docs/${2-commands.md}"; }
+# The sections of docs/commands.md: "## `verb`" with "### `verb --mode`" in it, which has options of its own, and what all
+# verbs share under "## Options of all verbs".
+section() {
+    awk -v title="$1" '
+        /^##+ / { depth = length($1); heading = substr($0, depth + 2) }
+        /^##+ / && heading == title { on = depth; next }
+        /^##+ / && (depth <= on || heading ~ /^`[a-z]+ --/) { on = 0 }
+        on' "$root/docs/${2-commands.md}"
+}
 agree() { # WHAT DOCUMENTED ACTUAL
     [ "$2" = "$3" ] && return
     printf '%s (<) than there are (>):\n' "$1"
@@ -132,17 +139,24 @@ agree() { # WHAT DOCUMENTED ACTUAL
 }
 # shellcheck disable=SC2016 # backticks of Markdown
 options_in() { grep -oE '^\| `(-[a-z]`, `)?--[a-z-]+' | grep -oE -e '--[a-z-]+' | sort -u; }
-verbs=$(alembert --help | awk '/^Verbs:/ { on = 1; next } on && !/^ / { exit } on && /^  [a-z]/ { print $1 }')
+verbs=$(alembert --help | awk '/^  [a-z]/ { print $1 }')
+modes() { alembert "$1" --help | tr '\n' ' ' | grep -oE 'More options go with [^:]*' | grep -oE -e '--[a-z]+' | sed "s/^/$1 /"; }
+questions=$(for verb in $verbs; do echo "$verb" && modes "$verb"; done)
 # shellcheck disable=SC2016
-documented=$(grep -oE '^## `[a-z]+`' "$root/docs/commands.md" | tr -d '#` ')
-agree 'docs/commands.md has other verbs' "$(sort <<<"$documented")" "$(sort <<<"$verbs")"
-for verb in $verbs; do
-    help=$(alembert "$verb" --help)
+documented=$(grep -oE '^(## `[a-z]+|### `[a-z]+ --[a-z]+)`' "$root/docs/commands.md" | tr -d '#`' | sed 's/^ //')
+agree 'docs/commands.md has other verbs' "$(sort <<<"$documented")" "$(sort <<<"$questions")"
+while IFS= read -r verb; do
+    # shellcheck disable=SC2086 # a verb, or a verb and its mode
+    help=$(alembert $verb --help)
     has=$(grep -oE '^  (-[a-z], )?--[a-z-]+' <<<"$help" | grep -oE -e '--[a-z-]+' | sort -u)
     says=$( (section 'Options of all verbs'; section "\`$verb\`") | options_in)
-    case $verb in completion | man | watch) says=$(grep -vx -e --json -e --strict <<<"$says") ;; esac
+    [[ $verb == *' '* ]] || says=$(sort -u <<<"$says"$'\n'"$(modes "$verb" | grep -oE -e '--[a-z]+')" | grep .)
+    case $verb in
+        *--watch) says=$(grep -vx -e --json -e --strict <<<"$says") ;;
+        new) says=$(grep -vx -e --strict <<<"$says") ;;
+    esac
     agree "docs/commands.md has other options of $verb" "$says" "$has"
-done
+done <<<"$questions"
 
 # watched COMMAND: it makes a page and goes on until it is ended. A program without a server says so; that is enough where
 # not all packages are installed.
@@ -162,23 +176,24 @@ installed=$(. "$root/.ci/setup.sh" && eval "$(sed -n '/^wanted=/,/"$/p' "$root/t
 agree 'README.md names other packages' "$named" "$installed"
 
 # The help of each verb begins with an example, which works; it fits a screen.
-for verb in '' $verbs; do
+while IFS= read -r verb; do
     # shellcheck disable=SC2086 # no verb is no word
     alembert $verb --help >"$work/help"
     example=$(sed -n '1s/^Example: //p' "$work/help")
     lines=$(wc -l <"$work/help")
     wide=$(wc -L <"$work/help")
-    case $verb in # those with the most options, and the list of verbs, need more
-        emit) most_lines=27 ;;
+    case $verb in # those with the most options need more
+        emit) most_lines=29 ;;
         simulate) most_lines=31 ;;
-        sweep | '') most_lines=33 ;;
+        sweep) most_lines=33 ;;
+        '') most_lines=24 ;;
         *) most_lines=25 ;;
     esac
     if [ "$lines" -gt "$most_lines" ] || [ "$wide" -gt 80 ]; then
         echo "alembert $verb --help has $lines lines of up to $wide columns; expected $most_lines of 80"
         failed=1
     fi
-    if [ "$verb" = watch ]; then
+    if [ "$verb" = 'report --watch' ]; then
         watched "$example"
     else
         bash -c "$example" >"$work/printed" 2>&1 </dev/null
@@ -189,7 +204,7 @@ for verb in '' $verbs; do
         tail -n 5 "$work/printed"
         failed=1
     }
-done
+done <<<$'\n'"$questions"
 
 # Messages name only tables of the scene language.
 tables=$(grep -oE '^### `\[+[a-z]+' "$root/docs/scene-language.md" | grep -oE '[a-z]+')
@@ -211,39 +226,40 @@ need() {
 
 # named SECTION: the names that the manual lists under this title are in the section.
 named() {
-    for name in $(alembert man simulate | sed -n "/^\.SH ${1^^}/{n;p}" | tr -d '\\,' | tr -d .); do need "$1" "$name"; done
+    for name in $(alembert --man simulate | sed -n "/^\.SH ${1^^}/{n;p}" | tr -d '\\,' | tr -d .); do need "$1" "$name"; done
 }
 named Formalisms
 named Methods
 
 # fields VERB ARGUMENTS...: the fields that it prints now are in the section of the verb, but `warnings`, which all have.
 fields() {
-    for field in $(alembert "$@" --json 2>"$work/log" | grep -oE '^  "[a-z_0-9]+"' | tr -d ' "' | grep -vx warnings); do
+    # shellcheck disable=SC2086 # a verb, or a verb and its mode
+    for field in $(alembert $1 "${@:2}" --json 2>"$work/log" | grep -oE '^  "[a-z_0-9]+"' | tr -d ' "' | grep -vx warnings); do
         need "\`$1\`" "$field"
     done
 }
 fields derive scenes/textbook/slack_pendulum.toml --reactions
-fields fmu scenes/textbook/cart_pole.toml -o cart_pole.fmu
+fields 'emit --fmu' cart_pole.fmu scenes/textbook/cart_pole.toml
 fields derive scenes/textbook/double_pendulum_joints.toml --reactions
 fields derive scenes/textbook/chaplygin_sleigh_in_speeds.toml
-fields agree scenes/textbook/sled.toml
+fields 'check --formalisms' scenes/textbook/sled.toml
 fields audit scenes/textbook/sled.toml
 fields check scenes/textbook/double_pendulum.toml
 fields check scenes/textbook/central_force.toml tests/derivations/central_force_slip.tex
 fields eval scenes/gallery/four_bar_joints.toml --reactions
-fields kinematics scenes/gallery/four_bar_joints.toml --steps --jacobian
+fields 'eval --kinematics' scenes/gallery/four_bar_joints.toml --steps --jacobian
 fields equilibrium scenes/textbook/rotating_hoop.toml
-fields equilibrium scenes/textbook/rotating_hoop.toml --follow Omega=0:10
-fields linearize scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
+fields equilibrium scenes/textbook/rotating_hoop.toml --vary Omega=0:10
+fields 'stability --matrices' scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
 fields stability scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
 fields stability scenes/textbook/rotating_hoop.toml --at theta=0 --lyapunov "theta'^2 + theta^2"
 fields stability scenes/stability/mathieu.toml
-fields stability scenes/stability/ziegler.toml --over c=0.1:1:5 --over P=0:3:5
-fields stability scenes/stability/ziegler.toml --locus P=0:3:9
+fields stability scenes/stability/ziegler.toml --vary c=0.1:1:5 --vary P=0:3:5
+fields stability scenes/stability/ziegler.toml --vary P=0:3:9
 fields stability scenes/stability/ziegler.toml --exponents all --duration 10
-fields identify scenes/textbook/double_pendulum_joints.toml
-fields inverse scenes/textbook/sled.toml
-fields impact scenes/textbook/struck_rods.toml
+fields 'eval --identify' scenes/textbook/double_pendulum_joints.toml
+fields 'eval --inverse' scenes/textbook/sled.toml
+fields 'eval --impact' scenes/textbook/struck_rods.toml
 fields emit scenes/textbook/sled.toml -o solver --jacobian
 fields import tests/robots/torso.urdf -o torso.toml
 fields simulate scenes/gallery/clock.toml --duration 3

@@ -21,7 +21,7 @@ works() { # WHAT COMMAND...
 }
 
 watches() { # it says its address, and gives the page there until it is ended
-    alembert watch $scene --no-motion >"$work/address" 2>&1 &
+    alembert report $scene --watch --no-motion >"$work/address" 2>&1 &
     local watching=$! code=0
     until grep -q 'made in' "$work/address" || ! kill -0 $watching 2>/dev/null; do sleep 0.1; done
     cat "$work/address"
@@ -52,7 +52,7 @@ in_chinese() {
     alembert check $scene --language zh | grep -q '已证明'
 }
 
-works 'alembert watch' watches
+works 'alembert report --watch' watches
 works 'import alembert in Python' python3 -c 'import alembert, sys
 scene = alembert.Scene(sys.argv[1]); assert scene.check() and scene.simulate(duration=1)["theta1"].shape' $scene
 works 'tables .h5' is_hdf5

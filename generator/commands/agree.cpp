@@ -28,7 +28,7 @@ void add_agree(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SceneOptions>(app, chosen,
                                  {.name = "agree",
                                   .about = say("derives by every formalism that applies, and proves them equal"),
-                                  .example = "alembert agree scenes/textbook/sled.toml"},
+                                  .example = "alembert check scenes/textbook/sled.toml --formalisms"},
                                  run_agree);
 }
 

@@ -48,21 +48,22 @@ void add_bench(CLI::App& app, Chosen& chosen) {
             RunOptions& wishes = bench.options.wishes;
             verb.add_flag("--peers", bench.options.peers,
                           say("also CVODE, IDA, odeint, GSL, where they are installed"));
-            verb.add_option("--csv", bench.csv, say("table as CSV")).type_name(values::file);
-            verb.add_option("--svg", bench.svg, say("SVG picture of time against error")).type_name(values::file);
-            add_duration_option(verb, wishes);
-            verb.add_option("--method", wishes.method, say("this one alone")).type_name(values::method);
-            add_limits(verb, wishes);
+            verb.take("--output", bench.csv, say("table as CSV"));
+            verb.take("--svg", bench.svg, say("SVG picture of time against error"));
+            verb.take("--duration", wishes.duration);
+            verb.take("--method", wishes.method, say("this one alone"));
+            verb.take("--max-step", wishes.max_step);
+            verb.take("--budget", wishes.budget);
             verb.add_option("--run-seconds", bench.options.most_seconds,
                             say("processor time of the slowest runs that are of interest"))
                 .type_name(values::seconds)
                 .positive();
-            add_code_option(verb, wishes);
+            verb.take("--code", wishes.code);
             verb.add_option("--reference-seconds", bench.options.reference_seconds,
                             say("processor time for each of the reference's methods"))
                 .type_name(values::seconds)
                 .positive();
-            add_by_option(verb, bench.by);
+            verb.take("--by", bench.by);
         });
 }
 

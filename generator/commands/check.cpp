@@ -178,7 +178,7 @@ int run(const CheckOptions& options) {
     Scene scene = scene_of(options.scene);
     if (options.claims.empty()) {
         if (!options.page.empty() || !options.csv.empty() || !options.letters.empty())
-            throw ModelError(say("--html, --csv and --letters are for a derivation; name its file"));
+            throw ModelError(say("--html, -o and --letters are for a derivation; name its file"));
         return run_claims(std::move(scene), options);
     }
     std::error_code error;
@@ -194,13 +194,13 @@ void add_check(CLI::App& app, Chosen& chosen) {
     add_scene_verb<CheckOptions>(
         app, chosen,
         {.name = "check",
-         .about = say("checks your equations, or a whole derivation, against the derived equations"),
+         .about = say("checks your equations, or a derivation, against the derived ones"),
          .example = "alembert check scenes/textbook/double_pendulum.toml"},
         run, [](Verb& verb, CheckOptions& options) {
-            verb.add_option(
-                    "claims", options.claims,
-                    say("a file, one equation a line, or a derivation in LaTeX, Markdown or plain text, or a "
-                        "folder of these; - for standard input; default: the scene's [[claim]]s"))
+            verb.add_option("claims", options.claims,
+                            say("a file, one equation a line; a derivation in LaTeX, Markdown or text; a folder "
+                                "of these; - "
+                                "for standard input; default: the scene's [[claim]]s"))
                 .type_name(values::claims);
             verb.add_flag("--complete", options.complete,
                           say("the exit code is 2 also if the claims that hold do not "
@@ -208,15 +208,12 @@ void add_check(CLI::App& app, Chosen& chosen) {
             verb.add_option("--letters", options.letters,
                             say("for which name a letter of the derivation stands, as in \"\\\\ell=l\""))
                 .type_name(values::assignment);
-            verb.add_flag(
-                "--scene-from", options.drafts,
-                say("SCENE is a derivation; a scene is drafted from its letters and energies, and its lines "
-                    "are held against them"));
+            verb.add_flag("--scene-from", options.drafts,
+                          say("SCENE is a derivation, from which a scene is drafted that judges its lines"));
             verb.add_option("--html", options.page, say("the marked derivation, or derivations, as a page"))
                 .type_name(values::file);
-            verb.add_option("--csv", options.csv, say("a row for each derivation, as a table"))
-                .type_name(values::file);
-            add_by_option(verb, options.by);
+            verb.take("--output", options.csv, say("a row for each derivation, as a table"));
+            verb.take("--by", options.by);
         });
 }
 

@@ -15,6 +15,7 @@
 #include "commands/help.hpp"
 #include "commands/help_mistakes.hpp"
 #include "commands/language.hpp"
+#include "commands/modes.hpp"
 #include "commands/streams.hpp"
 #include "commands/terminal.hpp"
 #include "commands/verb.hpp"
@@ -58,6 +59,17 @@ int guarded(const Chosen& chosen) {
     }
 }
 
+/// What is short for something else: a scene alone for its page, `help VERB`, an option for what was a verb.
+void spell_out(std::vector<std::string>& words) {
+    if (!words.empty() && words[0] == "help") {
+        words.erase(words.begin());
+        words.push_back("--help");
+    }
+    if (words.empty()) words.push_back("--help");
+    if (words[0].ends_with(".toml")) words.insert(words.begin(), {"report", "--open"});
+    choose_mode(words);
+}
+
 }  // namespace
 
 int command_line(std::vector<std::string> words) {
@@ -76,6 +88,7 @@ int command_line(std::vector<std::string> words) {
     app.require_subcommand(1);
     Chosen chosen;
     add_verbs(app, chosen);
+    spell_out(words);
     if (const std::string mistake = mistake_in(app, words); !mistake.empty()) {
         std::cerr << mistake;
         return input_is_wrong;

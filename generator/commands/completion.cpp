@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <fmt/ranges.h>
-#include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "commands/help.hpp"
+#include "commands/modes.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
@@ -18,21 +18,30 @@ namespace {
 
 using Files = ValueKind::Files;
 
-std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
-    return app.get_subcommands({});
+/// What may be typed as the first word, with the tree of what may follow: verbs, and the program's own options.
+std::vector<std::pair<std::string, const CLI::App*>> first_words(const CLI::App& app) {
+    std::vector<std::pair<std::string, const CLI::App*>> words;
+    for (const CLI::App* verb : listed_verbs(app)) words.emplace_back(verb->get_name(), verb);
+    for (const VerbMode& mode : modes_of("")) words.emplace_back(mode.option, app.get_subcommand(mode.earlier));
+    return words;
 }
 
-std::string names_of_verbs(const CLI::App& app) {
-    std::string names;
-    for (const CLI::App* verb : verbs_of(app)) names += (names.empty() ? "" : " ") + verb->get_name();
-    return names;
+/// The options of a verb and of its modes, each name once.
+std::vector<OptionText> completed_options(const CLI::App& verb) {
+    std::vector<OptionText> all = options_of(verb);
+    for (const VerbMode& mode : modes_of(verb.get_name()))
+        for (OptionText& option : options_of(*verb.get_parent()->get_subcommand(mode.earlier)))
+            if (std::none_of(all.begin(), all.end(),
+                             [&](const OptionText& one) { return one.names == option.names; }))
+                all.push_back(std::move(option));
+    return all;
 }
 
 /// The values that a positional argument or an option takes; for VERB, the verbs themselves.
 ValueKind kind_of(const std::string& value, const CLI::App& app) {
     if (value == values::verb) {
         ValueKind kind{.name = value};
-        for (const CLI::App* verb : verbs_of(app)) kind.words.push_back(verb->get_name());
+        for (const CLI::App* verb : listed_verbs(app)) kind.words.push_back(verb->get_name());
         return kind;
     }
     const ValueKind* const known = value_kind(value);
@@ -58,39 +67,37 @@ std::string bash_reply(const ValueKind& kind) {
 }
 
 std::string bash(const CLI::App& app) {
-    std::string options, positions, all;
-    for (const CLI::App* verb : verbs_of(app)) {
+    std::string options, positions, all, first;
+    for (const auto& [word, verb] : first_words(app)) {
         std::string names;
+        first += word + " ";
         int position = 0;
-        for (const OptionText& option : options_of(*verb)) {
+        for (const OptionText& option : completed_options(*verb)) {
             if (option.positional) {
-                put(positions, "        {}.{}) {} ;;\n", verb->get_name(), position++,
+                put(positions, "        {}.{}) {} ;;\n", word, position++,
                     bash_reply(kind_of(option.names[0], app)));
                 continue;
             }
             for (const std::string& name : option.names) {
                 names += (names.empty() ? "" : " ") + name;
                 if (!option.value.empty())
-                    put(options, "        {}.{}) {}; return ;;\n", verb->get_name(), name,
+                    put(options, "        {}.{}) {}; return ;;\n", word, name,
                         bash_reply(kind_of(option.value, app)));
             }
         }
-        put(all, "            {}) words='{}' ;;\n", verb->get_name(), names);
+        put(all, "            {}) words='{}' ;;\n", word, names);
     }
-    return fmt::format(R"(# Completion of alembert for bash, written by 'alembert completion bash'.
+    return fmt::format(R"(# Completion of alembert for bash, written by 'alembert --completion bash'.
 _alembert() {{
-    local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD - 1]}} verb='' words='' position=-1 i
+    local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD - 1]}} verb=${{COMP_WORDS[1]}} words='' position=0 i
     COMPREPLY=()
-    for ((i = 1; i < COMP_CWORD; ++i)); do
-        case ${{COMP_WORDS[i]}} in
-            -*) ;;
-            *) if [ -n "$verb" ]; then position=$((position + 1)); else verb=${{COMP_WORDS[i]}}; fi ;;
-        esac
-    done
-    if [ -z "$verb" ]; then
-        mapfile -t COMPREPLY < <(compgen -W '{} --help --version' -- "$cur")
+    if ((COMP_CWORD == 1)); then
+        mapfile -t COMPREPLY < <(compgen -W '{}--help --version' -- "$cur"; compgen -f -X '!*.toml' -- "$cur")
         return
     fi
+    for ((i = 2; i < COMP_CWORD; ++i)); do
+        if [[ ${{COMP_WORDS[i]}} != -* ]]; then position=$((position + 1)); fi
+    done
     case $verb.$prev in
 {}    esac
     if [[ $cur == -* ]]; then
@@ -99,12 +106,12 @@ _alembert() {{
         mapfile -t COMPREPLY < <(compgen -W "$words" -- "$cur")
         return
     fi
-    case $verb.$((position < 0 ? 0 : position + 1)) in
+    case $verb.$position in
 {}    esac
 }}
 complete -F _alembert alembert
 )",
-                       names_of_verbs(app), options, all, positions);
+                       first, options, all, positions);
 }
 
 /// The text in single quotes for a shell.
@@ -140,10 +147,10 @@ std::string zsh_action(const ValueKind& kind) {
 
 std::string zsh(const CLI::App& app) {
     std::string described, cases;
-    for (const CLI::App* verb : verbs_of(app)) {
-        put(described, "        {}\n", quoted(verb->get_name() + ":" + zsh_escaped(verb->get_description())));
-        put(cases, "        {})\n            _arguments", verb->get_name());
-        for (const OptionText& option : options_of(*verb)) {
+    for (const auto& [word, verb] : first_words(app)) {
+        put(described, "        {}\n", quoted(word + ":" + zsh_escaped(verb->get_description())));
+        put(cases, "        {})\n            _arguments", word);
+        for (const OptionText& option : completed_options(*verb)) {
             if (option.positional) {
                 put(cases, " \\\n                {}",
                     quoted((option.required ? "" : ":") + zsh_action(kind_of(option.names[0], app))));
@@ -157,12 +164,13 @@ std::string zsh(const CLI::App& app) {
         cases += "\n            ;;\n";
     }
     return fmt::format(R"(#compdef alembert
-# Completion of alembert for zsh, written by 'alembert completion zsh'.
+# Completion of alembert for zsh, written by 'alembert --completion zsh'.
 _alembert() {{
     local -a verbs=(
 {}    )
     if ((CURRENT == 2)); then
         _describe verb verbs
+        _files -g "*.toml"
         return
     fi
     local verb=$words[2]
@@ -192,14 +200,18 @@ std::string fish_arguments(const ValueKind& kind) {
 
 std::string fish(const CLI::App& app) {
     std::string text =
-        "# Completion of alembert for fish, written by 'alembert completion fish'.\ncomplete -c alembert -f\n";
-    for (const CLI::App* verb : verbs_of(app))
+        "# Completion of alembert for fish, written by 'alembert --completion fish'.\ncomplete -c alembert -f\n";
+    for (const CLI::App* verb : listed_verbs(app))
         put(text, "complete -c alembert -n __fish_use_subcommand -a {} -d {}\n", verb->get_name(),
             quoted(verb->get_description()));
-    for (const CLI::App* verb : verbs_of(app)) {
+    for (const VerbMode& mode : modes_of(""))
+        put(text, "complete -c alembert -n __fish_use_subcommand -l {} -x{} -d {}\n", mode.option + 2,
+            fish_arguments(kind_of(mode.kind, app)), quoted(app.get_subcommand(mode.earlier)->get_description()));
+    put(text, "complete -c alembert -n __fish_use_subcommand{}\n", fish_arguments(kind_of(values::scene, app)));
+    for (const CLI::App* verb : listed_verbs(app)) {
         const std::string start =
             fmt::format("complete -c alembert -n '__fish_seen_subcommand_from {}'", verb->get_name());
-        for (const OptionText& option : options_of(*verb)) {
+        for (const OptionText& option : completed_options(*verb)) {
             const ValueKind kind = kind_of(option.positional ? option.names[0] : option.value, app);
             if (option.positional) {
                 if (const std::string arguments = fish_arguments(kind); !arguments.empty())
@@ -222,18 +234,11 @@ void add_completion(CLI::App& app, Chosen& chosen) {
     const auto shell = std::make_shared<std::string>();
     Verb verb = add_verb(app, {.name = "completion",
                                .about = say("prints a script with which a shell completes commands"),
-                               .example = "alembert completion bash > alembert.bash"});
+                               .example = "alembert --completion bash > alembert.bash"});
     verb.add_option("shell", *shell, say("bash, zsh or fish")).type_name(values::shell).required();
     verb.callback([shell, &app, &chosen] {
         chosen = {"completion", [shell, &app] {
-                      if (*shell == "bash")
-                          show(bash(app));
-                      else if (*shell == "zsh")
-                          show(zsh(app));
-                      else if (*shell == "fish")
-                          show(fish(app));
-                      else
-                          throw ModelError(say("'{}': expected bash, zsh or fish", *shell));
+                      show(*shell == "bash" ? bash(app) : *shell == "zsh" ? zsh(app) : fish(app));
                       return 0;
                   }};
     });

@@ -32,23 +32,20 @@ int run(const DeriveVerb& options) {
 }  // namespace
 
 void add_derive(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<DeriveVerb>(
-        app, chosen,
-        {.name = "derive",
-         .about = say("prints the equations of motion in the form of a textbook"),
-         .example = "alembert derive scenes/textbook/double_pendulum.toml --steps"},
-        run, [](Verb& verb, DeriveVerb& options) {
-            add_by_option(verb, options.by);
-            verb.add_option("--format", options.page.format, say("text (default), latex or mathml"))
-                .type_name(values::format)
-                .one_of({"text", "latex", "mathml"});
-            verb.add_flag("--steps", options.page.steps,
-                          say("also coordinates, T, V, generalized forces, own steps"));
-            verb.add_flag("--dimensions", options.page.dimensions,
-                          say("also the dimension of each coordinate and multiplier"));
-            verb.add_option("--draw", options.draw, say("SVG figure of the system")).type_name(values::file);
-            add_reactions_option(verb, options.reactions);
-        });
+    add_scene_verb<DeriveVerb>(app, chosen,
+                               {.name = "derive",
+                                .about = say("prints the equations of motion in the form of a textbook"),
+                                .example = "alembert derive scenes/textbook/double_pendulum.toml --steps"},
+                               run, [](Verb& verb, DeriveVerb& options) {
+                                   verb.take("--by", options.by);
+                                   verb.take("--format", options.page.format);
+                                   verb.add_flag("--steps", options.page.steps,
+                                                 say("also coordinates, T, V, generalized forces, own steps"));
+                                   verb.add_flag("--dimensions", options.page.dimensions,
+                                                 say("also the dimension of each coordinate and multiplier"));
+                                   verb.take("--svg", options.draw, say("SVG figure of the system"));
+                                   verb.take("--reactions", options.reactions);
+                               });
 }
 
 }  // namespace alembert

@@ -62,8 +62,7 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                 .type_name(values::folder)
                 .required();
             verb.add_option("--language", options.language, say("cpp (default), or c: C99 and a header"))
-                .type_name(values::language)
-                .one_of({"cpp", "c"});
+                .type_name(values::language);
             verb.add_flag("--standalone", options.emission.standalone,
                           say("also a main program that integrates and prints"));
             verb.add_flag("--casadi", options.emission.casadi,
@@ -89,7 +88,7 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                 .type_name(values::point);
             verb.add_flag("--batch", options.emission.batch,
                           say("also the same functions for eight systems at once"));
-            add_by_option(verb, options.by);
+            verb.take("--by", options.by);
         });
 }
 

@@ -35,9 +35,9 @@ void add_eval(CLI::App& app, Chosen& chosen) {
                                  .about = say("evaluates the equations once: accelerations, energies, reactions"),
                                  .example = "alembert eval scenes/textbook/double_pendulum.toml --at theta1=0.3"},
                                 run, [](Verb& verb, EvalOptions& options) {
-                                    add_at_option(verb, options.at);
-                                    add_by_option(verb, options.by);
-                                    add_reactions_option(verb, options.reactions);
+                                    verb.take("--at", options.at);
+                                    verb.take("--by", options.by);
+                                    verb.take("--reactions", options.reactions);
                                     verb.add_flag("--matrices", options.matrices,
                                                   say("M(q) and C(q, q') of M q'' + C q' + g = Q"));
                                 });

@@ -32,20 +32,19 @@ int run(const FmuVerb& options) {
 }  // namespace
 
 void add_fmu(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<FmuVerb>(app, chosen,
-                            {.name = "fmu",
-                             .about = say("writes a functional mock-up unit (FMI), for other tools"),
-                             .example = "alembert fmu scenes/textbook/cart_pole.toml -o cart_pole.fmu"},
-                            run, [](Verb& verb, FmuVerb& options) {
-                                verb.add_option("-o,--output", options.file, say("the file to write, NAME.fmu"))
-                                    .type_name(values::file)
-                                    .required();
-                                verb.add_option("--fmi", options.version,
-                                                say("the version of the interface: 2 (default) or 3"))
-                                    .type_name(values::interface_version)
-                                    .one_of({"2", "3"});
-                                add_by_option(verb, options.by);
-                            });
+    add_scene_verb<FmuVerb>(
+        app, chosen,
+        {.name = "fmu",
+         .about = say("writes a functional mock-up unit (FMI), for other tools"),
+         .example = "alembert emit scenes/textbook/cart_pole.toml --fmu cart_pole.fmu"},
+        run, [](Verb& verb, FmuVerb& options) {
+            verb.add_option("--fmu,-o,--output", options.file, say("the file to write, NAME.fmu"))
+                .type_name(values::file)
+                .required();
+            verb.add_option("--fmi", options.version, say("the version of the interface: 2 (default) or 3"))
+                .type_name(values::interface_version);
+            verb.take("--by", options.by);
+        });
 }
 
 }  // namespace alembert

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/language/say.hpp"
+#include "commands/modes.hpp"
 #include "commands/values.hpp"
 #include "scene/text.hpp"
 
@@ -18,6 +19,7 @@ constexpr std::size_t columns = 79, lines_of_a_screen = 24, widest_name = 26;
 
 OptionText text_of(const CLI::Option& option) {
     OptionText text{.names = {},
+                    .earlier = {},
                     .value = {},
                     .about = option.get_description(),
                     .positional = option.get_positional(),
@@ -28,8 +30,10 @@ OptionText text_of(const CLI::Option& option) {
         text.names.push_back(type);
         return text;
     }
-    for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);
-    for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
+    const std::vector<std::string>&letters = option.get_snames(), &words = option.get_lnames();
+    for (const std::string& letter : letters)  // one that begins the word: -o, --output
+        (words[0].starts_with(letter) ? text.names : text.earlier).push_back("-" + letter);
+    for (const std::string& word : words) (&word == &words[0] ? text.names : text.earlier).push_back("--" + word);
     if (option.get_items_expected_max() > 0) text.value = type;
     return text;
 }
@@ -83,7 +87,7 @@ std::vector<std::string> lists_of(const CLI::App& app, std::size_t lines_until_n
             append(lines, filled(say("{}: {}.", kind->plural, fmt::join(kind->words, ", ")), columns));
     }
     if (lines.empty() || lines_until_now + lines.size() <= lines_of_a_screen) return lines;
-    return {say("All formalisms and methods: alembert man {}", app.get_name())};
+    return {say("All formalisms and methods: alembert --man {}", app.get_name())};
 }
 
 /// What stays together on a line: a word between blanks, or a Chinese character with the punctuation after it.
@@ -119,11 +123,22 @@ std::string joined(const std::vector<std::string>& lines) {
     return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
+/// Where the options of the verb's modes are told, such as those of `eval --inverse`.
+std::vector<std::string> about_modes(const CLI::App& verb) {
+    const std::vector<VerbMode> modes = modes_of(verb.get_name());
+    if (modes.empty()) return {};
+    std::vector<std::string> names;
+    for (const VerbMode& mode : modes) names.emplace_back(mode.option);
+    const std::string first = fmt::format("alembert {} {}", verb.get_name(), names[0]);
+    return filled(say("More options go with {}: see '{} --help'.", fmt::join(names, ", "), first), columns);
+}
+
 std::string help_of_verb(const CLI::App& verb) {
     std::vector<std::string> lines{say("Example: {}", verb.get_footer()), ""};
     append(lines, filled(usage_of(verb), columns));
     append(lines, filled(say("{}.", verb.get_description()), columns));
     append(lines, entries_of(verb));
+    append(lines, about_modes(verb));
     const std::vector<std::string> codes = about_exit_codes();
     if (lines.size() + codes.size() + 1 > lines_of_a_screen) lines.erase(lines.begin() + 1);  // the empty line
     append(lines, lists_of(verb, lines.size() + codes.size()));
@@ -131,13 +146,18 @@ std::string help_of_verb(const CLI::App& verb) {
     return joined(lines);
 }
 
+/// One screen: the verbs in their groups.
 std::string help_of_program(const CLI::App& app) {
-    std::vector<std::string> lines{say("Example: {}", app.get_footer()), ""};
-    append(lines, filled(app.get_description(), columns));
-    lines.emplace_back(say("Verbs:"));
-    for (const CLI::App* verb : app.get_subcommands({}))
+    std::vector<std::string> lines{say("Example: {}", app.get_footer())};
+    std::string group;
+    for (const CLI::App* verb : listed_verbs(app)) {
+        if (verb->get_group() != group) lines.push_back(group = verb->get_group());
         append(lines, entry(verb->get_name(), verb->get_description(), 14));
-    lines.emplace_back(say("'alembert VERB --help' has its options; --version; --language zh prints Chinese."));
+    }
+    append(lines,
+           filled(say("alembert new pendulum.toml writes a first scene, alembert pendulum.toml its page. Options: "
+                      "VERB --help, --man [VERB], --completion SHELL, --language zh (Chinese), --version."),
+                  columns));
     append(lines, about_exit_codes());
     return joined(lines);
 }
@@ -147,6 +167,7 @@ std::string help_of_program(const CLI::App& app) {
 std::vector<OptionText> options_of(const CLI::App& app) {
     std::vector<OptionText> positional, named, help;
     for (const CLI::Option* option : app.get_options({})) {
+        if (option->get_group().empty()) continue;
         OptionText text = text_of(*option);
         const bool is_help = !text.positional && text.names.back() == "--help";
         if (is_help) text.about = say("this");
@@ -156,14 +177,25 @@ std::vector<OptionText> options_of(const CLI::App& app) {
     return positional;
 }
 
+std::vector<CLI::App*> listed_verbs(const CLI::App& app) {
+    return const_cast<CLI::App&>(app).get_subcommands([](CLI::App* verb) { return !verb->get_group().empty(); });
+}
+
+const CLI::Option* option_of(const CLI::App& verb, const std::string& name) {
+    return name.starts_with('-') ? verb.get_option_no_throw(name) : nullptr;
+}
+
 std::string usage_of(const CLI::App& app) {
-    std::string text = "alembert " + app.get_name();
+    const VerbMode* const mode = mode_that_was(app.get_name());
+    std::string text = "alembert " + (mode == nullptr ? app.get_name() : std::string(mode->verb));
+    if (mode != nullptr && *mode->verb == '\0') text += mode->option;
     for (const OptionText& option : options_of(app)) {
         const std::string word = option.positional ? option.names[0]
                                  : option.required ? option.names.back() + " " + option.value
                                                    : std::string();
         if (!word.empty()) text += option.required ? " " + word : " [" + word + "]";
     }
+    if (mode != nullptr && *mode->verb != '\0' && mode->kind == nullptr) text += fmt::format(" {}", mode->option);
     return text + " [OPTION…]";
 }
 

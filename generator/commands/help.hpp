@@ -12,8 +12,9 @@ namespace alembert {
 
 /// One option of a verb in the form in which it is typed.
 struct OptionText {
-    std::vector<std::string> names;  ///< "-o", "--output"; for a positional argument, only its word
-    std::string value;               ///< "FILE"; empty for a flag
+    std::vector<std::string> names;    ///< "-o", "--output"; for a positional argument, only its word
+    std::vector<std::string> earlier;  ///< names that are taken and not shown
+    std::string value;                 ///< "FILE"; empty for a flag
     std::string about;
     bool positional = false, required = false, repeated = false;
 };
@@ -21,6 +22,13 @@ struct OptionText {
 /// The options: positional arguments first, then the others in the order in which they were added, and --help
 /// last.
 std::vector<OptionText> options_of(const CLI::App& app);
+
+/// The verbs that are shown, in the order of their groups: those that are not names of before
+/// (commands/modes.hpp).
+std::vector<CLI::App*> listed_verbs(const CLI::App& app);
+
+/// The option of the verb that has this name, earlier names too; null if there is none.
+const CLI::Option* option_of(const CLI::App& verb, const std::string& name);
 
 /// "alembert simulate SCENE [OPTION…]".
 std::string usage_of(const CLI::App& app);

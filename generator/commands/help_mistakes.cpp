@@ -10,7 +10,9 @@
 
 #include "base/language/say.hpp"
 #include "commands/help.hpp"
+#include "commands/modes.hpp"
 #include "commands/values.hpp"
+#include "commands/words_meant.hpp"
 #include "scene/advice.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
@@ -18,128 +20,6 @@
 namespace alembert {
 
 namespace {
-
-struct Word {
-    std::string_view typed, meant;
-};
-
-/// Verbs of other programs, in small letters without what separates parts of a word.
-constexpr Word verbs_meant[] = {{"run", "simulate"},
-                                {"sim", "simulate"},
-                                {"solve", "simulate"},
-                                {"integrate", "simulate"},
-                                {"motion", "simulate"},
-                                {"animate", "watch"},
-                                {"view", "watch"},
-                                {"open", "watch"},
-                                {"serve", "watch"},
-                                {"plot", "simulate"},
-                                {"verify", "check"},
-                                {"prove", "check"},
-                                {"test", "check"},
-                                {"validate", "check"},
-                                {"grade", "check"},
-                                {"eom", "derive"},
-                                {"equations", "derive"},
-                                {"lagrange", "derive"},
-                                {"kane", "derive"},
-                                {"compare", "agree"},
-                                {"linearise", "linearize"},
-                                {"linear", "linearize"},
-                                {"eigenvalues", "linearize"},
-                                {"modes", "linearize"},
-                                {"stable", "stability"},
-                                {"rest", "equilibrium"},
-                                {"equilibria", "equilibrium"},
-                                {"balance", "equilibrium"},
-                                {"evaluate", "eval"},
-                                {"compute", "eval"},
-                                {"generate", "emit"},
-                                {"codegen", "emit"},
-                                {"export", "fmu"},
-                                {"code", "emit"},
-                                {"html", "report"},
-                                {"page", "report"},
-                                {"urdf", "import"},
-                                {"convert", "import"},
-                                {"mjcf", "import"},
-                                {"collision", "impact"},
-                                {"benchmark", "bench"},
-                                {"constraints", "audit"},
-                                {"scan", "sweep"},
-                                {"vary", "sweep"},
-                                {"id", "inverse"},
-                                {"inversedynamics", "inverse"},
-                                {"fit", "identify"},
-                                {"estimate", "identify"}};
-
-constexpr Word options_meant[] = {{"tol", "--tolerance"},
-                                  {"rtol", "--tolerance"},
-                                  {"atol", "--tolerance"},
-                                  {"reltol", "--tolerance"},
-                                  {"abstol", "--tolerance"},
-                                  {"eps", "--tolerance"},
-                                  {"precision", "--tolerance"},
-                                  {"accuracy", "--tolerance"},
-                                  {"time", "--duration"},
-                                  {"tend", "--duration"},
-                                  {"tmax", "--duration"},
-                                  {"tfinal", "--duration"},
-                                  {"end", "--duration"},
-                                  {"stoptime", "--duration"},
-                                  {"until", "--duration"},
-                                  {"t", "--duration"},
-                                  {"dt", "--step"},
-                                  {"h", "--step"},
-                                  {"timestep", "--step"},
-                                  {"stepsize", "--step"},
-                                  {"out", "--output"},
-                                  {"outfile", "--output"},
-                                  {"file", "--output"},
-                                  {"save", "--output"},
-                                  {"csv", "--output"},
-                                  {"dir", "--output"},
-                                  {"o", "--output"},
-                                  {"solver", "--method"},
-                                  {"integrator", "--method"},
-                                  {"ode", "--method"},
-                                  {"formalism", "--by"},
-                                  {"using", "--by"},
-                                  {"with", "--by"},
-                                  {"method", "--by"},
-                                  {"set", "--at"},
-                                  {"state", "--at"},
-                                  {"initial", "--at"},
-                                  {"init", "--at"},
-                                  {"ic", "--at"},
-                                  {"param", "--at"},
-                                  {"params", "--at"},
-                                  {"parameter", "--at"},
-                                  {"parameters", "--at"},
-                                  {"value", "--at"},
-                                  {"lang", "--language"},
-                                  {"locale", "--language"},
-                                  {"tex", "--format"},
-                                  {"latex", "--format"},
-                                  {"mathml", "--format"},
-                                  {"svg", "--plot"},
-                                  {"figure", "--plot"},
-                                  {"graph", "--plot"},
-                                  {"draw", "--show"},
-                                  {"range", "--vary"},
-                                  {"forces", "--reactions"},
-                                  {"verbose", "--steps"},
-                                  {"step-by-step", "--steps"},
-                                  {"n", "--samples"},
-                                  {"maxsteps", "--budget"},
-                                  {"usage", "--help"}};
-
-template <std::size_t count>
-std::string_view word_in(const Word (&table)[count], std::string_view word) {
-    const auto found =
-        std::find_if(std::begin(table), std::end(table), [&](const Word& w) { return w.typed == word; });
-    return found == std::end(table) ? std::string_view() : found->meant;
-}
 
 std::string did_you_mean(const std::string& word) {
     return word.empty() ? "" : say("; did you mean {}?", word);
@@ -150,7 +30,7 @@ bool is_among(const std::vector<std::string>& words, std::string_view word) {
 }
 
 std::string about_verb(const CLI::App& verb) {
-    return say("'alembert {} --help' lists its options", verb.get_name());
+    return say("'alembert {} --help' lists its options", title_of(verb.get_name()));
 }
 
 std::vector<std::string> names_of_options(const CLI::App& verb) {
@@ -164,7 +44,7 @@ std::vector<std::string> names_of_options(const CLI::App& verb) {
 std::string option_meant(const std::string& typed, const std::vector<std::string>& known) {
     const std::string stem = typed.substr(std::min(typed.find_first_not_of('-'), typed.size()));
     if (is_among(known, "--" + stem)) return "--" + stem;
-    const std::string_view other = word_in(options_meant, bare(stem));
+    const std::string_view other = option_meant_by(bare(stem));
     if (!other.empty() && is_among(known, other)) return std::string(other);
     std::string whole;
     int begun = 0;
@@ -186,9 +66,9 @@ std::string mistake_in_options(const CLI::App& verb, const std::vector<std::stri
         const std::string typed = words[k].substr(0, words[k].find('=')), name = with_plain_dash(typed);
         const bool is_long = name.starts_with("--") && name.size() > 2;
         const bool is_short_for_long =
-            !is_long && name.starts_with('-') && name.size() > 2 && is_among(known, "-" + name);
-        if (!is_short_for_long && (!is_long || (name == typed && is_among(known, name)))) continue;
-        return say("{} has no option {}{}\n", verb.get_name(), in_quotes(typed),
+            !is_long && name.starts_with('-') && name.size() > 2 && option_of(verb, "-" + name) != nullptr;
+        if (!is_short_for_long && (!is_long || (name == typed && option_of(verb, name) != nullptr))) continue;
+        return say("{} has no option {}{}\n", title_of(verb.get_name()), in_quotes(typed),
                    did_you_mean(option_meant(name, known))) +
                about_verb(verb) + "\n";
     }
@@ -230,7 +110,7 @@ std::string as_in(const CLI::App& verb) {
 std::string missing(const CLI::App& verb, const std::string& name) {
     const std::optional<OptionText> option = option_named(verb, name);
     if (!option) return say("something is missing, {}", as_in(verb));
-    return say("{} needs {}: {}, {}", verb.get_name(), shown(*option), option->about, as_in(verb));
+    return say("{} needs {}: {}, {}", title_of(verb.get_name()), shown(*option), option->about, as_in(verb));
 }
 
 std::string not_convertible(const CLI::App& verb, const std::string& name, const std::string& value) {
@@ -272,38 +152,33 @@ std::string mistake_of(const CLI::App& verb, const CLI::Error& error) {
     return say("these words are not understood; write: {}", usage_of(verb));
 }
 
+/// The first word is no verb.
+std::string mistake_in_verb(const CLI::App& app, const std::string& typed) {
+    if (typed.starts_with('-'))
+        return say("{} stands where a verb is expected, as in: {}\n'alembert' alone lists the verbs\n",
+                   in_quotes(typed), app.get_footer());
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+    std::string meant(verb_meant_by(bare(typed)));
+    if (meant.empty()) meant = is_among(verbs, bare(typed)) ? bare(typed) : nearest(typed, verbs);
+    return say("unknown verb {}{}\n'alembert' alone lists the verbs\n", in_quotes(typed),
+               did_you_mean(title_of(meant)));
+}
+
 }  // namespace
 
 std::string mistake_in(const CLI::App& app, const std::vector<std::string>& words) {
-    std::vector<std::string> verbs;
-    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-    if (words.empty())
-        return say("expected a verb, as in: {}\n'alembert --help' lists the verbs\n", app.get_footer());
     if (words[0] == "--help" || words[0] == "-h" || words[0] == "--version") return {};
     for (const CLI::App* verb : app.get_subcommands({}))
         if (verb->get_name() == words[0]) return mistake_in_options(*verb, words);
-    const std::string& typed = words[0];
-    if (typed == "help" || typed == "version")
-        return say("unknown verb {}; did you mean --{}?\n", in_quotes(typed), typed);
-    if (typed.ends_with(".toml"))
-        return say(
-            "{} is a scene; a verb stands before it, as in: alembert derive {}\n'alembert --help' lists the "
-            "verbs\n",
-            in_quotes(typed), typed);
-    if (typed.starts_with('-'))
-        return say("{} stands where a verb is expected, as in: {}\n'alembert --help' lists the verbs\n",
-                   in_quotes(typed), app.get_footer());
-    std::string meant(word_in(verbs_meant, bare(typed)));
-    if (meant.empty()) meant = nearest(typed, verbs);
-    if (is_among(verbs, bare(typed))) meant = bare(typed);
-    return say("unknown verb {}{}\n'alembert --help' lists the verbs\n", in_quotes(typed), did_you_mean(meant));
+    return mistake_in_verb(app, words[0]);
 }
 
 std::string failure_message(const CLI::App* app, const CLI::Error& error) {
     const std::vector<CLI::App*> chosen = app->get_subcommands();
     const CLI::App& verb = chosen.empty() ? *app : *chosen[0];
     return mistake_of(verb, error) + "\n" +
-           (chosen.empty() ? say("'alembert --help' lists the verbs") : about_verb(verb)) + "\n";
+           (chosen.empty() ? say("'alembert' alone lists the verbs") : about_verb(verb)) + "\n";
 }
 
 }  // namespace alembert

@@ -12,7 +12,7 @@
 
 namespace alembert {
 
-/// The mistake in the verb or the option names of a command line; empty if there is none.
+/// The mistake in the verb or the option names of a command line of at least one word; empty if there is none.
 std::string mistake_in(const CLI::App& app, const std::vector<std::string>& words);
 
 /// The mistake that CLI11 found, and a reference to the help.

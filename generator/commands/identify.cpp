@@ -23,8 +23,8 @@ int run_identify(const SceneOptions& options) {
 void add_identify(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SceneOptions>(app, chosen,
                                  {.name = "identify",
-                                  .about = say("tells which combinations of masses and inertias motion shows"),
-                                  .example = "alembert identify scenes/gallery/six_joint_arm.toml"},
+                                  .about = say("tells which sums of masses and inertias motion shows"),
+                                  .example = "alembert eval scenes/gallery/six_joint_arm.toml --identify"},
                                  run_identify);
 }
 

@@ -24,8 +24,8 @@ int run_impact(const SceneOptions& options) {
 void add_impact(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SceneOptions>(app, chosen,
                                  {.name = "impact",
-                                  .about = say("calculates the rates after impulses and sudden constraints"),
-                                  .example = "alembert impact scenes/textbook/struck_rods.toml"},
+                                  .about = say("calculates rates after impulses, sudden constraints"),
+                                  .example = "alembert eval scenes/textbook/struck_rods.toml --impact"},
                                  run_impact);
 }
 

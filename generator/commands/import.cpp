@@ -160,7 +160,7 @@ void add_import(CLI::App& app, Chosen& chosen) {
     verb.add_flag("--allow-outside", options->others.outside,
                   say("also reads files outside the folder of the robot, if it includes them"));
     verb.add_flag("--right-angles", options->right_angles, say("1.5708 and the like become right angles"));
-    verb.add_flag("--json", options->json, say("print one JSON object"));
+    verb.take("--json", options->json);
     verb.callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
 }
 

@@ -35,13 +35,12 @@ void add_inertia(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "inertia",
          .about = say("gives mass, mass centre, tensor and principal moments"),
-         .example = "alembert inertia scenes/textbook/gyrocompass.toml"},
+         .example = "alembert eval scenes/textbook/gyrocompass.toml --inertia"},
         run, [](Verb& verb, InertiaVerb& options) {
-            verb.add_option("--of", options.of, say("bodies and particles, as in B1,B2; default: all together"))
-                .type_name(values::names);
+            verb.take("--of", options.of, say("bodies and particles, as in B1,B2; default: all together"));
             verb.add_option("--about", options.about, say("a point, particle or body; default: the mass centre"))
                 .type_name(values::point);
-            add_at_option(verb, options.at);
+            verb.take("--at", options.at);
         });
 }
 

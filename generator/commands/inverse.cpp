@@ -31,10 +31,10 @@ void add_inverse(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "inverse",
          .about = say("calculates the loads that accelerations need"),
-         .example = "alembert inverse scenes/textbook/double_pendulum.toml --at \"theta1''=2\""},
+         .example = "alembert eval scenes/textbook/cart_pole.toml --inverse --at \"x''=2\""},
         run, [](Verb& verb, InverseVerb& options) {
-            add_at_option(verb, options.at);
-            add_by_option(verb, options.by);
+            verb.take("--at", options.at);
+            verb.take("--by", options.by);
         });
 }
 

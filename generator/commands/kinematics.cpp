@@ -40,14 +40,11 @@ void add_kinematics(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "kinematics",
          .about = say("describes how frames and points move: omega, alpha, v, a"),
-         .example = "alembert kinematics scenes/textbook/heavy_top.toml --steps"},
+         .example = "alembert eval scenes/textbook/heavy_top.toml --kinematics --steps"},
         run, [](Verb& verb, KinematicsVerb& options) {
-            verb.add_option("--of", options.of, say("frames, bodies and points, as in A,P; default: all"))
-                .type_name(values::names);
-            add_at_option(verb, options.at);
-            verb.add_option("--format", options.format, say("text (default), latex or mathml"))
-                .type_name(values::format)
-                .one_of({"text", "latex", "mathml"});
+            verb.take("--of", options.of);
+            verb.take("--at", options.at);
+            verb.take("--format", options.format);
             verb.add_flag("--jacobian", options.jacobian,
                           say("also the Jacobians of points and of the mass centre, as numbers"));
             verb.add_flag("--steps", options.steps, say("also how velocities and accelerations are composed"));

@@ -2,7 +2,6 @@
 #include "base/language/say.hpp"
 #include "commands/output.hpp"
 #include "commands/show.hpp"
-#include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "present/report/linearization.hpp"
 
@@ -41,29 +40,17 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "linearize",
          .about = say("gives matrices and eigenvalues near an equilibrium"),
-         .example = "alembert linearize scenes/textbook/watt_governor.toml --at alpha=0"},
+         .example = "alembert stability scenes/stability/ziegler.toml --matrices"},
         run, [](Verb& verb, LinearizeVerb& options) {
-            add_at_option(verb, options.at);
-            add_by_option(verb, options.by);
-            verb.add_flag("--modes", options.modes, say("eigenvectors too"));
+            verb.take("--at", options.at);
+            verb.take("--by", options.by);
+            verb.take("--modes", options.modes);
             verb.add_flag("--affine", options.affine, say("about any state: x' = A dx + B du + c"));
             verb.add_flag("--along", options.along, say("the same along the motion from the state"));
-            verb.add_option("--duration", options.motion.duration, say("seconds from the start"))
-                .type_name(values::seconds)
-                .nonnegative()
-                .needs("--along");
-            verb.add_option("--tolerance", options.motion.tolerance,
-                            say("local error of a component, relative to max(1, |y|)"))
-                .type_name(values::number)
-                .positive()
-                .needs("--along");
-            verb.add_option("--sample", options.motion.sample, say("time between rows of the table"))
-                .type_name(values::seconds)
-                .positive()
-                .needs("--along");
-            verb.add_option("-o,--output", options.output, say("CSV file of A, B and c along the motion"))
-                .type_name(values::file)
-                .needs("--along");
+            verb.take("--duration", options.motion.duration).needs("--along");
+            verb.take("--tolerance", options.motion.tolerance).needs("--along");
+            verb.take("--sample", options.motion.sample).needs("--along");
+            verb.take("--output", options.output, say("CSV file of A, B and c along the motion")).needs("--along");
         });
 }
 

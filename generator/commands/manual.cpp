@@ -6,6 +6,7 @@
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "commands/help.hpp"
+#include "commands/modes.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
@@ -80,6 +81,19 @@ void end(std::string& page, const CLI::App& app, const std::string& also) {
     put(page, ".SH {}\n{}\n", say("SEE ALSO"), also);
 }
 
+/// The options of a mode that are not those of all verbs.
+void add_mode(std::string& page, const VerbMode& mode, const CLI::App& app) {
+    const CLI::App& verb = *app.get_subcommand(mode.earlier);
+    put(page, ".SH {} \\-\\-{}\n{}\n.PP\n{}.\n", say("OPTIONS WITH"), upper(mode.option + 2), bold(usage_of(verb)),
+        roff(verb.get_description()));
+    for (const OptionText& option : options_of(verb)) {
+        const std::string& name = option.names.back();
+        if (!option.positional && name != "--json" && name != "--strict" && name != "--language" &&
+            name != "--help")
+            add_option(page, option);
+    }
+}
+
 std::string page_of_verb(const CLI::App& verb) {
     std::string page;
     begin(page, verb, verb.get_description());
@@ -87,6 +101,7 @@ std::string page_of_verb(const CLI::App& verb) {
     put(page, "{}.\n{}\n.SH {}\n", roff(verb.get_description()),
         say("The reference is docs/commands.md of the documentation."), say("OPTIONS"));
     for (const OptionText& option : options_of(verb)) add_option(page, option);
+    for (const VerbMode& mode : modes_of(verb.get_name())) add_mode(page, mode, *verb.get_parent());
     for (const OptionText& option : options_of(verb)) {
         const ValueKind* const kind = value_kind(option.value);
         if (kind != nullptr && !kind->plural.empty())
@@ -102,10 +117,15 @@ std::string page_of_program(const CLI::App& app) {
     put(page, ".SH {}\n{} {} [{} ...]\n.SH {}\n{}\n", say("SYNOPSIS"), bold("alembert"), italic("VERB"),
         italic("OPTION"), say("DESCRIPTION"), roff(app.get_description()));
     put(page, ".SH {}\n", say("VERBS"));
-    for (const CLI::App* verb : app.get_subcommands({})) {
+    for (const CLI::App* verb : listed_verbs(app)) {
         put(page, ".TP\n{}\n{}.\n", bold(verb->get_name()), roff(verb->get_description()));
         put(also, "{}.BR {} (1)", also.empty() ? "" : ",\n", roff(page_name(*verb)));
     }
+    put(page, ".SH {}\n", say("OPTIONS"));
+    for (const VerbMode& mode : modes_of(""))
+        put(page, ".TP\n{} {}\n{}.\n", bold(mode.option), italic(mode.kind),
+            roff(app.get_subcommand(mode.earlier)->get_description()));
+    for (const OptionText& option : options_of(app)) add_option(page, option);
     end(page, app, also);
     return page;
 }
@@ -116,17 +136,16 @@ void add_manual(CLI::App& app, Chosen& chosen) {
     const auto name = std::make_shared<std::string>();
     Verb verb = add_verb(app, {.name = "man",
                                .about = say("prints a page of the manual, of the program or of a verb"),
-                               .example = "alembert man simulate > alembert-simulate.1"});
+                               .example = "alembert --man simulate > alembert-simulate.1"});
     verb.add_option("verb", *name, say("whose page; without it that of the program")).type_name(values::verb);
     verb.callback([name, &app, &chosen] {
         chosen = {
             "man", [name, &app] {
                 if (name->empty()) return show(page_of_program(app)), 0;
                 std::vector<std::string> known;
-                for (const CLI::App* one : app.get_subcommands({})) {
+                for (const CLI::App* one : app.get_subcommands({}))
                     if (one->get_name() == *name) return show(page_of_verb(*one)), 0;
-                    known.push_back(one->get_name());
-                }
+                for (const CLI::App* one : listed_verbs(app)) known.push_back(one->get_name());
                 throw ModelError(say("there is no verb '{}'; expected one of: {}", *name, fmt::join(known, ", ")));
             }};
     });

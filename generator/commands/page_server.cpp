@@ -48,12 +48,12 @@ output { position: fixed; right: 1rem; bottom: 1rem; padding: .2rem .6rem; font:
 
 std::string frame_around() {
     return fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"{}\"><head><meta charset=\"utf-8\"><title>alembert watch</title>"
+        "<!DOCTYPE html>\n<html lang=\"{}\"><head><meta charset=\"utf-8\"><title>alembert report --watch</title>"
         "<meta name=\"viewport\" content=\"width=device-width\"><style>{}</style></head><body>"
         "<iframe src=\"/page\" title=\"{}\"></iframe><output role=\"status\" data-making=\"{}\" "
         "data-ended=\"{}\"></output>"
         "<script>{}</script></body></html>\n",
-        say("en"), style, say("the scene"), say("making the page …"), say("alembert watch has ended"), script);
+        say("en"), style, say("the scene"), say("making the page …"), say("alembert has ended"), script);
 }
 
 std::string policy_of_frame() {

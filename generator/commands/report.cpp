@@ -3,6 +3,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "commands/open_page.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
@@ -19,7 +20,7 @@ namespace {
 struct ReportVerb : SceneOptions {
     std::string output;
     RunOptions wishes{.budget = 3'000'000};
-    bool moves = true, measures = false;
+    bool moves = true, measures = false, opens = false;
     std::string section;
     std::string derivation;  ///< a file; empty for none
 };
@@ -65,6 +66,7 @@ int run(const ReportVerb& given) {
         show(Json{{"file", verb.output}});
     else
         show(say("wrote {}\n", verb.output));
+    if (verb.opens && !verb.json) open_page(verb.output);
     return 0;
 }
 
@@ -80,18 +82,16 @@ void add_report(CLI::App& app, Chosen& chosen) {
             verb.add_option("-o,--output", options.output,
                             say("the page, HTML; default: the scene's name with .html, in this folder"))
                 .type_name(values::file);
-            add_by_option(verb, options.by);
-            add_duration_option(verb, options.wishes);
-            verb.add_option("--budget", options.wishes.budget, say("evaluations of the motion, at most"))
-                .type_name(values::count)
-                .positive();
-            verb.add_option("--poincare", options.section, say("section of Poincare, as in \"theta1 = 0\""))
-                .type_name(values::formula);
+            verb.take("--by", options.by);
+            verb.take("--duration", options.wishes.duration);
+            verb.take("--budget", options.wishes.budget, say("evaluations of the motion, at most"));
+            verb.take("--poincare", options.section);
             verb.add_option("--derivation", options.derivation,
                             say("a derivation by hand, which the page shows line by line with its verdicts"))
                 .type_name(values::file);
             verb.add_flag("--bench", options.measures, say("also speed against error, of every method"));
-            verb.add_flag("!--no-motion", options.moves, say("leaves the motion out"));
+            verb.take("--no-motion", options.moves);
+            verb.add_flag("--open", options.opens, say("shows the page in the browser, if there is a display"));
         });
 }
 

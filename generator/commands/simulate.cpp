@@ -80,19 +80,14 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "simulate",
          .about = say("makes code, integrates, and estimates the error"),
-         .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
+         .example = "alembert simulate scenes/textbook/crane.toml --svg motion.svg"},
         run, [](Verb& verb, SimulateVerb& options) {
             add_run_options(verb, options);
-            add_code_option(verb, options.wishes);
-            verb.add_option("--sample", options.wishes.sample, say("time between rows of the table"))
-                .type_name(values::seconds)
-                .positive();
+            verb.take("--sample", options.wishes.sample);
             verb.add_flag("--digits", options.all_digits, say("the values at the end with all 16 digits"));
-            verb.add_option("--plot", options.plot, say("SVG picture of the motion over time; - for text"))
-                .type_name(values::file);
-            add_show_option(verb, options.show, "--plot");
-            verb.add_option("--poincare", options.section, say("section of Poincare, as in \"theta1 = 0\""))
-                .type_name(values::formula);
+            verb.take("--svg", options.plot, say("SVG picture of the motion over time; - for text"));
+            verb.take("--show", options.show).needs("--svg");
+            verb.take("--poincare", options.section);
             verb.add_option("--sensitivity", options.sensitivity,
                             say("derivatives of the end by initial values, parameters"))
                 .type_name(values::names);
@@ -102,7 +97,7 @@ void add_simulate(CLI::App& app, Chosen& chosen) {
             verb.add_flag("--regularize", options.wishes.regularize, say("short steps near collisions"));
             verb.add_flag("!--no-estimate", options.wishes.estimate,
                           say("no second run to estimate the error: half the time"));
-            add_reactions_option(verb, options.wishes.reactions);
+            verb.take("--reactions", options.wishes.reactions);
         });
 }
 

@@ -20,10 +20,11 @@ namespace {
 constexpr std::size_t chart_columns = 121, chart_rows = 91, locus_values = 200;
 
 struct StabilityVerb : SceneOptions {
-    std::vector<std::string> at, over;
+    std::vector<std::string> at, vary;
     double period = 0, duration = 0;
     bool modes = false;
-    std::string lyapunov, locus, exponents, output, svg;
+    std::string lyapunov, exponents, output, svg;
+    std::string locus;  ///< the earlier name of --vary over one parameter
 };
 
 StabilityOptions options_of(const StabilityVerb& verb, const Scene& scene) {
@@ -35,20 +36,18 @@ StabilityOptions options_of(const StabilityVerb& verb, const Scene& scene) {
 }
 
 void need_alone(const StabilityVerb& verb) {
-    const int asked = !verb.over.empty() + !verb.locus.empty() + !verb.exponents.empty() + !verb.lyapunov.empty();
+    const bool is_picture = !verb.vary.empty();
+    const int asked = is_picture + !verb.locus.empty() + !verb.exponents.empty() + !verb.lyapunov.empty();
     if (asked > 1)
+        throw ModelError(say("--vary, --exponents and --lyapunov are different questions; expected one of them"));
+    if (verb.vary.size() > 2)
         throw ModelError(
-            say("--over, --locus, --exponents and --lyapunov are different questions; expected one of them"));
-    if (!verb.over.empty() && verb.over.size() != 2)
-        throw ModelError(
-            say("a chart is drawn over two parameters; expected --over twice, as in --over a=0:5 --over "
-                "q=0:4. (--locus follows the roots over one)"));
-    const bool is_picture = !verb.over.empty() || !verb.locus.empty();
-    if (!verb.svg.empty() && !is_picture)
-        throw ModelError(say("--svg shows a chart or a root locus; expected --over or --locus with it"));
-    if (!verb.output.empty() && !is_picture && verb.exponents.empty())
-        throw ModelError(
-            say("-o is for a chart, a root locus or exponents; expected --over, --locus or --exponents"));
+            say("a chart is drawn over two parameters; expected --vary twice, as in --vary a=0:5 --vary q=0:4 "
+                "(once, it follows the roots)"));
+    if (!verb.svg.empty() && !is_picture && verb.locus.empty())
+        throw ModelError(say("--svg shows a chart or a root locus; expected --vary with it"));
+    if (!verb.output.empty() && !is_picture && verb.locus.empty() && verb.exponents.empty())
+        throw ModelError(say("-o is for a chart, a root locus or exponents; expected --vary or --exponents"));
     if (verb.duration > 0 && verb.exponents.empty()) throw ModelError(say("--duration belongs to --exponents"));
 }
 
@@ -69,15 +68,16 @@ int draw_over(const StabilityVerb& verb) {
     ChartOptions options{.stability = options_of(verb, scene)};
     Progress progress;
     options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    if (!verb.locus.empty()) {
-        const Axis range = range_of("--locus", verb.locus, locus_values, scene);
+    if (verb.vary.size() != 2) {
+        const std::string& given = verb.vary.empty() ? verb.locus : verb.vary[0];
+        const Axis range = range_of("--vary", given, locus_values, scene);
         const RootLocus locus = root_locus(std::move(scene), range, options);
         progress.wipe();
         hand_over(verb, locus);
         return 0;
     }
-    const Axis across = range_of("--over", verb.over[0], chart_columns, scene),
-               up = range_of("--over", verb.over[1], chart_rows, scene);
+    const Axis across = range_of("--vary", verb.vary[0], chart_columns, scene),
+               up = range_of("--vary", verb.vary[1], chart_rows, scene);
     const StabilityChart chart = stability_chart(std::move(scene), across, up, options);
     progress.wipe();
     hand_over(verb, chart);
@@ -110,7 +110,7 @@ int run(const StabilityVerb& verb) {
     check_output(verb.svg, FileForm::picture, {verb.scene});
     need_alone(verb);
     if (!verb.exponents.empty()) return find_exponents(verb);
-    if (!verb.over.empty() || !verb.locus.empty()) return draw_over(verb);
+    if (!verb.vary.empty() || !verb.locus.empty()) return draw_over(verb);
     Scene scene = scene_of(verb.scene);
     const StabilityOptions options = options_of(verb, scene);
     const Stability result = stability(std::move(scene), options);
@@ -140,28 +140,25 @@ void add_stability(CLI::App& app, Chosen& chosen) {
          .about = say("says whether an equilibrium or a motion is stable, and why"),
          .example = "alembert stability scenes/textbook/watt_governor.toml --at alpha=0"},
         run, [](Verb& verb, StabilityVerb& options) {
-            add_by_option(verb, options.by);
-            add_at_option(verb, options.at);
+            verb.take("--by", options.by);
+            verb.take("--at", options.at);
             verb.add_option("--period", options.period, say("of a periodic system or motion: Floquet multipliers"))
                 .type_name(values::seconds)
                 .positive();
             verb.add_option("--lyapunov", options.lyapunov,
                             say("a function V of the state: judges what it proves"))
                 .type_name(values::formula);
-            verb.add_flag("--modes", options.modes, say("eigenvectors too"));
-            verb.add_option("--over", options.over, say("twice: a chart of stability over two parameters"))
-                .type_name(values::interval);
-            verb.add_option("--locus", options.locus, say("follows the roots over a parameter"))
-                .type_name(values::interval);
+            verb.take("--modes", options.modes);
+            verb.take("--vary", options.vary,
+                      say("follows the roots over a parameter; twice: a chart of stability over two"));
+            verb.add_option("--locus", options.locus, "").silent();
             verb.add_option("--exponents", options.exponents,
                             say("so many Lyapunov exponents of the motion, or `all`"))
                 .type_name(values::count);
-            verb.add_option("--duration", options.duration, say("of the motion for exponents; 1000 if missing"))
-                .type_name(values::seconds)
+            verb.take("--duration", options.duration, say("of the motion for exponents; 1000 if missing"))
                 .positive();
-            verb.add_option("-o,--output", options.output, say("CSV file of a chart, locus or exponents"))
-                .type_name(values::file);
-            verb.add_option("--svg", options.svg, say("picture of a chart or locus")).type_name(values::file);
+            verb.take("--output", options.output, say("CSV file of a chart, locus or exponents"));
+            verb.take("--svg", options.svg, say("picture of a chart or locus"));
         });
 }
 

@@ -227,8 +227,7 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
          .about = say("integrates from many initial states or with many parameters"),
          .example = "alembert sweep scenes/textbook/crane.toml --vary l=1:9:100"},
         run, [](Verb& verb, SweepVerb& options) {
-            verb.add_option("--vary", options.vary, say("NAME=FROM:TO:COUNT; several make a grid"))
-                .type_name(values::range);
+            verb.take("--vary", options.vary, say("NAME=FROM:TO:COUNT; several make a grid"));
             verb.add_option("--vary-from", options.vary_from, say("CSV: names, then a point in each line"))
                 .type_name(values::file);
             verb.add_option("--samples", options.samples, say("N points in the ranges NAME=FROM:TO"))
@@ -236,19 +235,16 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
                 .between(1, 2147483647);
             verb.add_option("--sampling", options.sampling, say("how they lie: sobol (default), latin, uniform"))
                 .type_name(values::sampling)
-                .one_of({"sobol", "latin", "uniform"})
                 .needs("--samples");
             verb.add_option("--seed", options.seed, say("of the samples; default: 0"))
                 .type_name(values::count)
                 .between(0, 2147483647)
                 .needs("--samples");
             add_run_options(verb, options);
-            add_code_option(verb, options.wishes);
             verb.add_option("--threads", options.threads, say("default: as many as there are cores"))
                 .type_name(values::count)
                 .between(1, 1024);
-            verb.add_option("--along", options.along,
-                            say("also of each whole motion: min,max,mean of its coordinates"))
+            verb.add_option("--along", options.along, say("also of whole motions: min,max,mean of coordinates"))
                 .type_name(values::statistics);
             verb.add_option("--reduce", options.reduce,
                             say("statistics instead of rows: min,max,mean,median,0.95"))
@@ -258,9 +254,8 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
                             say("motions that a process takes at once; default: by time"))
                 .type_name(values::count)
                 .between(1, 1'000'000'000);
-            verb.add_option("--svg", options.svg, say("SVG picture: lines over one quantity, maps over two"))
-                .type_name(values::file);
-            add_show_option(verb, options.show, "--svg");
+            verb.take("--svg", options.svg, say("SVG picture: lines over one quantity, maps over two"));
+            verb.take("--show", options.show).needs("--svg");
         });
 }
 

@@ -16,9 +16,9 @@ namespace values {
 inline constexpr const char *scene = "SCENE", *claims = "CLAIMS", *robot = "ROBOT", *file = "FILE",
                             *folder = "DIR", *formalism = "FORMALISM", *method = "METHOD", *format = "FORMAT",
                             *seconds = "S", *number = "X", *count = "N", *assignment = "NAME=VALUE",
-                            *names = "NAMES", *range = "RANGE", *interval = "NAME=FROM:TO", *shell = "SHELL",
-                            *verb = "VERB", *language = "LANGUAGE", *point = "POINT", *formula = "EXPRESSION",
-                            *reading = "en|zh", *interface_version = "2|3", *sampling = "SAMPLING", *code = "CODE",
+                            *names = "NAMES", *interval = "NAME=FROM:TO", *shell = "SHELL", *verb = "VERB",
+                            *language = "LANGUAGE", *point = "POINT", *formula = "EXPRESSION", *reading = "en|zh",
+                            *interface_version = "2|3", *sampling = "SAMPLING", *code = "CODE",
                             *statistics = "LIST";
 }
 
@@ -26,7 +26,7 @@ struct ValueKind {
     enum class Files { none, any, folders, ending };
     std::string name;
     std::string plural = {};              ///< the heading of a list of all words; empty if there is none
-    std::vector<std::string> words = {};  ///< all words that may be given
+    std::vector<std::string> words = {};  ///< all words that may be given; with a plural, others than these decide
     Files files = Files::none;
     std::string ending = {};  ///< the ending for Files::ending, without the dot
 };

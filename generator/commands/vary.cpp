@@ -64,6 +64,12 @@ Axis axis_of(const std::string& option, const std::string& item, std::optional<s
 
 }  // namespace
 
+Axis interval_of(const std::string& option, const std::string& item, const Scene& scene) {
+    const Axis axis = axis_of(option, item, 0, scene);
+    if (axis.count != 0) throw ModelError(say("{} {}: the range has no count here; leave it out", option, item));
+    return axis;
+}
+
 Axis range_of(const std::string& option, const std::string& item, std::size_t count, const Scene& scene) {
     const Axis axis = axis_of(option, item, count, scene);
     if (axis.count > 2000) throw ModelError(say("{} {}: expected at most 2000 values", option, item));

@@ -17,6 +17,9 @@ Grid grid_of(const std::vector<std::string>& vary, const Scene& scene);
 /// The ranges NAME=FROM:TO of --vary with --samples. Throws ModelError likewise, and for a range with a count.
 std::vector<Axis> ranges_of(const std::vector<std::string>& vary, const Scene& scene);
 
+/// NAME=FROM:TO of an option. Throws ModelError likewise, and for a range with a count.
+Axis interval_of(const std::string& option, const std::string& item, const Scene& scene);
+
 /// NAME=FROM:TO or NAME=FROM:TO:COUNT of an option; `count` where there is none. Throws ModelError likewise.
 Axis range_of(const std::string& option, const std::string& item, std::size_t count, const Scene& scene);
 

@@ -11,6 +11,8 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "commands/help.hpp"
+#include "commands/modes.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "model/constant.hpp"
@@ -41,6 +43,33 @@ CLI::Validator number(bool zero) {
 
 AddedOption& AddedOption::type_name(const char* kind) {
     option_->type_name(kind);
+    const ValueKind* const known = value_kind(kind);
+    if (known == nullptr || known->words.empty()) return *this;
+    const std::vector<std::string>& words = known->words;
+    option_->transform([&words](const std::string& text) {
+        const auto same = std::find_if(words.begin(), words.end(),
+                                       [&](const std::string& word) { return bare(word) == bare(text); });
+        return same == words.end() ? text : *same;
+    });
+    if (!known->plural.empty()) return *this;  // formalisms and methods, of which others say what is wrong
+    option_->check(CLI::Validator(
+        [&words](const std::string& text) {
+            const bool is_known = std::find(words.begin(), words.end(), text) != words.end();
+            return is_known ? std::string() : say("{}: expected {}", text, fmt::join(words, ", "));
+        },
+        ""));
+    return *this;
+}
+
+AddedOption& AddedOption::as(const SharedOption& shared) {
+    if (shared.kind != nullptr) type_name(shared.kind);
+    if (shared.number == SharedOption::Number::positive) positive();
+    if (shared.number == SharedOption::Number::nonnegative) nonnegative();
+    return *this;
+}
+
+AddedOption& AddedOption::silent() {
+    option_->group("");
     return *this;
 }
 
@@ -77,27 +106,6 @@ AddedOption& AddedOption::between(int least, int most) {
     return *this;
 }
 
-AddedOption& AddedOption::one_of(std::initializer_list<std::string> words) {
-    const std::vector<std::string> known(words);
-    in_words(known);
-    option_->check(CLI::Validator(
-        [known](const std::string& text) {
-            const bool is_known = std::find(known.begin(), known.end(), text) != known.end();
-            return is_known ? std::string() : say("{}: expected {}", text, fmt::join(known, ", "));
-        },
-        ""));
-    return *this;
-}
-
-AddedOption& AddedOption::in_words(const std::vector<std::string>& words) {
-    option_->transform([words](const std::string& text) {
-        const auto known = std::find_if(words.begin(), words.end(),
-                                        [&](const std::string& word) { return bare(word) == bare(text); });
-        return known == words.end() ? text : *known;
-    });
-    return *this;
-}
-
 template <typename T>
 AddedOption Verb::add_option(const std::string& names, T& value, const std::string& about) {
     return AddedOption(app_->add_option(names, value, about));
@@ -111,8 +119,8 @@ template AddedOption Verb::add_option(const std::string&, std::optional<std::str
 template AddedOption Verb::add_option(const std::string&, std::optional<int>&, const std::string&);
 template AddedOption Verb::add_option(const std::string&, long&, const std::string&);
 
-void Verb::add_flag(const std::string& names, bool& value, const std::string& about) {
-    app_->add_flag(names, value, about);
+AddedOption Verb::add_flag(const std::string& names, bool& value, const std::string& about) {
+    return AddedOption(app_->add_flag(names, value, about));
 }
 
 void Verb::callback(std::function<void()> chosen) {
@@ -120,15 +128,9 @@ void Verb::callback(std::function<void()> chosen) {
 }
 
 void add_scene_options(Verb& verb, SceneOptions& options) {
-    verb.add_option("scene", options.scene, say("the scene, a TOML file")).type_name(values::scene).required();
-    verb.add_flag("--json", options.json, say("print one JSON object"));
-    verb.add_flag("--strict", are_warnings_errors(), say("warnings end the run, with exit code 3"));
-}
-
-void add_by_option(Verb& verb, std::string& by) {
-    verb.add_option("--by", by, say("the formalism; default: the program chooses"))
-        .type_name(values::formalism)
-        .in_words(value_kind(values::formalism)->words);
+    verb.take("scene", options.scene).required();
+    verb.take("--json", options.json);
+    verb.take("--strict", are_warnings_errors());
 }
 
 Verb add_verb(CLI::App& app, const VerbText& text) {
@@ -138,27 +140,47 @@ Verb add_verb(CLI::App& app, const VerbText& text) {
         AddedOption(verb->add_option(
                         "--language", [](const CLI::results_t&) { return true; },
                         say("of what is printed for people: en or zh")))
-            .type_name(values::reading)
-            .one_of({"en", "zh"});
+            .type_name(values::reading);
+    if (const VerbMode* const mode = mode_that_was(text.name); mode != nullptr && mode->kind == nullptr)
+        AddedOption(verb->add_flag(mode->option)).silent();
     return Verb(*verb);
 }
 
-void add_reactions_option(Verb& verb, bool& reactions) {
-    verb.add_flag("--reactions", reactions, say("what constraints exert along coordinates, and joints"));
+namespace {
+
+/// The modes of each verb as its options, for what is written from the tree: their words never come here.
+void add_modes(const CLI::App& app) {
+    for (CLI::App* const verb : listed_verbs(app))
+        for (const VerbMode& mode : modes_of(verb->get_name())) {
+            const std::string about = app.get_subcommand(mode.earlier)->get_description();
+            if (mode.kind == nullptr)
+                verb->add_flag(mode.option, about);
+            else
+                verb->add_option(mode.option, about)->type_name(mode.kind);
+        }
 }
 
-void add_at_option(Verb& verb, std::vector<std::string>& at) {
-    verb.add_option("--at", at, say("sets a coordinate, a rate (\"theta1'=1\"), a parameter, t; pi/2 is read"))
-        .type_name(values::assignment);
-}
+}  // namespace
 
 void add_verbs(CLI::App& app, Chosen& chosen) {
-    for (const auto add :
-         {add_derive,    add_agree,     add_audit,      add_check,      add_eval,     add_equilibrium,
-          add_linearize, add_stability, add_kinematics, add_inertia,    add_identify, add_inverse,
-          add_impact,    add_emit,      add_fmu,        add_import,     add_simulate, add_sweep,
-          add_bench,     add_report,    add_watch,      add_completion, add_manual})
-        add(app, chosen);
+    struct Group {
+        std::string title;
+        std::vector<void (*)(CLI::App&, Chosen&)> verbs;
+    };
+    for (const auto& [title, verbs] : std::initializer_list<Group>{
+             {say("Equations"), {add_derive, add_check, add_audit}},
+             {say("One state"), {add_eval}},
+             {say("Equilibria"), {add_equilibrium, add_stability}},
+             {say("Motion"), {add_simulate, add_sweep, add_bench}},
+             {say("Code and page"), {add_emit, add_import, add_report, add_new}},
+             {"",
+              {add_agree, add_kinematics, add_inertia, add_identify, add_inverse, add_impact, add_linearize,
+               add_fmu, add_watch, add_completion, add_manual}}})
+        for (const auto add : verbs) {
+            add(app, chosen);
+            app.get_subcommands({}).back()->group(title);
+        }
+    add_modes(app);
 }
 
 std::string in_words_of(const Scene& scene, const std::string& text) {

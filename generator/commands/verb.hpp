@@ -13,11 +13,12 @@
 /// Mistakes are thrown as exceptions, which main turns into messages and the exit codes of docs/commands.md.
 
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "commands/options.hpp"
 #include "program/lower/start.hpp"
 #include "scene/scene.hpp"
 #include "stability/point.hpp"
@@ -51,13 +52,14 @@ void add_emit(CLI::App& app, Chosen& chosen);
 void add_equilibrium(CLI::App& app, Chosen& chosen);
 void add_eval(CLI::App& app, Chosen& chosen);
 void add_fmu(CLI::App& app, Chosen& chosen);
+void add_identify(CLI::App& app, Chosen& chosen);
 void add_impact(CLI::App& app, Chosen& chosen);
 void add_import(CLI::App& app, Chosen& chosen);
-void add_identify(CLI::App& app, Chosen& chosen);
 void add_inertia(CLI::App& app, Chosen& chosen);
 void add_inverse(CLI::App& app, Chosen& chosen);
 void add_kinematics(CLI::App& app, Chosen& chosen);
 void add_linearize(CLI::App& app, Chosen& chosen);
+void add_new(CLI::App& app, Chosen& chosen);
 void add_report(CLI::App& app, Chosen& chosen);
 void add_simulate(CLI::App& app, Chosen& chosen);
 void add_stability(CLI::App& app, Chosen& chosen);
@@ -87,15 +89,17 @@ double number_of(const std::string& text);
 class AddedOption {
 public:
     explicit AddedOption(CLI::Option* option) : option_(option) {}
-    AddedOption& type_name(const char* kind);  ///< the kind of its value, one of commands/values.hpp
+    /// The kind of its value, one of commands/values.hpp. Where that has all words that may be given, the value is
+    /// checked against them; a word that differs from one in capitals and dashes is taken for that one.
+    AddedOption& type_name(const char* kind);
+    /// Kind and range of a row of the table; nothing of a flag.
+    AddedOption& as(const SharedOption& shared);
+    AddedOption& silent();  ///< not shown: an earlier name
     AddedOption& required();
     AddedOption& needs(const std::string& other);  ///< an option that must be given together with it
     AddedOption& positive();                       ///< requires a number above zero; CLI11's own check accepts NaN
     AddedOption& nonnegative();
     AddedOption& between(int least, int most);
-    AddedOption& one_of(std::initializer_list<std::string> words);  ///< in small letters or capitals
-    /// Takes a word that differs from one of these in capitals and dashes for that one; others stay.
-    AddedOption& in_words(const std::vector<std::string>& words);
 
 private:
     CLI::Option* option_;
@@ -110,7 +114,17 @@ public:
     /// std::optional of these, std::vector<std::string>.
     template <typename T>
     AddedOption add_option(const std::string& names, T& value, const std::string& about);
-    void add_flag(const std::string& names, bool& value, const std::string& about);
+    AddedOption add_flag(const std::string& names, bool& value, const std::string& about);
+    /// Adds an option, or for a bool a flag, that the table of shared options has (commands/options.hpp).
+    template <typename T>
+    AddedOption take(const char* name, T& value, const std::string& about = {}) {
+        const SharedOption& shared = shared_option(name);
+        const std::string& words = about.empty() ? shared.about : about;
+        if constexpr (std::is_same_v<T, bool>)
+            return add_flag(shared.names, value, words);
+        else
+            return add_option(shared.names, value, words).as(shared);
+    }
     /// Sets the function that is called when the verb has been chosen and its options have been read.
     void callback(std::function<void()> chosen);
 
@@ -118,15 +132,7 @@ private:
     CLI::App* app_;
 };
 
-/// Adds --reactions, for verbs that can show them.
-void add_reactions_option(Verb& verb, bool& reactions);
-
-/// Adds --at, for verbs that evaluate one state.
-void add_at_option(Verb& verb, std::vector<std::string>& at);
-
-/// Adds --by, for verbs in which the formalism makes a difference.
-void add_by_option(Verb& verb, std::string& by);
-
+/// SCENE, --json, --strict.
 void add_scene_options(Verb& verb, SceneOptions& options);
 
 /// The text of `--help` for a verb. The example is a command line that works in the folder of the repository.

@@ -87,16 +87,16 @@ void add_watch(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<WatchVerb>();
     Verb verb = add_verb(app, {.name = "watch",
                                .about = say("shows the scene's page in the browser, anew whenever it is saved"),
-                               .example = "alembert watch scenes/textbook/sled.toml"});
-    verb.add_option("scene", options->scene, say("the scene, a TOML file")).type_name(values::scene).required();
+                               .example = "alembert report scenes/textbook/sled.toml --watch"});
+    verb.take("scene", options->scene).required();
     verb.add_option("--port", options->port, say("of this machine's address 127.0.0.1; default: any free port"))
         .type_name(values::count)
         .between(1, 65535);
     verb.add_option("-o,--output", options->output, say("writes the page to this file too"))
         .type_name(values::file);
-    add_duration_option(verb, options->options.wishes);
-    add_by_option(verb, options->options.by);
-    verb.add_flag("!--no-motion", options->options.moves, say("leaves the motion out"));
+    verb.take("--duration", options->options.wishes.duration);
+    verb.take("--by", options->options.by);
+    verb.take("--no-motion", options->options.moves);
     verb.callback([options, &chosen] { chosen = {options->scene, [options] { return run(*options); }}; });
 }
 

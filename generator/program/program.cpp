@@ -315,7 +315,7 @@ void Program::refuse_unspecified(const Node& node) const {
     const auto index = static_cast<std::size_t>(cln::cl_I_to_int(cln::numerator(nodes_[node.args[0]].number)));
     const std::string name = index < functions.size() ? "'" + functions[index] + "'" : say("a function");
     throw ModelError(
-        say("[functions] leaves {} open, so that what depends on it has no values; `derive`, `check`, `agree` and "
+        say("[functions] leaves {} open, so that what depends on it has no values; `derive`, `check` and "
             "`audit` need none. For numbers write its formula in place of it, for example as a name in "
             "[definitions]",
             name));

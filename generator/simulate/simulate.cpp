@@ -332,10 +332,11 @@ Run simulate(Scene scene, const RunOptions& wishes) {
     check_numbers(wishes);
     Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
-        result.warn("before_impulses",
-                    say("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
-                        "gives those after\n",
-                        result.scene.file));
+        result.warn(
+            "before_impulses",
+            say("{}: the motion starts with the rates before the scene's impulses; 'alembert eval --impact' "
+                "gives those after\n",
+                result.scene.file));
     Simulating(result, wishes).run();
     return result;
 }

@@ -69,7 +69,7 @@ Sweeper::Sweeper(Scene scene, Grid grid, const RunOptions& wishes, std::vector<s
             say("sweep does not run regularized; simulate does, for one state at a time. Leave 'regularize' out"));
     if (!m.impulses.empty())
         s_.warn("before_impulses",
-                say("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
+                say("{}: the motions start with the rates before the scene's impulses; 'alembert eval --impact' "
                     "gives those after\n",
                     s_.scene.file));
     const std::vector<std::string> names = s_.grid.names();

@@ -74,10 +74,11 @@ UnitModel unit_model(Scene scene, const std::string& by) {
     model.input_time = free.time;
     refuse_contacts(model.mechanism);
     if (!model.mechanism.impulses.empty())
-        model.warn("before_impulses",
-                   say("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
-                       "gives those after\n",
-                       model.scene.file));
+        model.warn(
+            "before_impulses",
+            say("{}: the motion starts with the rates before the scene's impulses; 'alembert eval --impact' "
+                "gives those after\n",
+                model.scene.file));
     Program program = with_signs_told(model, lowered(model).program);
     Start start = start_of(model.mechanism);
     assemble(start, model.mechanism, lower_constraints(model.mechanism), {});

@@ -75,7 +75,7 @@ private:
         std::vector<std::string> result;
         for (const auto& [name, value] : options.at) {
             if (name == options.name)
-                throw ModelError(say("--follow {} and --at {}: it cannot be held and followed", name, name));
+                throw ModelError(say("--vary {} and --at {}: it cannot be held and followed", name, name));
             result.push_back(name);
         }
         result.push_back(options.name);
@@ -101,12 +101,12 @@ private:
             const std::string q = m.q[i].get_name();
             if (options_.name == q || (options_.name == q + "'" && problem_.essential()[i]))
                 throw ModelError(
-                    say("--follow {}: an equilibrium has this value as an unknown; expected a parameter, "
+                    say("--vary {}: an equilibrium has this value as an unknown; expected a parameter, "
                         "or the rate of a cyclic coordinate",
                         options_.name));
         }
         if (options_.name == "t")
-            throw ModelError(say("--follow t: expected a parameter, or the rate of a cyclic coordinate"));
+            throw ModelError(say("--vary t: expected a parameter, or the rate of a cyclic coordinate"));
     }
 
     void follow_from(const Tracer& tracer, const TracedPoint& start) {
@@ -187,7 +187,7 @@ private:
 Branches branches(Scene scene, const FollowOptions& options) {
     if (!(std::isfinite(options.from) && std::isfinite(options.to)) || options.from == options.to)
         throw ModelError(
-            say("--follow {}={}:{}: expected two different numbers", options.name, options.from, options.to));
+            say("--vary {}={}:{}: expected two different numbers", options.name, options.from, options.to));
     Branches result{derived(std::move(scene), {.by = options.by, .at = options.at})};
     result.parameter = options.name;
     result.from = options.from;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The change of equilibria and steady motions with a parameter: `equilibrium --follow`.
+/// The change of equilibria and steady motions with a parameter: `equilibrium --vary`.
 ///
 ///     const Branches found = branches(read_scene("scenes/textbook/rotating_hoop.toml"), {.name = "Omega",
 ///                                     .from = 0, .to = 10});

@@ -152,7 +152,8 @@ private:
         for (const auto& [name, value] : steady_nearby(m_, e_, *start_))
             nearby += fmt::format("{}--at {}={}", nearby.empty() ? "" : " ", name, value);
         throw ModelError(
-            say("this state is no equilibrium and no steady motion: {}; expected zeros, or `linearize` with "
+            say("this state is no equilibrium and no steady motion: {}; expected zeros, or `stability --matrices` "
+                "with "
                 "--affine, about any state, or with --along, about a motion. {}",
                 residual,
                 nearby.empty()
