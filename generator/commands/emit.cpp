@@ -62,7 +62,7 @@ void add_emit(CLI::App& app, Chosen& chosen) {
                 .type_name(values::folder)
                 .required();
             verb.add_option("--language", options.language,
-                            say("cpp (default); c: C99 and a header; js: a module of JavaScript"))
+                            say("cpp (default), c (C99 and a header), js (an ES module)"))
                 .type_name(values::language)
                 .one_of({"cpp", "c", "js"});
             verb.add_flag("--standalone", options.emission.standalone,

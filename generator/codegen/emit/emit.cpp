@@ -178,8 +178,8 @@ private:
         const auto add = [&](const std::string& name) { library += (library.empty() ? "" : ", ") + name; };
         for (const Op op : elementary_functions(p_)) add(name_of(op));
         if (uses_pi()) add("PI");
-        file_.set("has_library", !library.empty());
-        file_.set("library", library);
+        file_.set("has_math", !library.empty());
+        file_.set("math", library);
         file_.set("initial_time", shortest(options_.t));
         std::string state;
         for (const double x : options_.state) state += shortest(x) + ", ";
