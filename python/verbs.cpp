@@ -281,17 +281,16 @@ Answer do_fmu(Scene scene, const Asked& asked) {
 }
 
 Answer do_emit(Scene scene, const Asked& asked) {
-    const Emission e = emission(std::move(scene),
-                                {.by = asked.by(),
-                                 .fold = asked.flag("fold"),
-                                 .jacobian = asked.flag("jacobian"),
-                                 .batch = asked.flag("batch"),
-                                 .language = asked.text("language") == "c" ? CodeLanguage::c : CodeLanguage::cpp,
-                                 .functions = asked.texts("functions"),
-                                 .frames = asked.texts("frames"),
-                                 .wrenches = asked.texts("wrenches"),
-                                 .standalone = asked.flag("standalone"),
-                                 .casadi = asked.flag("casadi")});
+    const Emission e = emission(std::move(scene), {.by = asked.by(),
+                                                   .fold = asked.flag("fold"),
+                                                   .jacobian = asked.flag("jacobian"),
+                                                   .batch = asked.flag("batch"),
+                                                   .language = language_of(asked.text("language")),
+                                                   .functions = asked.texts("functions"),
+                                                   .frames = asked.texts("frames"),
+                                                   .wrenches = asked.texts("wrenches"),
+                                                   .standalone = asked.flag("standalone"),
+                                                   .casadi = asked.flag("casadi")});
     Answer answer{.json = {}, .warnings = e.warnings};
     std::vector<std::string> paths;
     for (const SourceFile& file : files_of(e)) {

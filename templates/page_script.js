@@ -1,6 +1,6 @@
 "use strict";
 // The figure's other poses, the cursor of the plots, and the copy buttons. All positions and values were calculated by
-// alembert; what is done here is drawing. The arithmetic of the figure is that of report/figure_screen.cpp.
+// alembert, or are calculated by page_live.js; what is done here is drawing. The arithmetic of the figure is that of report/figure_screen.cpp.
 (() => {
 const SVG = "http://www.w3.org/2000/svg";
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -60,6 +60,7 @@ function figureDrawer(f, root) {
   flash.setAttribute("class", "flash");
   flash.setAttribute("visibility", "hidden");
   group.after(flash);
+  let motion = null, ghost = null, ghostNodes = [], held = null, zoom = 1;  // of page_live.js; null while what alembert calculated is played
   let view = { right: f.right, up: f.up, toward: f.toward };
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   const direction = (v) => f.plane ? [v[0] * f.scale, -v[1] * f.scale]
@@ -78,14 +79,14 @@ function figureDrawer(f, root) {
   }
 
   function camera(points) {
+    if (held) return held;
     const origin = centre.slice();
     if (f.follows)
       for (const k of f.followed) for (let i = 0; i < size; ++i) origin[i] += points[k][i] / f.followed.length;
     return origin;
   }
 
-  function screenOf(points) {
-    const origin = camera(points);
+  function screenOf(points, origin = camera(points)) {
     return (k) => {
       if (k < 0) return [f.width - 30, 24];
       const d = direction(points[k].map((x, i) => x - origin[i]));
@@ -170,10 +171,37 @@ function figureDrawer(f, root) {
     order.forEach(({ k }) => group.append(nodes[k]));
   }
 
-  function show(t, withTrace) {
-    const [low, high, part] = position(f.times, t);
-    const points = pose(low, high, part), place = screenOf(points), angles = {};
+  function recorded(t) {
+    const [low, high, part] = position(f.times, t), angles = {};
     for (const k of Object.keys(f.angles)) angles[k] = f.angles[k][low] * (1 - part) + f.angles[k][high] * part;
+    const path = (point) => f.frames.slice(0, low + 1).map((frame) => frame.slice(point * size, point * size + size).map((x) => x * unit));
+    return { points: pose(low, high, part), angles, path };
+  }
+
+  // Makes room where a motion that was changed leaves the picture; the room stays until the figure is played again.
+  function makeRoom(points, place) {
+    for (const k of f.traced) {
+      const [x, y] = place(k);
+      zoom = Math.min(8, Math.max(zoom, Math.abs(x - f.width / 2) / (f.width / 2 - 46), Math.abs(y - f.height / 2) / (f.height / 2 - 46)));
+    }
+    const w = f.width * zoom, h = f.height * zoom;
+    root.setAttribute("viewBox", [(f.width - w) / 2, (f.height - h) / 2, w, h].map((x) => x.toFixed(1)).join(" "));
+  }
+
+  function showGhost(at, origin) {
+    if (!at && ghost) ghost = void ghost.remove();
+    if (!at) return;
+    if (!ghost) {
+      const order = Array.from(group.children);
+      ghost = group.cloneNode(true);
+      ghost.setAttribute("class", "shapes ghost");
+      ghostNodes = nodes.map((node) => ghost.children[order.indexOf(node)]);
+      group.before(ghost);
+    }
+    showShapes(ghostNodes, at.points, at.angles, screenOf(at.points, origin));
+  }
+
+  function showShapes(nodes, points, angles, place) {
     f.shapes.forEach((shape, n) => {
       const node = nodes[n];
       let hidden = false;
@@ -210,20 +238,33 @@ function figureDrawer(f, root) {
         node.setAttribute("d", path(shape, place, points, angles));
       }
     });
+  }
+
+  function show(t, withTrace) {
+    const at = motion ? motion.at(t) : recorded(t), points = at.points, origin = camera(points), place = screenOf(points);
+    if (motion) makeRoom(points, place);
+    showGhost(motion && motion.ghost && motion.ghost(t), origin);
+    showShapes(nodes, points, at.angles, place);
     if (!f.plane) depths(points);
     for (const trace of traces) {
       let d = "";
       if (withTrace) {
-        for (let k = 0; k <= low; ++k) {
-          const p = f.frames[k].slice(trace.point * size, trace.point * size + size).map((x) => x * unit);
-          const origin = camera(points), at = direction(p.map((x, i) => x - origin[i]));
-          d += text([at[0] + f.width / 2, at[1] + f.height / 2], k === 0);
+        for (const p of motion ? motion.path(trace.point, t) : at.path(trace.point)) {
+          const there = direction(p.map((x, i) => x - origin[i]));
+          d += text([there[0] + f.width / 2, there[1] + f.height / 2], d === "");
         }
         d += text(place(trace.point), d === "");
       }
       trace.path.setAttribute("d", d);
     }
     return place;
+  }
+
+  function follow(next) {
+    motion = next;
+    if (motion) return;
+    zoom = 1;
+    root.setAttribute("viewBox", [0, 0, f.width, f.height].join(" "));
   }
 
   function turn(azimuth, elevation) {  // by these angles from the view of the start
@@ -239,14 +280,14 @@ function figureDrawer(f, root) {
     view = { right, up: top, toward };
   }
 
-  return { show, turn, flash };
+  return { show, turn, flash, follow, root, hold: (points) => { held = null; held = points && camera(points); }, toScreen: (points, k) => screenOf(points)(k) };
 }
 
 // Time ---------------------------------------------------------------------------------------------------------------
 const times = data.times || (figure ? figure.times : [0]);
 const start = times[0], end = times[times.length - 1];
 const play = byId("play"), slider = byId("time"), speed = byId("speed"), trace = byId("trace"), clock = byId("clock");
-let now = start, playing = false, last = 0;
+let now = start, playing = false, last = 0, sought = start;
 const plots = Array.from(document.querySelectorAll(".plot > svg[data-columns]")).map(plotCursor);
 const outputs = Array.from(document.querySelectorAll("output[data-column]"));
 
@@ -294,7 +335,7 @@ function plotCursor(root) {
 }
 
 function flashAt(place) {
-  if (!data.happenings || !draw) return;
+  if (!data.happenings || !draw || (live && live.motion)) return;
   const lasts = 0.25 * Number(speed ? speed.value : 1);  // a quarter of a second to look at
   const here = data.happenings.filter((h) => h.t <= now && now < h.t + lasts);
   const status = byId("happening");
@@ -311,6 +352,13 @@ function flashAt(place) {
 
 function setTime(t) {
   now = Math.min(end, Math.max(start, t));
+  if (live) {
+    const wanted = sought = now;
+    now = live.until(wanted);
+    draw.follow(live.motion);
+    live.tell(now, playing);
+    if (now < wanted && !playing && !live.failed()) requestAnimationFrame(() => { if (sought === wanted && !playing) setTime(wanted); });
+  }
   if (data.values) {
     const at = position(times, now);
     for (const plot of plots) plot(...at);
@@ -321,7 +369,10 @@ function setTime(t) {
   }
   if (slider) slider.value = end > start ? 1000 * (now - start) / (end - start) : 0;
   if (clock) clock.textContent = "t = " + now.toPrecision(4);
-  if (draw) flashAt(draw.show(now, trace && trace.checked));
+  if (!draw) return;
+  const place = draw.show(now, trace && trace.checked);
+  flashAt(place);
+  if (live) live.place(place);
 }
 
 function frame(at) {
@@ -329,6 +380,7 @@ function frame(at) {
   const next = now + (at - last) / 1000 * Number(speed.value);
   last = at;
   setTime(next > end ? start : next);
+  if (live && live.failed() && now < next) setPlaying(false);
   requestAnimationFrame(frame);
 }
 
@@ -339,8 +391,19 @@ function setPlaying(value) {
   if (playing) requestAnimationFrame((at) => { last = at; requestAnimationFrame(frame); });
 }
 
+const live = play && draw && data.live ? alembertLive(data, draw, {
+  start, end,
+  restart: () => setTime(start),
+  again: () => setTime(now),
+  play: () => { if (!playing) setPlaying(true); },
+  pause: () => { const was = playing; if (was) setPlaying(false); return was; },
+}) : null;
+
 if (play) {
-  play.addEventListener("click", () => setPlaying(!playing));
+  play.addEventListener("click", () => {
+    if (!playing && live && live.failed()) setTime(start);
+    setPlaying(!playing);
+  });
   slider.addEventListener("input", () => setTime(start + slider.value / 1000 * (end - start)));
   trace.addEventListener("change", () => setTime(now));
 }

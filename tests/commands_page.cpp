@@ -88,6 +88,17 @@ std::size_t count(const std::string& text, const std::string& part) {
     return n;
 }
 
+/// The scripts that run.
+std::vector<std::string> scripts_of(const std::string& page) {
+    const std::string begin = "<script>";
+    std::vector<std::string> list;
+    for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+        at += begin.size();
+        list.push_back(page.substr(at, page.find("</script>", at) - at));
+    }
+    return list;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -121,12 +132,53 @@ TEST_CASE(
     CHECK(std::abs(y + std::cos(theta1) + 0.8 * std::cos(theta2)) < 1 / (16 * scale));  // up, where y is down
 }
 
+TEST_CASE(
+    "page: a motion with contacts, dry friction or impacts is played, and the page says why it has no sliders") {
+    for (const char* const scene :
+         {"scenes/textbook/bouncing_ball.toml", "scenes/friction/stick_slip.toml", "scenes/gallery/clock.toml"}) {
+        CAPTURE(scene);
+        const std::string page = page_of(source_path(scene), 0, {"--duration", "1"});
+        CHECK(scripts_of(page).size() == 1);
+        CHECK(page.find("<details class=\"live\"") == std::string::npos);
+        CHECK(page.find("has no sliders, because it does not follow contacts") != std::string::npos);
+    }
+}
+
+TEST_CASE("page: a scene with equations beyond 400 kB of JavaScript is played alone; smaller ones have sliders") {
+    const std::string large = page_of(source_path("scenes/gallery/stewart.toml"), 0, {"--duration", "0.01"});
+    CHECK(large.find("has no sliders, because its equations are") != std::string::npos);
+    CHECK(scripts_of(large).size() == 1);
+    for (const char* const scene : {"scenes/textbook/chaplygin_sleigh_in_speeds.toml",
+                                    "scenes/textbook/free_body_quaternion.toml", "scenes/gallery/rssr.toml"}) {
+        CAPTURE(scene);
+        const std::string page = page_of(source_path(scene), 0, {"--duration", "0.1"});
+        REQUIRE(scripts_of(page).size() == 3);
+        CHECK(scripts_of(page)[0].size() < 410'000);
+        const Json live = data_of(page)["live"];
+        const std::size_t size = live["coordinates"].get<std::size_t>() + live["speeds"].get<std::size_t>();
+        CHECK(live["state"].size() == size);
+        CHECK(live["guessed"].size() == size);
+        CHECK(count(page, "data-kind=\"state\"") == size);
+    }
+}
+
 TEST_CASE("page: nothing of a hostile scene becomes markup or script") {
     const std::string hostile = source_path("tests/browser/hostile.toml");
     const std::string page = page_of(hostile);
     CHECK(nesting(page, html_empty) == "");
-    CHECK(count(page, "<script") == 2);
-    CHECK(count(page, "</script") == 2);
+    const std::vector<std::string> scripts = scripts_of(page);
+    CHECK(scripts.size() == 3);  // the equations, what integrates them, what draws
+    CHECK(count(page, "<script") == scripts.size() + 1);
+    CHECK(count(page, "</script") == scripts.size() + 1);
+    for (const std::string& script : scripts) {
+        CHECK(page.find("'sha256-" + alembert::sha256_base64(script) + "'") != std::string::npos);
+        CHECK(count(script, "alert") == 0);
+        CHECK(count(script, "eval(") == 0);
+        CHECK(count(script, "Function(") == 0);
+    }
+    CHECK(scripts[0].find("function rhs(t, state, par, rate)") != std::string::npos);
+    CHECK(std::all_of(scripts[0].begin(), scripts[0].end(), [](unsigned char c) { return c < 0x80; }));
+    CHECK(count(scripts[0], "//") == 0);  // comments hold units, which are texts of the scene
     CHECK(count(page, "<style") == 1);
     CHECK(count(page, "<img") == 0);
     CHECK(count(page, "<b ") == 0);

@@ -30,7 +30,7 @@ int run(const EmitVerb& options) {
     wishes.functions = alembert::names_of(options.functions);
     wishes.frames = options.frames;
     wishes.wrenches = options.wrenches;
-    wishes.language = options.language == "c" ? CodeLanguage::c : CodeLanguage::cpp;
+    wishes.language = language_of(options.language);
     const Emission e = emission(scene_of(options.scene), wishes);
     warn(e.warnings);
     std::error_code failed;
@@ -55,13 +55,13 @@ void add_emit(CLI::App& app, Chosen& chosen) {
     add_scene_verb<EmitVerb>(
         app, chosen,
         {.name = "emit",
-         .about = say("writes the C++ of the system, or its C"),
+         .about = say("writes the C++ of the system, or its C or JavaScript"),
          .example = "alembert emit scenes/textbook/double_pendulum.toml -o solver"},
         run, [](Verb& verb, EmitVerb& options) {
             verb.add_option("-o,--output", options.folder, say("the folder; the file is named after the scene"))
                 .type_name(values::folder)
                 .required();
-            verb.add_option("--language", options.language, say("cpp (default), or c: C99 and a header"))
+            verb.add_option("--language", options.language, say("cpp (default), c (C99 and a header), js (an ES module)"))
                 .type_name(values::language);
             verb.add_flag("--standalone", options.emission.standalone,
                           say("also a main program that integrates and prints"));

@@ -31,7 +31,7 @@ std::vector<ValueKind> all_kinds() {
             {.name = values::sampling, .words = {"sobol", "latin", "uniform"}},
             {.name = values::code, .words = {"auto", "memory", "compiled"}},
             {.name = values::interface_version, .words = {"2", "3"}},
-            {.name = values::language, .words = {"cpp", "c"}},
+            {.name = values::language, .words = {"cpp", "c", "js"}},
             {.name = values::shell, .words = {"bash", "zsh", "fish"}}};
 }
 

@@ -133,6 +133,10 @@ const std::vector<std::string>& all_functions() {
     return known;
 }
 
+CodeLanguage language_of(std::string_view name) {
+    return name == "c" ? CodeLanguage::c : name == "js" ? CodeLanguage::javascript : CodeLanguage::cpp;
+}
+
 std::vector<SourceFile> files_of(const Emission& e) {
     std::vector<SourceFile> files = {{e.source.file, e.source.text}};
     for (const std::optional<SourceFile>* other : {&e.source.header, &e.main, &e.casadi})
@@ -141,6 +145,8 @@ std::vector<SourceFile> files_of(const Emission& e) {
 }
 
 Emission emission(Scene scene, const EmissionOptions& options) {
+    if (options.standalone && options.language == CodeLanguage::javascript)
+        throw ModelError(say("a main program beside the equations is in C++ or C; leave out --standalone"));
     for (const std::string& place : options.wrenches) with_wrench(scene, place, ascii_identifier(place));
     Emission e{derived(std::move(scene), {.by = options.by, .use = Use::run})};
     e.choice = lowered(e, options.fold);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verb `emit`: a scene's specialized C++.
+/// The verb `emit`: a scene's specialized C++, C or JavaScript.
 ///
 ///     const Emission e = emission(read_scene("scenes/textbook/double_pendulum.toml"), {.batch = true});
 ///     e.source.text;
@@ -43,13 +43,16 @@ struct Emission : Derived {
 /// All files, the equations first.
 std::vector<SourceFile> files_of(const Emission& emission);
 
+/// "cpp", "c" or "js" as the verb and the Python package take them; C++ for any other.
+CodeLanguage language_of(std::string_view name);
+
 /// The names of all functions that EmissionOptions::functions may have.
 const std::vector<std::string>& all_functions();
 
 /// Throws what `derived` throws; ModelError for a main program of a scene with contacts, dry friction or events
 /// that change the motion, which it would ignore; for a singular system; for derivatives that are too long to be
-/// written out; for functions whose name is unknown, for functions where the state is not (q, q'), and for
-/// functions for CasADi in C++.
+/// written out; for functions whose name is unknown, for functions where the state is not (q, q'); for functions
+/// for CasADi in C++ and JavaScript, and for a main program in JavaScript.
 Emission emission(Scene scene, const EmissionOptions& options = {});
 
 }  // namespace alembert

@@ -220,9 +220,9 @@ class Scene:
 
     def emit(self, folder=None, *, language="cpp", standalone=False, fold=False, jacobian=False, functions=(),
              frames=(), wrenches=(), batch=False, casadi=False, by=""):
-        """The C++ (or C) of the system: `.sources`; written into a folder if one is named, and then `.files`."""
-        if language not in ("cpp", "c"):
-            raise ValueError(f"language={language!r}: there are 'cpp' and 'c'")
+        """The C++ (or C, or JavaScript) of the system: `.sources`; written into a folder if one is named, and then `.files`."""
+        if language not in ("cpp", "c", "js"):
+            raise ValueError(f"language={language!r}: there are 'cpp', 'c' and 'js'")
         place = "" if folder is None else _os.path.join(_os.fspath(folder), "")
         found = self._ask("emit", Sources, folder=place, language=language, standalone=standalone, fold=fold,
                           jacobian=jacobian, functions=list(functions), frames=list(frames), wrenches=list(wrenches),

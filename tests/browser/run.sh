@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Opens the pages of scenes in headless Chromium and looks whether they are right (check.py says at what). Before that, a
-# page with faults must be found wrong in each of the ways that it announces.
+# Opens the pages of scenes in headless Chromium and looks whether they are right (check.py says at what), and drives the sliders
+# and bodies of some (live.py). Before that, a page with faults must be found wrong in each of the ways that it announces.
 #   run.sh PROGRAM [SCENE...]        a few scenes of all kinds where none is named
 # Needs Debian's chromium and chromium-driver, and Python; skipped with exit code 77 where one is missing, which is a
 # failure where test.sh has installed them. SHOTS=FOLDER keeps a picture of each page.
@@ -22,7 +22,9 @@ python3 "$here/check.py" "$work/faulty" >"$work/found" && { echo 'FAILED: a page
 sed -n 's/^ *expect: //p' "$here/faulty.html" | while IFS= read -r fault; do
     grep -qF "$fault" "$work/found" || { echo "FAILED: not found in faulty.html: $fault"; cat "$work/found"; exit 1; }
 done || exit 1
+named=1
 if [ $# -eq 0 ]; then
+    named=0
     for name in double_pendulum four_bar slider_crank coupled_oscillators bouncing_ball rolling_disc rolling_disc_in_space \
         heavy_top free_body; do
         set -- "$@" "$root/scenes/textbook/$name.toml"
@@ -36,4 +38,5 @@ for scene in "$@"; do
         exit 1
     }
 done
-python3 "$here/check.py" "$work/pages" "${SHOTS:-}"
+python3 "$here/check.py" "$work/pages" "${SHOTS:-}" || exit 1
+[ $named = 1 ] || python3 "$here/live.py" "$program" "$root/scenes" "${SHOTS:-}"

@@ -91,6 +91,20 @@ class Browser:
         self._do("POST", "actions", {"actions": [{"type": "key", "id": "keyboard", "actions": [
             {"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}]}]})
 
+    def drag(self, start, places, release=True):
+        """Presses the mouse at a place of the window and moves it to others."""
+        moves = [{"type": "pointerMove", "duration": 20, "x": round(x), "y": round(y)} for x, y in places]
+        actions = [{"type": "pointerMove", "duration": 0, "x": round(start[0]), "y": round(start[1])},
+                   {"type": "pointerDown", "button": 0}, *moves]
+        self._pointer(actions + [{"type": "pointerUp", "button": 0}] * release)
+
+    def release(self):
+        self._pointer([{"type": "pointerUp", "button": 0}])
+
+    def _pointer(self, actions):
+        self._do("POST", "actions", {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
+                                                  "actions": actions}]})
+
     def console(self):
         """The messages since the last call, errors of scripts among them."""
         return [entry["message"] for entry in self._do("POST", "se/log", {"type": "browser"})]

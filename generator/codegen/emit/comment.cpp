@@ -14,10 +14,10 @@ bool is_hidden(std::uint32_t code) {
            (code >= 0xd800 && code <= 0xf8ff) || code == 0x61c || code == 0xfeff || code >= 0xfff0;
 }
 
-/// Whether the two characters begin or end a comment, or begin a trigraph.
+/// Whether the two characters begin or end a comment, begin a trigraph, or begin the end of a script in HTML.
 bool are_parted(char before, char now) {
     return (before == '*' && now == '/') || (before == '/' && (now == '*' || now == '/')) ||
-           (before == '?' && now == '?');
+           (before == '?' && now == '?') || (before == '<' && (now == '/' || now == '!'));
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ std::string commented(const std::vector<std::string>& lines, CodeLanguage langua
     std::string result;
     for (const std::string& line : lines) {
         if (!result.empty()) result += '\n';
-        if (language == CodeLanguage::cpp)
+        if (language != CodeLanguage::c)
             result += line.empty() ? "//" : "// " + line;
         else if (!line.empty())
             result += "   " + line;

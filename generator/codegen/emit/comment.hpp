@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Text of a scene inside comments of emitted C and C++, which it can neither close nor continue.
+/// Text of a scene inside comments of emitted code, which it can neither close nor continue.
 ///
 ///     comment_text("kg */ int x;");                         // "kg * / int x;"
 ///     commented({"state", "", "rate"}, CodeLanguage::cpp);  // "// state\n//\n// rate"
@@ -17,7 +17,7 @@ namespace alembert {
 /// direction of writing, and backslashes are left out; the signs that begin and end comments are parted.
 std::string comment_text(const std::string& text);
 
-/// The lines between `/*` and its end in C, with `//` before each in C++.
+/// The lines between `/*` and its end in C, with `//` before each in C++ and JavaScript.
 std::string commented(const std::vector<std::string>& lines, CodeLanguage language);
 
 }  // namespace alembert

@@ -65,7 +65,7 @@ std::vector<std::string> texts(const std::vector<int>& numbers) {
 class SolverFile {
 public:
     SolverFile(const Program& program, const EmitOptions& options)
-        : p_(program), options_(options), words_(program) {}
+        : p_(program), options_(options), words_(program, options.language) {}
 
     Source source() {
         const Operations cost = p_.count(p_.right_hand_side());
@@ -78,6 +78,7 @@ public:
         set_elementary(file_, elementary_functions(p_));
         file_.set("batch", options_.batch);
         add_elementary(file_);
+        add_javascript();
         const std::string name = ascii_identifier(p_.name);
         const auto rendered = [&](std::string_view shape) {
             return mustache::mustache{std::string(shape)}.render(file_);
@@ -88,6 +89,11 @@ public:
                     .operations = cost,
                     .formulation = p_.formulation,
                     .header = SourceFile{name + ".h", rendered(template_solver_h)}};
+        if (options_.language == CodeLanguage::javascript)
+            return {.file = name + ".mjs",
+                    .text = rendered(template_solver_js),
+                    .operations = cost,
+                    .formulation = p_.formulation};
         return {.file = name + ".cpp",
                 .text = rendered(template_solver),
                 .operations = cost,
@@ -121,12 +127,12 @@ private:
         for (const SparseTask* part : {&by_state, &by_parameters, &of_values}) add(part->task);
         file_.set("has_derivatives", !nodes.empty());
         file_.set("has_parameter_derivatives", !p_.nodes_of(Group::parameter_jacobian).empty());
-        file_.set("rows", wrapped_list(texts(by_state.rows)));
-        file_.set("columns", wrapped_list(texts(by_state.columns)));
-        file_.set("parameter_rows", wrapped_list(texts(by_parameters.rows)));
-        file_.set("parameter_columns", wrapped_list(texts(by_parameters.columns)));
-        file_.set("value_rows", wrapped_list(texts(of_values.rows)));
-        file_.set("value_columns", wrapped_list(texts(of_values.columns)));
+        list("rows", wrapped_list(texts(by_state.rows)));
+        list("columns", wrapped_list(texts(by_state.columns)));
+        list("parameter_rows", wrapped_list(texts(by_parameters.rows)));
+        list("parameter_columns", wrapped_list(texts(by_parameters.columns)));
+        list("value_rows", wrapped_list(texts(of_values.rows)));
+        list("value_columns", wrapped_list(texts(of_values.columns)));
         number("value_entries", of_values.rows.size());
         number("entries", by_state.rows.size());
         number("parameter_entries", by_parameters.rows.size());
@@ -156,14 +162,36 @@ private:
         file_.set("version", ALEMBERT_VERSION);
         file_.set("head", commented(head_of(p_, words_, options_), options_.language));
         file_.set("has_speeds", !p_.speeds.empty());
-        file_.set("speed_names", quoted(labels_of(words_.u())));
-        file_.set("coordinate_names", quoted(labels_of(words_.q())));
-        file_.set("parameter_names", quoted(labels_of(words_.par())));
-        file_.set("output_names", quoted(root_names(p_, {Group::output, Group::speed})));
-        file_.set("event_names", quoted(root_names(p_, {Group::event})));
+        list("speed_names", quoted(labels_of(words_.u())));
+        list("coordinate_names", quoted(labels_of(words_.q())));
+        list("parameter_names", quoted(labels_of(words_.par())));
+        list("output_names", quoted(root_names(p_, {Group::output, Group::speed})));
+        list("event_names", quoted(root_names(p_, {Group::event})));
         std::string values;
         for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
-        file_.set("parameter_values", values);
+        list("parameter_values", values);
+    }
+
+    /// What the template of JavaScript needs beside the others.
+    void add_javascript() {
+        std::string library;
+        const auto add = [&](const std::string& name) { library += (library.empty() ? "" : ", ") + name; };
+        for (const Op op : elementary_functions(p_)) add(name_of(op));
+        if (uses_pi()) add("PI");
+        file_.set("has_math", !library.empty());
+        file_.set("math", library);
+        file_.set("initial_time", shortest(options_.t));
+        std::string state;
+        for (const double x : options_.state) state += shortest(x) + ", ";
+        list("initial_state", state);
+        number("length", words_.par().size() + words_.constants().size());
+    }
+
+    bool uses_pi() const {
+        std::vector<int> roots;
+        for (const Root& root : p_.roots) roots.push_back(root.node);
+        const std::vector<int> needed = p_.needed(roots);
+        return std::any_of(needed.begin(), needed.end(), [&](int node) { return p_[node].op == Op::pi; });
     }
 
     void add_counts() {
@@ -185,6 +213,12 @@ private:
         file_.set("together", has_matrix && !one_by_one);
     }
 
+    /// "a, b, "; in JavaScript "a, b".
+    void list(const char* key, std::string items) {
+        if (options_.language == CodeLanguage::javascript)
+            while (!items.empty() && (items.back() == ' ' || items.back() == ',')) items.pop_back();
+        file_.set(key, items);
+    }
     void number(const char* key, std::size_t value) { file_.set(key, std::to_string(value)); }
 
     const Program& p_;
@@ -199,7 +233,7 @@ private:
 Source emit(const Program& program, const EmitOptions& options) {
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
-    if (options.batch && options.language == CodeLanguage::c)
+    if (options.batch && options.language != CodeLanguage::cpp)
         throw ModelError("functions over eight systems at once are written in C++ alone");
     return SolverFile(program, options).source();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Writes straight-line code as a C++ file, or as a C99 file with its header.
+/// Writes straight-line code as a C++ file, as a C99 file with its header, or as a JavaScript module.
 ///
 ///     const Source source = emit(program);
 ///     source.file;   // "double_pendulum.cpp"
@@ -9,8 +9,8 @@
 ///
 /// The functions of the file are rhs, mass_forcing, energy, outputs_at, events_at, and prepare(par) for values
 /// that depend on parameters only; the tables at its end are those of lib/alembert/native/abi.hpp. The template is
-/// templates/solver.cpp.mustache. A program that has been differentiated (program/differentiate.hpp) also gets
-/// `jacobian` and a table of derivatives.
+/// templates/solver.cpp.mustache, and templates/solver.js.mustache for JavaScript. A program that has been
+/// differentiated (program/differentiate.hpp) also gets `jacobian` and a table of derivatives.
 
 #include <optional>
 
@@ -33,7 +33,7 @@ struct Source {
 };
 
 struct EmitOptions {
-    bool batch = false;  ///< whether to write alembert_pack too; not possible in C
+    bool batch = false;  ///< whether to write alembert_pack too; in C++ alone
     CodeLanguage language = CodeLanguage::cpp;
     std::vector<NamedFunction> functions = {};  ///< functions of their own, whose nodes are in the program
     std::size_t longest_function =
@@ -42,7 +42,7 @@ struct EmitOptions {
     std::vector<double> state = {};   ///< likewise: (q, q') or (q, u); zeros if empty
 };
 
-/// Throws ModelError if the program has no accelerations (a singular system), and for packs in C.
+/// Throws ModelError if the program has no accelerations (a singular system), and for packs in C or JavaScript.
 Source emit(const Program& program, const EmitOptions& options = {});
 
 }  // namespace alembert

@@ -14,9 +14,11 @@ namespace alembert {
 
 namespace {
 
-/// Numbers are passed by reference in C++, where Real may be a pack of eight.
-std::string type_in(CodeLanguage language, const std::string& type) {
-    return language == CodeLanguage::c && type == "const Real&" ? "Real" : type;
+/// Numbers are passed by reference in C++, where Real may be a pack of eight; JavaScript names no types.
+std::string typed(CodeLanguage language, const FunctionArgument& argument) {
+    if (language == CodeLanguage::javascript) return argument.name;
+    return (language == CodeLanguage::c && argument.type == "const Real&" ? "Real" : argument.type) + " " +
+           argument.name;
 }
 
 /// Several declarations in a line; different arrays on separate lines.
@@ -37,14 +39,13 @@ std::vector<std::string> unpacked(const std::vector<ArrayInput>& items, CodeLang
     return lines;
 }
 
-/// In C++, arguments that the function does not use get no name.
+/// In C++ alone, arguments that the function does not use get no name.
 std::string signature(const std::vector<FunctionArgument>& arguments, const std::set<std::string>& used,
                       CodeLanguage language) {
     std::string result;
     for (const FunctionArgument& a : arguments) {
-        const bool is_named = used.contains(a.name) || language == CodeLanguage::c;
-        result += fmt::format("{}{}{}", result.empty() ? "" : ", ", type_in(language, a.type),
-                              is_named ? " " + a.name : "");
+        const bool is_named = used.contains(a.name) || language != CodeLanguage::cpp;
+        result += (result.empty() ? "" : ", ") + (is_named ? typed(language, a) : a.type);
     }
     return result;
 }
@@ -89,11 +90,13 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
     std::set<std::string> all;
     for (const FunctionArgument& a : task.arguments) {
         given += a.name + ", ";
-        of_parts += fmt::format("{}{} {}, ", unused, type_in(language, a.type), a.name);
+        of_parts += fmt::format("{}{}, ", unused, typed(language, a));
         all.insert(a.name);
     }
     std::vector<EmittedFunction> result;
-    Passage calls{"Parts", {{.text = fmt::format("Real carried[{}];", std::max(parts.carried, 1))}}};
+    const char* const room =
+        language == CodeLanguage::javascript ? "const carried = new Float64Array({});" : "Real carried[{}];";
+    Passage calls{"Parts", {{.text = fmt::format(fmt::runtime(room), std::max(parts.carried, 1))}}};
     for (const FunctionPart& part : parts.list) {
         std::vector<ArrayInput> used;
         for (const ArrayInput& item : items)
@@ -103,7 +106,7 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
         const std::string own = fmt::format("{}_{}", task.name, result.size());
         EmittedFunction piece{.name = own,
                               .about = "A part.",
-                              .arguments = of_parts + unused + "Real* carried",
+                              .arguments = of_parts + unused + typed(language, {"Real*", "carried"}),
                               .unpacked = unpacked(used, language),
                               .passages = {lines},
                               .is_part = true};
@@ -138,7 +141,7 @@ std::vector<EmittedFunction> written(const Program& program, const Vocabulary& w
         last.statements.push_back(writer.assigned(result.array, place_of(result), result.node));
     passages.push_back(std::move(last));
     std::vector<ArrayInput> items = words.inputs(writer.uses(), !task.copies.empty());
-    if (options.language == CodeLanguage::c) {  // C compilers warn about names that are not used
+    if (options.language != CodeLanguage::cpp) {  // C compilers warn about names that are not used
         const std::set<std::string> read = used_in(passages, {});
         std::erase_if(items, [&](const ArrayInput& item) { return !read.contains(item.name); });
     }
@@ -170,7 +173,7 @@ std::vector<EmittedFunction> prepare(const Program& program, const Vocabulary& w
         if (program[id].op == Op::variable) uses[id] = count;
     return {{.name = "prepare",
              .about = "What depends on parameters alone, after the parameters.",
-             .arguments = "Real* par",
+             .arguments = typed(language, {"Real*", "par"}),
              .unpacked = unpacked(words.inputs(uses, false), language),
              .passages = passages}};
 }

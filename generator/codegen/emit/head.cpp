@@ -30,7 +30,6 @@ public:
         : p_(p),
           words_(words),
           options_(options),
-          is_c_(options.language == CodeLanguage::c),
           scene_(ascii_identifier(p.name)),
           n_(words.q().size()),
           s_(words.u().size()),
@@ -53,7 +52,16 @@ public:
                            counted(cost.additions, "addition"), counted(cost.multiplications, "multiplication"),
                            counted(cost.divisions, "division"), counted(cost.functions, "function"))});
         lines_.insert(lines_.end(), {"", example_title(), ""});
-        is_c_ ? example_in_c() : example_in_cpp();
+        switch (options_.language) {
+            case CodeLanguage::cpp:
+                example_in_cpp();
+                break;
+            case CodeLanguage::c:
+                example_in_c();
+                break;
+            case CodeLanguage::javascript:
+                example_in_javascript();
+        }
         return lines_;
     }
 
@@ -90,7 +98,12 @@ private:
         std::string text = own_speeds ? "M(q) u' = f(q, u, t), q' = h(q, u, t)" : "M(q) q'' = f(q, q', t)";
         if (count(Group::gamma) > 0)
             text += own_speeds ? " + A^T lambda with A u' = gamma" : " + A^T lambda with A q'' = gamma";
-        if (is_c_) {
+        if (options_.language == CodeLanguage::javascript) {
+            lines_.insert(
+                lines_.end(),
+                {text + ".", "A module of JavaScript (ECMAScript 2015) that imports nothing and keeps no state.",
+                 "All arguments but t are arrays, at best of type Float64Array."});
+        } else if (options_.language == CodeLanguage::c) {
             lines_.insert(lines_.end(), {text + ".",
                                          "C99; nothing is allocated, no function keeps state, and the library of "
                                          "mathematics is all that is needed.",
@@ -152,7 +165,8 @@ private:
         if (count(Group::multiplier) > 0)
             of("multipliers_at", fmt::format("lambda[{}]", count(Group::multiplier)));
         if (count(Group::projected) > 0)
-            of("project", fmt::format("{}[{}], position[{}], pivots[{}]", is_c_ ? "moved" : "out",
+            of("project", fmt::format("{}[{}], position[{}], pivots[{}]",
+                                      options_.language == CodeLanguage::c ? "moved" : "out",
                                       count(Group::projected), count(Group::position), count(Group::pivot)));
         if (!p_.nodes_of(Group::jacobian).empty())
             of("jacobian", fmt::format("values[{}]", jacobian(p_).rows.size()));
@@ -164,19 +178,25 @@ private:
         const std::string title =
             options_.state.empty() ? "Example: the rates at a state; put your own numbers in place of the zeros."
                                    : "Example: the rates at the scene's initial state.";
-        return title + " Compile it with" +
-               (is_c_ ? fmt::format(" cc -std=c99 -O2 example.c {}.c -lm", scene_)
-                      : " c++ -std=c++20 -O2 example.cpp");
+        switch (options_.language) {
+            case CodeLanguage::c:
+                return title + fmt::format(" Compile it with cc -std=c99 -O2 example.c {}.c -lm", scene_);
+            case CodeLanguage::javascript:
+                return title + " Run it with node example.mjs";
+            case CodeLanguage::cpp:
+                break;
+        }
+        return title + " Compile it with c++ -std=c++20 -O2 example.cpp";
     }
 
-    /// The line `before` + numbers + "};", broken.
-    void numbers(const std::string& before) {
+    /// The line `before` + numbers + `after`, broken.
+    void numbers(const std::string& before, const std::string& after = "};") {
         Items items;
         for (std::size_t k = 0; k < n_ + s_; ++k)
             items.push_back(options_.state.empty() ? "0" : shortest(options_.state[k]));
         std::string line = before;
         for (std::size_t k = 0; k < items.size(); ++k) {
-            const std::string item = items[k] + (k + 1 < items.size() ? "," : "};");
+            const std::string item = items[k] + (k + 1 < items.size() ? "," : after);
             if (line.size() + item.size() > line_width) {
                 lines_.push_back(line);
                 line = "          ";
@@ -215,6 +235,15 @@ private:
              "      return 0;", "  }"});
     }
 
+    void example_in_javascript() {
+        lines_.push_back(fmt::format("  import * as scene from \"./{}.mjs\";", scene_));
+        numbers("  const state = [", "];");
+        lines_.insert(lines_.end(),
+                      {fmt::format("  const par = scene.defaults(), rate = new Float64Array({});", n_ + s_),
+                       fmt::format("  scene.rhs({}, state, par, rate);", shortest(options_.t)),
+                       "  for (const value of rate) console.log(value);"});
+    }
+
     /// rhs deduces the type of numbers from its arguments.
     static std::string real_literal(double x) {
         const std::string text = shortest(x);
@@ -224,7 +253,6 @@ private:
     const Program& p_;
     const Vocabulary& words_;
     const EmitOptions& options_;
-    bool is_c_;
     std::string scene_;
     std::size_t n_, s_, parameters_, length_;
     Items lines_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "codegen/emit/reserved_words.hpp"
@@ -69,8 +70,12 @@ std::string ascii_identifier(const std::string& text) {
     return result;
 }
 
-Names::Names() {
+Names::Names(CodeLanguage language) {
     taken_.insert(own.begin(), own.end());
+    if (language == CodeLanguage::javascript) {
+        const std::span<const std::string_view> words = javascript_words();
+        taken_.insert(words.begin(), words.end());
+    }
 }
 
 bool Names::take(std::string& name) {

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// C++ identifiers for the names of a scene. The compiler never sees text that a user typed, only identifiers made
-/// here.
+/// Identifiers of C++, C and JavaScript for the names of a scene. The compiler never sees text that a user typed,
+/// only identifiers made here.
 
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "codegen/emit/statement.hpp"
+
 namespace alembert {
 
 class Names {
 public:
-    /// At first the names that the emitted code itself uses are taken.
-    Names();
+    /// At first the names that the emitted code itself uses are taken, and in JavaScript its reserved words.
+    explicit Names(CodeLanguage language = CodeLanguage::cpp);
 
     /// A new identifier like `wish`. Greek letters are spelled out, other letters beyond ASCII become u and their
     /// code point. A `_` is added to what is a keyword of C or C++ or may be a macro (reserved_words.hpp), and to

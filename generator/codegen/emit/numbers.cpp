@@ -42,18 +42,24 @@ std::string shortest(double value) {
     return fmt::format("{}", value);
 }
 
-std::string number_text(const Rational& value) {
+std::string literal(const std::string& digits, CodeLanguage language) {
+    if (language != CodeLanguage::javascript) return fmt::format("Real({})", digits);
+    return digits.starts_with('-') ? fmt::format("({})", digits) : digits;
+}
+
+std::string number_text(const Rational& value, CodeLanguage language) {
     const cln::cl_I numerator = cln::numerator(value), denominator = cln::denominator(value);
     const cln::cl_I largest = cln::expt_pos(cln::cl_I(2), 53);
-    if (denominator == 1 && cln::abs(numerator) <= largest) return fmt::format("Real({})", digits(numerator));
+    if (denominator == 1 && cln::abs(numerator) <= largest) return literal(digits(numerator), language);
     const double nearest = nearest_double(value);
     // A decimal such as 9.81 is written with its digits; 1/3 is left to the division of Real.
     cln::cl_I rest = denominator;
     while (cln::zerop(cln::mod(rest, 2))) rest = cln::exquo(rest, 2);
     while (cln::zerop(cln::mod(rest, 5))) rest = cln::exquo(rest, 5);
     if (rest != 1 && cln::abs(numerator) <= largest && denominator <= largest)
-        return fmt::format("(Real({}) / Real({}))", digits(numerator), digits(denominator));
-    return fmt::format("Real({})", shortest(nearest));
+        return fmt::format("({} / {})", literal(digits(numerator), language),
+                           literal(digits(denominator), language));
+    return literal(shortest(nearest), language);
 }
 
 std::string exact_text(const Rational& value) {

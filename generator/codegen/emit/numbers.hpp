@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "codegen/emit/statement.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
@@ -12,8 +13,11 @@ namespace alembert {
 /// The shortest decimal that gives the same double when it is read.
 std::string shortest(double value);
 
+/// The literal of a number with these digits: Real(3); in JavaScript 3, or (-3).
+std::string literal(const std::string& digits, CodeLanguage language);
+
 /// A rational as a double or a quotient of two, with as few characters as possible.
-std::string number_text(const Rational& value);
+std::string number_text(const Rational& value, CodeLanguage language = CodeLanguage::cpp);
 
 /// A rational, exact for every Real of up to 34 digits: a double, a quotient of two, or a sum of three.
 std::string exact_text(const Rational& value);

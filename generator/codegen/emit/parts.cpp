@@ -8,7 +8,7 @@
 namespace alembert {
 
 FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t length, CodeLanguage language) {
-    const char* const alias = language == CodeLanguage::cpp ? "&" : "";
+    const char* const type = language == CodeLanguage::cpp ? "Real& " : language == CodeLanguage::c ? "Real " : "";
     FunctionParts parts;
     std::map<std::string, std::size_t> made_in;  // name → part
     for (std::size_t i = 0; i < statements.size(); ++i) {
@@ -28,7 +28,7 @@ FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t
             const auto [place, is_new] = places.try_emplace(name, parts.carried);
             if (is_new)
                 parts.list[made->second].lines.push_back(fmt::format("carried[{}] = {};", parts.carried++, name));
-            loads.push_back(fmt::format("const Real{} {} = carried[{}];", alias, name, place->second));
+            loads.push_back(fmt::format("const {}{} = carried[{}];", type, name, place->second));
         }
         parts.list[k].lines.insert(parts.list[k].lines.begin(), loads.begin(), loads.end());
     }

@@ -21,6 +21,13 @@ constexpr std::string_view keywords[] = {
     "typeof", "typeof_unqual", "union", "unsigned", "using", "virtual", "void", "volatile", "wchar_t", "while",
     "xor", "xor_eq", "final", "override", "import", "module", "restrict"};
 
+// What JavaScript reserves in a module (ECMAScript 2024, 12.7.2) and C++ does not, what cannot be assigned there, and the
+// objects that templates/solver.js.mustache uses.
+constexpr std::string_view javascript[] = {
+    "arguments", "async", "await", "debugger", "eval", "extends", "finally", "function", "implements", "in",
+    "instanceof", "let", "null", "of", "package", "super", "undefined", "var", "with", "yield", "NaN", "Infinity",
+    "Math", "Float64Array", "PI", "defaults", "parameter_values", "initial_state", "initial_time", "values"};
+
 // The macros of the headers of C, C++ and POSIX that do not have the shape of a macro (glibc 2.36, GCC 12), and
 // some that compilers for other systems define.
 constexpr std::string_view macros[] = {
@@ -76,6 +83,10 @@ bool may_be_macro(std::string_view name) {
 
 bool is_reserved(std::string_view name) {
     return may_be_macro(name) || std::find(std::begin(keywords), std::end(keywords), name) != std::end(keywords);
+}
+
+std::span<const std::string_view> javascript_words() {
+    return javascript;
 }
 
 }  // namespace alembert

@@ -2,7 +2,8 @@
 #pragma once
 
 /// Words that emitted code must not use as the name of a value: keywords of C and C++, and macros of their
-/// headers, of POSIX and of compilers. A macro would replace the name before the compiler sees it.
+/// headers, of POSIX and of compilers; reserved words of JavaScript. A macro would replace the name before the
+/// compiler sees it.
 ///
 ///     is_reserved("register");    // a keyword
 ///     may_be_macro("M_PI");       // by its shape
@@ -10,6 +11,7 @@
 ///
 /// No keyword and no macro of these headers ends in a single `_`, so a `_` after the word makes a name of it.
 
+#include <span>
 #include <string_view>
 
 namespace alembert {
@@ -20,5 +22,8 @@ bool may_be_macro(std::string_view name);
 
 /// Whether it is a keyword, or may be a macro.
 bool is_reserved(std::string_view name);
+
+/// What a module of JavaScript must not use as a name beside these.
+std::span<const std::string_view> javascript_words();
 
 }  // namespace alembert

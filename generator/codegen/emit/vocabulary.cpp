@@ -12,10 +12,11 @@ std::string ArrayInput::source() const {
     return fmt::format("{}[{}]", arrays[static_cast<int>(array)], place);
 }
 
-Vocabulary::Vocabulary(const Program& program)
+Vocabulary::Vocabulary(const Program& program, CodeLanguage language)
     : p_(program),
       n_(static_cast<int>(program.coordinates.size())),
-      s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())) {
+      s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())),
+      names_(language) {
     for (const Quantity& q : p_.coordinates) {
         q_.push_back(names_.fresh(q.name));
         if (!p_.speeds.empty()) continue;

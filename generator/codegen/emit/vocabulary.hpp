@@ -27,7 +27,7 @@ struct ArrayInput {
 
 class Vocabulary {
 public:
-    explicit Vocabulary(const Program& program);
+    explicit Vocabulary(const Program& program, CodeLanguage language = CodeLanguage::cpp);
 
     /// The names of variables and constants, by node.
     std::map<int, std::string> leaves() const;

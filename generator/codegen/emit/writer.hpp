@@ -85,6 +85,7 @@ private:
     CodeStatement trigonometric_statement(int node);
 
     CodeStatement statement(int node);
+    std::string declared(const std::string& name, const std::string& value) const;  ///< the statement
     CodeStatement finished(std::vector<std::string> names, std::string text);
     std::string text(int node, int precedence);
     bool is_negative(int node) const;

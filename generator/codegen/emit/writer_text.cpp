@@ -35,7 +35,7 @@ CodeStatement Writer::statement(int id) {
                                                     : "-" + text(id, multiplicative);
         const std::string name = names_.fresh(negative->second);
         negatives_[id] = name;
-        return finished({name}, fmt::format("const Real {} = {};", name, value));
+        return finished({name}, declared(name, value));
     }
     const std::string value = text(id, additive);
     const std::string& wish = wanted_[id];
@@ -44,7 +44,11 @@ CodeStatement Writer::statement(int id) {
                              : !wish.empty()             ? names_.fresh(wish)
                                                          : names_.numbered(sines_.contains(id) ? "phi" : "z");
     named_[id] = name;
-    return finished({name}, fmt::format("const Real {} = {};", name, value));
+    return finished({name}, declared(name, value));
+}
+
+std::string Writer::declared(const std::string& name, const std::string& value) const {
+    return fmt::format("const {}{} = {};", language_ == CodeLanguage::javascript ? "" : "Real ", name, value);
 }
 
 std::string Writer::text(int id, int precedence) {
@@ -59,9 +63,9 @@ std::string Writer::text(int id, int precedence) {
         own = additive;
         result = "-" + unsigned_text(id, multiplicative);
     } else if (node.op == Op::number) {
-        result = number_text(node.number);
+        result = number_text(node.number, language_);
     } else if (node.op == Op::pi) {
-        result = "Real(3.14159265358979323846264338327950288L)";
+        result = language_ == CodeLanguage::javascript ? "PI" : "Real(3.14159265358979323846264338327950288L)";
     } else if (node.op == Op::sum) {
         own = node.is_scaled() && !cln::minusp(node.coefficients[0]) ? multiplicative : additive;
         result = sum_text(id, false);
@@ -116,13 +120,14 @@ std::string Writer::sum_text(int id, bool negated) {
             pieces.push_back(
                 {negative, unsigned_text(node.args[k], is_sum || negative ? multiplicative : additive)});
         } else {
-            pieces.push_back({negative, number_text(size) + " * " + unsigned_text(node.args[k], multiplicative)});
+            pieces.push_back(
+                {negative, number_text(size, language_) + " * " + unsigned_text(node.args[k], multiplicative)});
             ++operations_;
         }
     }
     if (!cln::zerop(node.number))
         pieces.insert(ready_->is_ordered() ? pieces.begin() : pieces.end(),
-                      {cln::minusp(node.number) != negated, number_text(cln::abs(node.number))});
+                      {cln::minusp(node.number) != negated, number_text(cln::abs(node.number), language_)});
     operations_ += static_cast<int>(pieces.size()) - 1;
     // A positive term first, if there is one: b − a, not −a + b. But a late term stays last.
     const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return !p.negative; });
@@ -149,7 +154,7 @@ std::string Writer::product_text(int sought) {
             numerator += unsigned_text(id, multiplicative);
         }
     }
-    if (numerator.empty()) numerator = "Real(1)";
+    if (numerator.empty()) numerator = literal("1", language_);
     if (divisors == 0) return numerator;
     // One division by a product takes half the time of two.
     return numerator + " / " + (divisors == 1 ? denominator : "(" + denominator + ")");

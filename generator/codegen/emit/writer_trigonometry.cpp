@@ -82,7 +82,7 @@ void Writer::add_angle_sum(std::vector<CodeStatement>& statements, const AngleSu
         const std::string name = named_[node] = names_.fresh(prefix + base);
         reading_.insert({sa, ca, sb, cb});
         operations_ += 3;
-        statements.push_back(finished({name}, fmt::format("const Real {} = {};", name, value)));
+        statements.push_back(finished({name}, declared(name, value)));
     };
     add(sine, "sin_", fmt::format("{} * {} {} {} * {}", sa, cb, sum.is_difference ? '-' : '+', ca, sb));
     add(cosine, "cos_", fmt::format("{} * {} {} {} * {}", ca, cb, sum.is_difference ? '+' : '-', sa, sb));
@@ -97,13 +97,13 @@ CodeStatement Writer::trigonometric_statement(int id) {
     if (sine >= 0) named_[sine] = names_.fresh("sin_" + base);
     if (cosine >= 0) named_[cosine] = names_.fresh("cos_" + base);
     ++operations_;
-    if (sine >= 0 && cosine >= 0 && language_ == CodeLanguage::c)
-        return finished({named_[sine], named_[cosine]}, fmt::format("const Real {} = sin({}), {} = cos({});",
-                                                                    named_[sine], of, named_[cosine], of));
+    if (sine >= 0 && cosine >= 0 && language_ != CodeLanguage::cpp)
+        return finished({named_[sine], named_[cosine]},
+                        declared(named_[sine], fmt::format("sin({}), {} = cos({})", of, named_[cosine], of)));
     if (sine >= 0 && cosine >= 0)
         return finished({named_[sine], named_[cosine]},
                         fmt::format("const auto [{}, {}] = sincos({});", named_[sine], named_[cosine], of));
-    return finished({named_[id]}, fmt::format("const Real {} = {}({});", named_[id], name_of(node.op), of));
+    return finished({named_[id]}, declared(named_[id], fmt::format("{}({})", name_of(node.op), of)));
 }
 
 /// Removes from the lists the angles that are sums or differences of two others, if those others fit in one group.

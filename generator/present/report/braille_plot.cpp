@@ -15,7 +15,7 @@ namespace alembert {
 
 namespace {
 
-constexpr int letters_up = 4, margin = 11, narrowest = 20, widest = 72;
+constexpr int letters_up = 4, beside_braille = 11, narrowest = 20, widest = 72;
 constexpr std::size_t most_charts = 4;
 
 /// A rectangle of dots; (0, 0) is below on the left.
@@ -79,7 +79,7 @@ std::string chart(const PlottedLine& line, int columns) {
         const std::string value = k == 0                ? fmt::format("{:.4g}", high)
                                   : k == letters_up - 1 ? fmt::format("{:.4g}", low)
                                                         : "";
-        text += fmt::format("{:>{}} │{}\n", value, margin - 2, dots.row(k));
+        text += fmt::format("{:>{}} │{}\n", value, beside_braille - 2, dots.row(k));
     }
     return text;
 }
@@ -91,13 +91,13 @@ std::string braille_plot(const Run& run, const std::vector<std::string>& names, 
     std::vector<PlottedLine> lines = lines_of(run, names.empty() ? run.coordinates : names);
     const std::size_t left_out = lines.size() > most_charts && names.empty() ? lines.size() - most_charts : 0;
     lines.resize(lines.size() - left_out);
-    const int width = std::clamp(columns - margin, narrowest, widest);
+    const int width = std::clamp(columns - beside_braille, narrowest, widest);
     std::string text;
     for (const PlottedLine& line : lines)
         if (!line.points.empty()) text += chart(line, width);
     if (text.empty()) return {};
     const std::string end = fmt::format("{:.6g} s", run.motion.final_time());
-    text += fmt::format("{:>{}} {:<{}}{}\n", "t", margin - 2, fmt::format("{:.6g}", run.rows.at(0, 0)),
+    text += fmt::format("{:>{}} {:<{}}{}\n", "t", beside_braille - 2, fmt::format("{:.6g}", run.rows.at(0, 0)),
                         std::max(1, width + 1 - static_cast<int>(end.size())), end);
     if (left_out > 0) text += say("… and {} more coordinates; --show names those to draw\n", left_out);
     return text;

@@ -123,6 +123,7 @@ void add_figure(PageParts& page, const Overview& all) {
         page.problem(all.motion.problem);
     }
     for (const std::string& note : drawing->notes) put(page.body, "<p class=\"hint\">{}</p>\n", html(note));
+    if (moves) add_live(page, all, poses[0].size());
     page.end();
 
     Json& data = page.data["figure"] = as_json(shapes);

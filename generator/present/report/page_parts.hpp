@@ -15,6 +15,7 @@ enum class Fold { closed, open, never };
 struct PageParts {
     std::string body = {};
     Json data = Json::object();
+    std::vector<std::string> scripts = {};                           ///< before that of all pages
     std::vector<std::pair<std::string, std::string>> contents = {};  ///< id and heading of each section
 
     /// Begins a section with its heading.
@@ -40,6 +41,8 @@ void begin_table(std::string& body, const std::string& caption, const std::vecto
 std::string unit_text(std::string unit);
 
 void add_figure(PageParts& page, const Overview& all);
+/// The sliders of a figure that has so many points, or why there are none. There must be a motion with poses.
+void add_live(PageParts& page, const Overview& all, std::size_t points);
 void add_mechanism(PageParts& page, const Overview& all);
 void add_badges(PageParts& page, const Overview& all);
 void add_equations(PageParts& page, const Overview& all);

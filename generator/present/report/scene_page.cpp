@@ -19,8 +19,9 @@ std::string language_tag() {
 
 }  // namespace
 
-std::string page_head(const std::string& title, bool has_script) {
-    std::string page;
+std::string page_head(const std::string& title, bool has_script, const std::vector<std::string>& more) {
+    std::string page, scripts = has_script ? "; script-src 'sha256-" + sha256_base64(page_script) + "'" : "";
+    for (const std::string& script : more) scripts += " 'sha256-" + sha256_base64(script) + "'";
     put(page,
         "<!DOCTYPE html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; base-uri 'none'; form-action "
@@ -28,8 +29,7 @@ std::string page_head(const std::string& title, bool has_script) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" "
         "content=\"light dark\">\n<meta name=\"generator\" content=\"alembert\">\n<title>{}</title>\n"
         "<style>{}</style>\n</head>\n<body>\n",
-        language_tag(), sha256_base64(page_style),
-        has_script ? "; script-src 'sha256-" + sha256_base64(page_script) + "'" : "", html(title), page_style);
+        language_tag(), sha256_base64(page_style), scripts, html(title), page_style);
     return page;
 }
 
@@ -124,7 +124,7 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
     add_commands(parts, all, options.by);
 
     const std::string title = all.scene.title.empty() ? all.mechanism.name : all.scene.title;
-    std::string page = page_head(title, true);
+    std::string page = page_head(title, true, parts.scripts);
     put(page, "<a class=\"skip\" href=\"#main\">{}</a>\n<header>\n<h1>{}</h1>\n", say("To the content"),
         html(title));
     if (!all.scene.source.empty()) put(page, "<p class=\"source\">{}</p>\n", html(all.scene.source));
@@ -137,8 +137,9 @@ std::string as_html(const Overview& all, const ScenePageOptions& options) {
         put(page, "<pre class=\"warning\" role=\"note\">{}</pre>\n", html(warning));
     put(page, "{}</main>\n<footer>{}</footer>\n", parts.body,
         html(say("Made by alembert {} from {}.", options.version, all.mechanism.name + ".toml")));
-    put(page, "<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n</body>\n</html>\n",
-        script_json(parts.data), page_script);
+    put(page, "<script type=\"application/json\" id=\"data\">{}</script>\n", script_json(parts.data));
+    for (const std::string& script : parts.scripts) put(page, "<script>{}</script>\n", script);
+    put(page, "<script>{}</script>\n</body>\n</html>\n", page_script);
     return page;
 }
 

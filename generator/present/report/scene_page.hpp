@@ -21,8 +21,8 @@ struct ScenePageOptions {
 std::string as_html(const Overview& overview, const ScenePageOptions& options = {});
 
 /// The head of a page and the beginning of its body, with the style and, if it has one, the script allowed by
-/// hash.
-std::string page_head(const std::string& title, bool has_script);
+/// hash, and further scripts.
+std::string page_head(const std::string& title, bool has_script, const std::vector<std::string>& more = {});
 
 /// The page of a scene that cannot be read.
 std::string error_page(const std::string& file, const std::string& message);

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// An emitted module of JavaScript computes the same as the interpreter of the same program, in Chromium and, where
+// it is there, in Node; names that JavaScript reserves and texts of a scene change nothing.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "alembert/base/error.hpp"
+#include "alembert/native/process.hpp"
+#include "program/interpret.hpp"
+#include "program/rounding.hpp"
+#include "scene/scene.hpp"
+#include "scenes.hpp"
+#include "simulate/emission.hpp"
+#include "tools.hpp"
+
+namespace emit_javascript {
+
+using namespace alembert;
+using Json = nlohmann::json;
+
+namespace {
+
+struct Folder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("alembert-emit-js-{}", getpid());
+    Folder() { std::filesystem::create_directories(path); }
+    ~Folder() { std::filesystem::remove_all(path); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
+};
+
+/// Values that a module is to give: numbers, and how far each may be off. That is 1e-14 of the largest of a call,
+/// or what rounding of its own operations may do where terms cancel (rounding.hpp), whichever is more.
+struct Expected {
+    std::vector<double> values, bounds;
+    void add(double value, double bound) {
+        values.push_back(value);
+        bounds.push_back(bound);
+    }
+    Json json() const {
+        double size = 0;
+        for (const double x : values) size = std::max(size, std::abs(x));
+        std::vector<double> all = bounds;
+        for (double& bound : all) bound = std::max(bound, 1e-14 * size);
+        return {{"values", values}, {"bounds", all}};
+    }
+};
+
+Expected values_of(const Program& p, const std::vector<double>& value, const std::vector<double>& error,
+                   std::initializer_list<Group> groups) {
+    Expected expected;
+    for (const Group group : groups)
+        for (const int node : p.nodes_of(group)) expected.add(value[node], error[node]);
+    return expected;
+}
+
+/// One state of a scene, with what its module must give there.
+Json call_at(const Program& p, State<double> at) {
+    std::vector<double> state = at.q, value = interpret(p, at), error = rounding_errors(p, at);
+    state.insert(state.end(), at.qdot.begin(), at.qdot.end());
+    Expected rates;
+    if (p.speeds.empty())
+        for (const double rate : at.qdot) rates.add(rate, 0);
+    for (const Group group : {Group::rate, Group::acceleration})
+        for (const int node : p.nodes_of(group)) rates.add(value[node], error[node]);
+    std::vector<double> rate = rates.values;
+    at.qddot.assign(rate.end() - static_cast<std::ptrdiff_t>(at.qdot.size()), rate.end());
+    value = interpret(p, at);
+    error = rounding_errors(p, at);
+    Json call{{"t", at.t}, {"state", state}, {"rate", rate}, {"rhs", rates.json()}};
+    const auto add = [&](const char* name, std::initializer_list<Group> groups) {
+        const Expected expected = values_of(p, value, error, groups);
+        if (!expected.values.empty()) call[name] = expected.json();
+    };
+    add("energy", {Group::kinetic, Group::potential, Group::energy, Group::power});
+    add("outputs_at", {Group::output, Group::speed});
+    add("project", {Group::projected});
+    add("multipliers_at", {Group::multiplier});
+    return call;
+}
+
+/// Writes the module of a scene and gives its calls; none of a scene without equations or a start.
+Json module_of(const Folder& folder, const Scene& scene, const std::string& name, std::size_t longest = 0) {
+    Emission e = emission(scene, {.language = CodeLanguage::javascript});
+    const Start start = start_of(e.mechanism);
+    const State<double> first = state_of(start, e.mechanism, e.equations);
+    std::vector<double> state = first.q;
+    state.insert(state.end(), first.qdot.begin(), first.qdot.end());
+    if (longest > 0)
+        e.source = emit(e.choice.program,
+                        {.language = CodeLanguage::javascript, .longest_function = longest, .state = state});
+    folder.write(name + ".mjs", e.source.text);
+    CHECK(e.source.file.ends_with(".mjs"));
+    CHECK(e.source.text.find("</") == std::string::npos);
+    CHECK((longest == 0 || e.source.text.find("carried[") != std::string::npos));
+    std::mt19937_64 random(99);
+    Json calls = Json::array();
+    for (int k = 0; k < 4; ++k) {
+        State<double> at = k == 0 ? first : test::random_state(start, random);
+        if (k > 0) at.qdot.resize(e.choice.program.speeds.empty() ? at.q.size() : e.choice.program.speeds.size());
+        if (std::all_of(at.q.begin(), at.q.end(), [](double x) { return std::isfinite(x); }))
+            calls.push_back(call_at(e.choice.program, at));
+    }
+    return {{"module", name + ".mjs"}, {"calls", calls}};
+}
+
+/// Loads the modules of a folder by both, and compares.
+void compare(const Folder& folder, const Json& modules) {
+    folder.write("modules.json", modules.dump());
+    const std::string script = test::source_path("tests/browser/modules"), of = " " + folder.path.string();
+    if (!find_program("node").empty()) CHECK(std::system(("node " + script + ".mjs" + of).c_str()) == 0);
+    if (test::has_program("chromium") && test::has_program("chromedriver"))
+        CHECK(std::system(("python3 -B " + script + ".py" + of).c_str()) == 0);
+}
+
+/// A pendulum on a spring whose four parameters and two coordinates have these names.
+std::string spring_scene(const std::vector<std::string>& names, const std::string& text) {
+    return fmt::format(R"toml(title = """{6}"""
+gravity = [0, "-{0}"]
+[parameters]
+"{0}" = {{ value = 9.81, unit = """{6}""", about = """{6}""" }}
+"{1}" = 2.5
+"{2}" = 0.7
+"{3}" = 40
+[coordinates]
+"{4}" = {{ initial = 0.4, unit = """{6}""", about = """{6}""" }}
+"{5}" = {{ initial = 0.1, rate = 0.3 }}
+[[particle]]
+name = "bob"
+mass = "{1}"
+position = ["({2} + {5})*sin({4})", "-({2} + {5})*cos({4})"]
+[forces]
+"{5}" = "-{3}*{5} - abs({5})*{1} + min({5}, {2}) + sqrt({3} + {5}^2) + 0.1*atan2({5}, {0}) + pi*sign({5})"
+)toml",
+                       names[0], names[1], names[2], names[3], names[4], names[5], text);
+}
+
+}  // namespace
+
+TEST_CASE("emit: modules of JavaScript compute what their programs compute, in a browser and in Node") {
+    const Folder folder;
+    Json modules = Json::array();
+    for (const std::string& file : test::scenes_in("scenes/textbook")) {
+        CAPTURE(file);
+        const std::string name = std::filesystem::path(file).stem().string();
+        modules.push_back(module_of(folder, read_scene(file), name));
+    }
+    CHECK(modules.size() > 100);
+    const Scene arm = read_scene(test::source_path("scenes/benchmark/trees/arm7.toml"));
+    modules.push_back(module_of(folder, arm, "arm7"));
+    modules.push_back(module_of(folder, arm, "arm7_in_parts", 60));
+    compare(folder, modules);
+}
+
+TEST_CASE(
+    "emit: reserved words of JavaScript as names, and texts that would end a comment or a script, change "
+    "nothing") {
+    const Folder folder;
+    Json modules = Json::array();
+    int k = 0;
+    for (const std::vector<std::string>& names : std::vector<std::vector<std::string>>{
+             {"g", "m", "l", "c", "theta", "s"},
+             {"let", "var", "await", "yield", "function", "in"},
+             {"arguments", "eval", "undefined", "NaN", "null", "with"},
+             {"Math", "PI_", "Float64Array", "defaults", "of", "super"},
+             {"constructor", "prototype", "Infinity", "values", "this", "export"}})
+        for (const char* const text :
+             {"m", "</script><!-- */ `${alert(1)}` //\u2028alert(2)", "\\u000aalert(3)//"}) {
+            CAPTURE(text);
+            const Scene scene = parse_scene(spring_scene(names, text), "named.toml");
+            modules.push_back(module_of(folder, scene, fmt::format("named{}", k++)));
+        }
+    for (const Json& other : modules) CHECK(other["calls"][0]["rhs"] == modules[0]["calls"][0]["rhs"]);
+    compare(folder, modules);
+}
+
+TEST_CASE("emit: what is not written in JavaScript is refused") {
+    const Scene scene = read_scene(test::source_path("scenes/textbook/double_pendulum.toml"));
+    for (const EmissionOptions& wishes :
+         {EmissionOptions{.batch = true}, EmissionOptions{.standalone = true}, EmissionOptions{.casadi = true}}) {
+        EmissionOptions in_javascript = wishes;
+        in_javascript.language = CodeLanguage::javascript;
+        CHECK_THROWS_AS(emission(scene, in_javascript), ModelError);
+    }
+}
+
+}  // namespace emit_javascript
