@@ -61,7 +61,8 @@ void add_emit(CLI::App& app, Chosen& chosen) {
             verb.add_option("-o,--output", options.folder, say("the folder; the file is named after the scene"))
                 .type_name(values::folder)
                 .required();
-            verb.add_option("--language", options.language, say("cpp (default), c (C99 and a header), js (an ES module)"))
+            verb.add_option("--language", options.language,
+                            say("cpp (default), c (C99 and a header), js (an ES module)"))
                 .type_name(values::language);
             verb.add_flag("--standalone", options.emission.standalone,
                           say("also a main program that integrates and prints"));
