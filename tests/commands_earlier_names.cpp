@@ -36,7 +36,7 @@ std::string textbook(const std::string& name) {
 /// Times are not the same from run to run.
 std::string without_times(std::string text) {
     for (const char* const time : {"\"seconds\": [0-9.e+-]+", "\n[0-9.e+-]+ s\n", "\nseconds: [^\n]*",
-                                   "[0-9.e+-]+ *s of", "\"(derive|emit|compile|integrate)\": [0-9.e+-]+"})
+                                   "[0-9.e+-]+ *s of", "\"(derive|emit|compile|integrate|estimate)\": [0-9.e+-]+"})
         text = std::regex_replace(text, std::regex(time), "TIME");
     return text;
 }
