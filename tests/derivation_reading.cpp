@@ -228,6 +228,8 @@ const std::vector<Row> latex_rows = {
     {R"x(\qty{2.5}{kg})x", R"x(2.5\,\mathrm{kg})x"},
     {R"x(\qty(\pdv{L}{q}))x", R"x(\frac{\partial L}{\partial q})x"},
     {R"x(30^\circ)x", R"x(30\,\mathrm{deg})x"},
+    {R"x(\cos(3\psi))x", R"x(\cos\left(3 \psi\right))x"},
+    {R"x(3\,\mathrm{psi})x", R"x(3\,\mathrm{psi})x"},
     {R"x(45^{\circ} + x)x", R"x(45\,\mathrm{deg} + x)x"},
     {R"x(12 \, \mathrm{EI} \, q)x", R"x(12 \mathrm{EI} q)x"},
     {R"x(9{,}81)x", R"x(9.81)x"},

@@ -2,6 +2,7 @@
 // The scene's definitions appear as names in the derived equations; and the sign of a printed equation.
 #include <doctest/doctest.h>
 
+#include "algebra/notation/operations.hpp"
 #include "algebra/notation/text.hpp"
 #include "analysis/derive/derive.hpp"
 #include "analysis/state/prepared.hpp"
@@ -103,6 +104,15 @@ TEST_CASE("derive: speeds along axes that are not the body's own have equations,
         // The angular velocity of a ball without a couple is constant; the axes turn at the rate u about z.
         check_printed(scene, {"u' = 0", "w1' = u*w2", "w2' = -u*w1", "w3' = 0"});
     }
+}
+
+TEST_CASE("derive: operations are counted as they stand on paper") {
+    const GiNaC::symbol x("x"), y("y");
+    const Phrase a = phrases::symbol(x, {.name = "x"}), b = phrases::symbol(y, {.name = "y"});
+    CHECK(operations_in(a) == 0);
+    CHECK(operations_in(phrases::sum({a, b, phrases::negative(a)})) == 2);
+    CHECK(operations_in(phrases::product({phrases::number(2), phrases::power(a, 2), phrases::call("sin", {b})})) ==
+          4);
 }
 
 }  // namespace derive_names

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "base/language/say.hpp"
 #include "commands/output.hpp"
+#include "commands/progress.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
@@ -19,7 +20,13 @@ struct DeriveVerb : SceneOptions {
 
 int run(const DeriveVerb& options) {
     check_output(options.draw, FileForm::picture, {options.scene});
-    const DerivedScene d = derive(scene_of(options.scene), {.by = options.by, .reactions = options.reactions});
+    Progress progress;
+    const DerivedScene d = derive(scene_of(options.scene),
+                                  {.by = options.by,
+                                   .reactions = options.reactions,
+                                   .full = options.page.full || options.json,
+                                   .done = [&progress](double part) { progress.at(say("deriving"), part); }});
+    progress.wipe();
     warn(d.warnings);
     if (!options.draw.empty()) write_file(options.draw, figure_of(d.scene), {options.scene});
     if (options.json)
@@ -41,6 +48,7 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                                    verb.take("--format", options.page.format);
                                    verb.add_flag("--steps", options.page.steps,
                                                  say("also coordinates, T, V, generalized forces, own steps"));
+                                   verb.add_flag("--full", options.page.full, say("also what exceeds two screens"));
                                    verb.add_flag("--dimensions", options.page.dimensions,
                                                  say("also the dimension of each coordinate and multiplier"));
                                    verb.take("--svg", options.draw, say("SVG figure of the system"));

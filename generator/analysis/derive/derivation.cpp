@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "algebra/notation/operations.hpp"
 #include "algebra/notation/text.hpp"
 #include "analysis/derive/abbreviations.hpp"
 #include "analysis/derive/euler_form.hpp"
@@ -23,6 +24,8 @@ namespace {
 constexpr double largest_tree = 30000;   // the most nodes of all equations with intermediate symbols substituted
 constexpr std::size_t most_terms = 150;  // of one equation in normal form; longer ones are not readable
 
+constexpr std::size_t most_letters = 2500;  // likewise: each term may be as long as a page
+
 constexpr double worth_a_name = 0.85;  // of the length without names
 
 bool mentions(const Phrase& phrase, const std::string& name) {
@@ -33,7 +36,8 @@ bool mentions(const Phrase& phrase, const std::string& name) {
 
 class Making {
 public:
-    Making(const Mechanism& m, const Equations& e) : m_(m), unit_(m), given_(e), e_(unit_(e)), names_(m) {}
+    Making(const Mechanism& m, const Equations& e, Length length, const PartDone& done)
+        : m_(m), unit_(m), given_(e), e_(unit_(e)), names_(m), length_(length), done_(done) {}
 
     Derivation make() {
         result_.formalism = e_.formalism;
@@ -53,8 +57,10 @@ public:
         if (!readable_equations()) return with_definitions();
         if (names_.any()) keep_names_where_shorter();
         if (!energies()) return with_definitions();
+        tell(0.7);
         angular_velocities();
         forces();
+        tell(0.85);
         derivatives();
         constraints();
         shares();
@@ -62,6 +68,10 @@ public:
     }
 
 private:
+    void tell(double part) const {
+        if (done_) done_(part);
+    }
+
     Phrase symbol_of(const GiNaC::symbol& s) const { return phrases::symbol(s, m_.symbols->info(s)); }
 
     std::optional<Fourier> normal(const ex& given) const {
@@ -70,6 +80,7 @@ private:
         const ex written = m_.z->expand(e);
         std::optional<Fourier> f = fourier(keeps_names_ ? names_(written) : written, *m_.symbols, 20 * most_terms);
         if (f && f->size() > most_terms) return std::nullopt;
+        if (f && length_ == Length::readable && letters_in(*f) > most_letters) return std::nullopt;
         return f;
     }
 
@@ -125,6 +136,7 @@ private:
             const auto left = normal(GiNaC::add(std::move(terms))), right = normal(GiNaC::add(std::move(forces)));
             if (!left || !right) return false;
             result_.equations.push_back(readable_equation(*left, *right, m_.symbols->info(e_.udot[i])));
+            tell(0.5 * (i + 1) / e_.size());
         }
         if (!e_.speeds_are_rates()) write_as_euler(result_.equations, result_.rows);
         for (std::size_t i = 0; i < e_.h.size(); ++i) {
@@ -301,6 +313,8 @@ private:
     const Equations& given_;
     const Equations e_;  ///< with unit quaternions
     const Abbreviations names_;
+    const Length length_;
+    const PartDone& done_;
     bool keeps_names_ = false;
     Derivation result_;
 };
@@ -324,15 +338,17 @@ void show_reactions(Derivation& shown, const Mechanism& m) {
         }
 }
 
-Derivation derivation_of(const Mechanism& mechanism, const Equations& equations) {
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, Length length,
+                         const PartDone& done) {
     const Mechanism m = in_terms_of(equations, mechanism);
-    return Making(m, equations).make();
+    return Making(m, equations, length, done).make();
 }
 
-Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by) {
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by,
+                         const PartDone& done) {
     const Mechanism m = in_terms_of(equations, mechanism);
     // First-order equations in momenta are shown with the energies, not after the elimination of the momenta.
-    Derivation shown = derivation_of(m, by.in_momenta ? lagrange(m) : equations);
+    Derivation shown = derivation_of(m, by.in_momenta ? lagrange(m) : equations, Length::readable, done);
     shown.formalism = by.name;
     shown.title = translated(by.title);
     if (by.outline != nullptr) shown.sections = by.outline(m);

@@ -6,6 +6,7 @@
 ///     const Derivation shown = derivation_of(mechanism, equations);
 ///     text(shown.equations[0].lhs);
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,7 @@ struct Derivation {
         /// (scene/sticking.hpp), if they are readable; set by `derive`.
         std::vector<ReadableEquation> held = {};
         std::vector<std::string> forces = {};  ///< the names of these multipliers
+        std::size_t operations = 0;            ///< of these equations, if they are too long to be shown
     };
     std::vector<Rubs> frictions;
     bool has_unit_quaternions = false;  ///< whether e·e = 1 of quaternions has been used in all terms
@@ -63,10 +65,19 @@ struct Derivation {
 /// Adds λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.
 void show_reactions(Derivation& shown, const Mechanism& mechanism);
 
+/// Whether equations are written out in full only as far as a page holds them, or whatever the length of their
+/// terms is.
+enum class Length { readable, any };
+
+/// Is told now and then which part is done, from 0 to 1; may be empty.
+using PartDone = std::function<void(double)>;
+
 /// The derivation with the steps that every formalism shares.
-Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, Length length = Length::readable,
+                         const PartDone& done = {});
 
 /// The derivation that also has the formalism's own steps, and its first-order equations if it ends in these.
-Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by);
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by,
+                         const PartDone& done = {});
 
 }  // namespace alembert

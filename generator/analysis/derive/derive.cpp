@@ -2,6 +2,7 @@
 #include "analysis/derive/derive.hpp"
 
 #include "alembert/base/error.hpp"
+#include "algebra/notation/operations.hpp"
 #include "analysis/contact/contacts.hpp"
 #include "analysis/exact/expression_of.hpp"
 #include "analysis/reaction/joint_reactions.hpp"
@@ -46,28 +47,35 @@ void add_reactions(DerivedScene& d) {
         state(d.normal_reactions, force[3 * reactions.joints.size() + k], "N", reactions.rollings[k]);
 }
 
-/// The equations while this friction sticks; none if they are not readable, or if its force has no name.
-std::vector<ReadableEquation> equations_while_sticking(const Scene& scene, const FrictionRule& friction) {
+/// Adds the equations while this friction sticks; or how long they are; nothing if its force has no name.
+void add_sticking(Derivation::Rubs& friction, const Scene& scene, const FrictionRule& rule, bool full) {
     std::vector<Diagnostic> told;
-    if (!taken_forces(friction, declare(scene, told)).empty()) return {};
-    Scene stuck = with_sticking(scene, {friction.name.text});
+    friction.forces = sticking_forces(rule);
+    if (!taken_forces(rule, declare(scene, told)).empty()) return;
+    Scene stuck = with_sticking(scene, {rule.name.text});
     stuck.on_warning = [](const Warning&) {};  // they were told for the scene itself
     try {
         const std::string& by = formalism_for(Need::multipliers).name;
         Derived d = derived(std::move(stuck), {.by = by, .on_sheets = true});
         if (!d.mechanism.unilateral.empty()) d = derived_again(d, with_all_closed(d.mechanism), by);
-        Derivation shown = derivation_of(d.mechanism, d.equations);
-        return shown.definitions.empty() ? std::move(shown.equations) : std::vector<ReadableEquation>();
+        Derivation shown = derivation_of(d.mechanism, d.equations, full ? Length::any : Length::readable);
+        if (shown.definitions.empty()) {
+            friction.held = std::move(shown.equations);
+            return;
+        }
+        for (const auto& [name, value] : shown.definitions) friction.operations += operations_in(value);
+        for (const ReadableEquation& e : shown.equations)
+            friction.operations += operations_in(e.lhs) + operations_in(e.rhs);
     } catch (const ModelError&) {
-        return {};  // what sticks contradicts a constraint, for instance
+        return;  // what sticks contradicts a constraint, for instance
     } catch (const SceneError&) {
-        return {};  // the scene itself is right
+        return;  // the scene itself is right
     }
 }
 
 }  // namespace
 
-DerivedScene explained(Derived derived) {
+DerivedScene explained(Derived derived, const PartDone& done) {
     DerivedScene d{std::move(derived)};
     const bool independent = !d.by.empty() && formalism(d.by).independent;
     d.has_unilateral_reactions = !d.mechanism.unilateral.empty() && !independent;
@@ -75,21 +83,28 @@ DerivedScene explained(Derived derived) {
         const std::string by = d.by;
         static_cast<Derived&>(d) = derived_again(d, with_all_closed(d.mechanism), by);
     }
-    d.shown = derivation_of(d.mechanism, d.equations, formalism(d.equations.formalism));
+    d.shown = derivation_of(d.mechanism, d.equations, formalism(d.equations.formalism), done);
     return d;
 }
 
 DerivedScene derive(Scene scene, const ShowOptions& options) {
-    DerivedScene d = explained(
-        derived(std::move(scene), {.by = options.by, .on_sheets = true, .coordinates = Coordinates::optional}));
+    const auto tell = [&](double part) {
+        if (options.done) options.done(part);
+    };
+    tell(0);
+    Derived equations =
+        derived(std::move(scene), {.by = options.by, .on_sheets = true, .coordinates = Coordinates::optional});
+    tell(0.3);
+    DerivedScene d = explained(std::move(equations), [&](double part) { tell(0.3 + 0.4 * part); });
     if (d.sheets)
         for (const GiNaC::ex& positive : d.sheets->positive())
             if (const auto f = fourier(positive, *d.mechanism.symbols)) d.shown.positive.push_back(readable(*f));
     for (Derivation::Rubs& friction : d.shown.frictions)
         for (const FrictionRule& rule : d.scene.frictions) {
             if (rule.name.text != friction.name) continue;
-            friction.held = equations_while_sticking(d.scene, rule);
-            friction.forces = sticking_forces(rule);
+            const double before = static_cast<double>(&friction - d.shown.frictions.data());
+            tell(0.7 + 0.3 * before / static_cast<double>(d.shown.frictions.size()));
+            add_sticking(friction, d.scene, rule, options.full);
         }
     if (!options.reactions) return d;
     show_reactions(d.shown, d.mechanism);

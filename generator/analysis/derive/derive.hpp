@@ -15,6 +15,9 @@ struct ShowOptions {
     std::string by = {};  ///< a formalism; if empty, the one that a teacher would choose
     /// Whether to give the reaction of each constraint along each coordinate, and those of joints.
     bool reactions = false;
+    /// Whether equations that exceed a page are made too: those of a contact that sticks.
+    bool full = true;
+    PartDone done = {};
 };
 
 /// The equations contain the reactions of unilateral constraints, which are zero while their gap is open, unless
@@ -27,7 +30,7 @@ struct DerivedScene : Derived {
 };
 
 /// The derivation of equations that are derived already, without reactions.
-DerivedScene explained(Derived derived);
+DerivedScene explained(Derived derived, const PartDone& done = {});
 
 /// Throws what `derived` throws.
 DerivedScene derive(Scene scene, const ShowOptions& options = {});

@@ -8,6 +8,7 @@
 
 #include "base/language/say.hpp"
 #include "check/derivation/claim_text.hpp"
+#include "check/derivation/general_law.hpp"
 #include "check/derivation/marker.hpp"
 
 namespace alembert {
@@ -43,6 +44,10 @@ OpenLetters open_letters(const Written& written, const Letters& letters) {
     std::map<Letter, int> all;
     std::set<Letter> introduced;
     for (const WrittenStatement& statement : written.statements) {
+        const auto is_general = [&](const MathPtr& side) {
+            return states_general_law(*side, letters, statement.displayed);
+        };
+        if (std::any_of(statement.sides.begin(), statement.sides.end(), is_general)) continue;
         for (const MathPtr& whole : statement.sides) {
             const Math* const side = whole->kind == Math::Kind::power ? whole->args[0].get() : whole.get();
             const bool alone = side->kind == Math::Kind::letter && side->dots == 0 && statement.sides.size() > 1;

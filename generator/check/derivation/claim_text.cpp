@@ -221,18 +221,22 @@ private:
         inside(*math.args[1], Bond::atom);
     }
 
-    /// ∂v/∂u = Σ ∂v/∂q' ∂q'/∂u, the coordinates being held. Returns false if it is by no generalized speed.
+    /// ∂v/∂u = Σ ∂v/∂q' ∂q'/∂u, the coordinates being held; ∂S/∂u' = Σ ∂S/∂q'' ∂q'/∂u, the rates too. Returns
+    /// false if it is by no generalized speed.
     bool partial_by_speed(const Math& math) {
         if (how_.speeds == nullptr || math.args.size() != 2 || math.args[1]->kind != Kind::letter) return false;
         const auto by = how_.letters.name_of(math.args[1]->letter);
-        const auto speed = by ? how_.speeds->find(*by) : how_.speeds->end();
-        if (speed == how_.speeds->end() || math.args[1]->dots > 0) return false;
+        auto speed = by ? how_.speeds->find(*by) : how_.speeds->end();
+        int order = math.args[1]->dots;
+        if (by && speed == how_.speeds->end() && how_.rates_are_speeds && order-- > 0)
+            speed = how_.speeds->find(*by + "'");
+        if (speed == how_.speeds->end() || order > 1) return false;
         out() += '(';
         for (std::size_t k = 0; k < speed->second.size(); ++k) {
             const auto& [rate, slope] = speed->second[k];
             out() += k > 0 ? " + diff(" : "diff(";
             term(*math.args[0]);
-            out() += "," + rate + ")*" + slope;
+            out() += "," + rate + (order == 1 ? "')*" : ")*") + slope;
         }
         out() += ')';
         return true;

@@ -44,11 +44,14 @@ struct ClaimWriting {
     const std::map<std::string, std::string>* steps = nullptr;
     /// Values of virtual displacements, by coordinate: δθ is 1 or 0. Null where they have no meaning.
     const std::map<std::string, int>* displacements = nullptr;
-    /// For each generalized speed of the scene the rates that change with it, with the names of ∂q'/∂u.
+    /// For each generalized speed, and for each independent rate as "psi'", the rates that change with it, with
+    /// the names of ∂q'/∂u.
     const std::map<std::string, std::vector<std::pair<std::string, std::string>>>* speeds = nullptr;
     /// Whether a letter alone is the quantity of mechanics where the scene has this name, too: T = ½ m v² beside a
     /// force T.
     bool alone_is_quantity = false;
+    /// Whether ∂/∂ψ' is that of the independent rates, the constraints having been solved for the others.
+    bool rates_are_speeds = false;
 };
 
 /// Throws NoMeaning.

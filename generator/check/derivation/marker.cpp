@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "base/language/say.hpp"
+#include "check/derivation/general_law.hpp"
 
 namespace alembert {
 
@@ -36,18 +38,21 @@ Marker::Marker(DerivedSystem& system, const Written& written, Letters letters)
         known_[name] = value;
         truth_.know(name, value);
     }
+    for (const DerivedSystem::IndependentSpeed& speed : system_.independent_speeds())
+        if (speed.is_of_scene || speed.is_rate) know_speed(speed.name + (speed.is_rate ? "'" : ""), speed.slopes);
+}
+
+void Marker::know_speed(const std::string& key, const std::vector<ex>& slopes) {
+    if (speeds_.contains(key)) return;
     const Mechanism& m = system_.mechanism();
-    for (std::size_t k = 0; k < m.speeds.size(); ++k) {
-        const std::vector<ex> slopes = system_.rates_by_speed(k);
-        const std::string speed = m.speeds[k].u.get_name();
-        for (std::size_t i = 0; i < slopes.size(); ++i) {
-            if (slopes[i].is_zero()) continue;
-            const std::string q = m.q[i].get_name(), name = letters_.free_name("d" + q + "_d" + speed);
-            known_[name] = slopes[i];
-            truth_.know(name, slopes[i]);
-            own_.state(name, slopes[i], {});
-            speeds_[speed].emplace_back(q + "'", name);
-        }
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        if (slopes[i].is_zero()) continue;
+        const std::string q = m.q[i].get_name(),
+                          name = letters_.free_name("d" + q + "_d" + key.substr(0, key.find('\'')));
+        known_[name] = slopes[i];
+        truth_.know(name, slopes[i]);
+        own_.state(name, slopes[i], {});
+        speeds_[key].emplace_back(q + "'", name);
     }
 }
 
@@ -88,6 +93,9 @@ void Marker::line(std::size_t s, std::size_t k) {
         const bool general = not_understood.unknown && !statement_->displayed && has_several_unknown(lhs, rhs);
         line.status = general ? LineStatus::not_about_scene : LineStatus::not_understood;
         line.reason = general ? say("a formula in letters that the scene does not have") : not_understood.reason;
+    } catch (const std::domain_error&) {  // θ = 0 where something is divided by θ
+        line.status = LineStatus::undecided;
+        line.reason = say("it could not be evaluated");
     }
     lines.push_back(std::move(line));
     if (lines.back().status != LineStatus::not_understood && lines.back().status != LineStatus::not_about_scene)
@@ -103,12 +111,13 @@ bool Marker::has_several_unknown(const Math& lhs, const Math& rhs) const {
 }
 
 void Marker::judge(MarkedLine& line, const Math& lhs, const Math& rhs, Relation relation) {
-    if (relation == Relation::proportional) {
-        line.status = LineStatus::not_understood;
+    if (relation == Relation::proportional) {  // among words it states a condition
+        line.status = statement_->displayed ? LineStatus::not_understood : LineStatus::not_about_scene;
         line.reason = say("only equations are judged");
         return;
     }
-    if (speaks_of_law_in_general(lhs) || speaks_of_law_in_general(rhs)) {
+    const bool displayed = statement_->displayed;
+    if (states_general_law(lhs, letters_, displayed) || states_general_law(rhs, letters_, displayed)) {
         line.status = LineStatus::not_about_scene;
         line.reason = say("a law in general coordinates");
         at_rest_of_rates_ = lhs.kind == Kind::letter && lhs.dots == 2 && rhs.kind == Kind::number;
@@ -133,14 +142,18 @@ Marker::Sides Marker::sides_of(const Math& lhs, const Math& rhs) const {
 }
 
 ClaimWriting Marker::as_written() const {
-    return {.letters = letters_, .speeds = &speeds_, .alone_is_quantity = notes_.back().alone_is_quantity};
+    return {.letters = letters_,
+            .speeds = &speeds_,
+            .alone_is_quantity = notes_.back().alone_is_quantity,
+            .rates_are_speeds = notes_.back().rates_are_speeds};
 }
 
 ClaimWriting Marker::as_derived() const {
     return {.letters = letters_,
             .steps = &own_.steps(),
             .speeds = &speeds_,
-            .alone_is_quantity = notes_.back().alone_is_quantity};
+            .alone_is_quantity = notes_.back().alone_is_quantity,
+            .rates_are_speeds = notes_.back().rates_are_speeds};
 }
 
 ex Marker::own_residual(const Sides& sides) {
@@ -199,8 +212,8 @@ void Marker::judge_true(MarkedLine& line, const Sides& sides, const MotionRow& r
 }
 
 void Marker::judge_false(MarkedLine& line, const Sides& sides, const MotionRow& row) {
-    if (is_of_quantity(line, sides) || is_equilibrium(line, sides) || is_given_value(line, sides) ||
-        is_assumption(line, sides) || holds_with_all_forces(line, sides) ||
+    if (is_of_quantity(line, sides) || is_in_independent_rates(line, sides) || is_equilibrium(line, sides) ||
+        is_given_value(line, sides) || is_assumption(line, sides) || holds_with_all_forces(line, sides) ||
         holds_up_to(line, sides, row.residual) || holds_at_rest(line, sides) ||
         holds_near(line, sides, row.residual) || follows(line, sides) || follows_with_all_forces(line, sides))
         return;
@@ -266,19 +279,6 @@ void Marker::judge_work(MarkedLine& line, const Math& rhs) {
         const bool same = rows.is_identity(rows.row(own[i] - truth_.value(force))) == true;
         own_.state(force, own[i], same ? std::nullopt : std::optional(lines.size()));
     }
-}
-
-bool Marker::speaks_of_law_in_general(const Math& math) const {
-    std::map<Letter, int> letters;
-    collect_letters(math, letters);
-    return std::any_of(letters.begin(), letters.end(), [&](const auto& item) {
-        const Letter& letter = item.first;
-        const bool general = letter.base == "q" || letter.base == "Q" || letter.base == "p";
-        const bool open = (letter.index.empty() && letter.base == "q") || letter.index == "i" ||
-                          letter.index == "j" || letter.index == "k" || letter.index == "r" ||
-                          letter.index == "s" || letter.index == "q" || letter.index == "alpha";
-        return general && open && !letters_.name_of(letter);
-    });
 }
 
 }  // namespace alembert

@@ -25,6 +25,7 @@ struct LineNotes {
     LineClaim claim = {};  ///< empty where there is none
     ClaimText left = {}, right = {};
     bool alone_is_quantity = false;          ///< as in ClaimWriting
+    bool rates_are_speeds = false;           ///< likewise
     std::optional<BaseState> near = {};      ///< about which the derivation linearizes there
     std::optional<MotionRow> equation = {};  ///< set if it is a right equation of motion, written out
     /// Names with the values that the derivation has stated, if some that stand in the line are wrong.
@@ -67,6 +68,7 @@ private:
     ClaimWriting as_written() const;
     ClaimWriting as_derived() const;
     bool is_of_quantity(MarkedLine& line, const Sides& sides);
+    bool is_in_independent_rates(MarkedLine& line, const Sides& sides);
     bool follows_with_all_forces(MarkedLine& line, const Sides& sides);
     GiNaC::ex own_residual(const Sides& sides);
 
@@ -80,6 +82,8 @@ private:
     bool is_equilibrium(MarkedLine& line, const Sides& sides);
     bool is_frequency(MarkedLine& line, const Math& letter, const Math& rhs, int power);
     bool holds_at_rest(MarkedLine& line, const Sides& sides);
+    bool is_condition_of_rest(MarkedLine& line, const Sides& sides);
+    bool is_root(MarkedLine& line, const Sides& sides);
     bool follows(MarkedLine& line, const Sides& sides);
 
     bool introduce(MarkedLine& line, const Math& lhs, const Math& rhs);
@@ -90,6 +94,8 @@ private:
     void hear(const std::string& words);
     bool introduce_ahead(const Letter& letter);
     bool bind_to_part(const Letter& letter);
+    std::optional<GiNaC::ex> force_along_speed(const Letter& letter) const;
+    void know_speed(const std::string& key, const std::vector<GiNaC::ex>& slopes);
     bool find_meaning(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     bool determine(MarkedLine& line, const Math& lhs, const Math& rhs, const Letter& letter);
     std::string bind(const Letter& letter, const GiNaC::ex& truth);
@@ -104,7 +110,6 @@ private:
     void take_in_as(const Math& what, const Math& value);
     void use_all_forces(bool all);
     bool has_several_unknown(const Math& lhs, const Math& rhs) const;
-    bool speaks_of_law_in_general(const Math& math) const;
     bool has_quantities(const Sides& sides) const;
     bool repeats_law(const Sides& sides) const;
     bool speaks_of_quantity(const LineNotes& notes) const;
@@ -125,11 +130,13 @@ private:
     std::set<Letter> roaming_;  ///< letters that were found for a body, as v_x is that of each body in turn
     std::string spoken_;        ///< the body of which the words speak
     bool speaks_of_rest_ = false, at_rest_of_rates_ = false, speaks_of_frequency_ = false,
-         speaks_of_period_ = false;
+         speaks_of_period_ = false, speaks_of_roots_ = false, introduces_symbols_ = false,
+         speaks_of_gibbs_ = false;
     const WrittenStatement* statement_ = nullptr;
-    std::optional<BaseState> near_;  ///< about which the derivation linearizes, once a line has shown it
-    bool speaks_of_small_ = false;   ///< whether the derivation has begun to linearize
-    bool all_forces_ = false;        ///< whether its generalized forces contain those of the potential
+    std::optional<BaseState> near_;    ///< about which the derivation linearizes, once a line has shown it
+    bool speaks_of_small_ = false;     ///< whether the derivation has begun to linearize
+    bool solves_constraints_ = false;  ///< whether its ∂/∂ψ' have been those of the independent rates
+    bool all_forces_ = false;          ///< whether its generalized forces contain those of the potential
 };
 
 }  // namespace alembert

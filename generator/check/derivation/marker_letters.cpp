@@ -12,6 +12,7 @@
 #include "base/language/say.hpp"
 #include "check/derivation/bindings.hpp"
 #include "check/derivation/parts.hpp"
+#include "check/total_derivative.hpp"
 
 namespace alembert {
 
@@ -34,6 +35,12 @@ Lone lone_letter(const Math& side) {
     return is_power ? Lone{side.args[0].get(), 2} : Lone{};
 }
 
+/// "psi" of the index "psi_dot"; empty for one without a dot.
+std::string without_dot(const std::string& index) {
+    constexpr std::string_view dot = "_dot";
+    return index.ends_with(dot) ? index.substr(0, index.size() - dot.size()) : "";
+}
+
 bool is_word_for_constant(const Letter& letter) {
     return letter.base == "const" || letter.base == "constant";
 }
@@ -46,6 +53,11 @@ std::string Marker::bind(const Letter& letter, const ex& truth) {
     known_[name] = system_.mechanism().z->name(truth);
     truth_.know(name, known_[name]);
     own_.state(name, known_[name], {});
+    if (!system_.mechanism().z->depends(truth, system_.mechanism().qdot)) return name;
+    MotionRows& rows = system_.rows();
+    for (const DerivedSystem::IndependentSpeed& speed : system_.independent_speeds())
+        if (!speed.is_of_scene && !speed.is_rate && rows.is_identity(rows.row(speed.form - truth)) == true)
+            know_speed(name, speed.slopes);
     return name;
 }
 
@@ -98,7 +110,11 @@ void Marker::hear(const std::string& words) {
     at_rest_of_rates_ = says({"q'' = 0"});
     speaks_of_frequency_ = says({"frequenc", "Frequenc", "频率", "Frequenz", "mode"});
     speaks_of_period_ = says({"period", "Period", "周期"});
-    speaks_of_rest_ = says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止", "平衡"});
+    speaks_of_roots_ = says({"with the roots", "其根"});
+    speaks_of_rest_ = speaks_of_roots_ || says({"accelerations zero", "at rest", "equilibri", "Equilibri", "静止",
+                                                "平衡", "加速度为零"});
+    speaks_of_gibbs_ = speaks_of_gibbs_ || says({"energy of the accelerations", "Gibbs", "加速度能"});
+    introduces_symbols_ = says({"intermediate symbols", "abbreviations", "中间符号", "缩写", "简记"});
 }
 
 /// "…, where M = m_1 + m_2": a letter that a later line introduces.
@@ -142,7 +158,8 @@ bool Marker::bind_to_part(const Letter& letter) {
                                        [](const MathPtr& side) { return is_accelerated(*side); });
     const bool starred = letter.raised == "*" || letter.base == "F" || letter.base == "E";
     if (of_motion && !starred) return false;
-    const std::optional<ex> part = part_named(letter, letters_, system_);
+    std::optional<ex> part = part_named(letter, letters_, system_);
+    if (!part) part = force_along_speed(letter);
     if (!part) return false;
     const std::string name = bind(letter, *part);
     const bool of_force = letter.base == "Q" && !letter.raised.empty() && letter.raised != "*";
@@ -155,15 +172,49 @@ bool Marker::bind_to_part(const Letter& letter) {
     return true;
 }
 
+/// F_u = Σ F_q ∂q'/∂u, F*_u likewise: forces along a generalized speed, or along a rate when the constraints have
+/// been solved for others.
+std::optional<ex> Marker::force_along_speed(const Letter& letter) const {
+    const bool inertia = letter.raised == "*" || letter.raised == "\\ast";
+    const bool is_force = letter.base == "F" || letter.base == "Q";
+    if (!is_force || letter.index.empty() || (!inertia && !letter.raised.empty())) return std::nullopt;
+    const Mechanism& m = system_.mechanism();
+    const std::vector<ex> forces = inertia ? euler_operator(m.kinetic_energy(), m) : system_.forces(true);
+    const std::string rate = letters_.coordinate_of(without_dot(letter.index)), word = plain_word(letter.index);
+    std::optional<ex> result;
+    for (int i = 0; !result && i < m.size(); ++i)  // without constraints in the way
+        if (rate == m.q[i].get_name()) result = inertia ? -forces[i] : forces[i];
+    for (const auto& [key, slopes] : speeds_) {
+        if (key.back() == '\'' ? key != rate + "'" : plain_word(key) != word) continue;
+        GiNaC::exvector terms;
+        for (const auto& [changed, slope] : slopes)
+            for (int i = 0; i < m.size(); ++i)
+                if (changed == m.q[i].get_name() + "'")
+                    terms.push_back((inertia ? -forces[i] : forces[i]) * known_.at(slope));
+        result = GiNaC::add(std::move(terms));
+    }
+    return result ? std::optional(m.z->name(*result)) : std::nullopt;
+}
+
 /// A letter alone on one side may be introduced here. Returns whether it was; then the line is judged.
 bool Marker::introduce(MarkedLine& line, const Math& lhs, const Math& rhs) {
     const Lone lone = lone_letter(lhs);
     if (lone.letter == nullptr) return false;
-    if (const auto name = letters_.name_of(lone.letter->letter)) {  // introduced here, and used before
+    const bool is_gibbs = speaks_of_gibbs_ && lone.letter->letter.base == "S" && is_accelerated(rhs);
+    const auto name = letters_.name_of(lone.letter->letter);
+    if (is_gibbs && name && letters_.is_of_scene(*name)) {  // an impulse S of the scene is another thing
+        define(line, *lone.letter, rhs, lone.power);
+        return true;
+    }
+    if (name) {  // introduced here, and used before
         if (!ahead_.contains(lone.letter->letter) || !known_.contains(*name)) return false;
         ahead_.erase(lone.letter->letter);
         judge_pair(line, lhs, rhs);
         if (line.status == LineStatus::right) line.status = LineStatus::definition;
+        return true;
+    }
+    if (introduces_symbols_) {
+        define(line, *lone.letter, rhs, lone.power);
         return true;
     }
     if (bind_to_part(lone.letter->letter)) return false;

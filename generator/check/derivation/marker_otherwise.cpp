@@ -26,6 +26,27 @@ bool Marker::is_of_quantity(MarkedLine& line, const Sides& sides) {
     return true;
 }
 
+/// ∂v/∂ψ' = −a cos φ where rolling has been solved for φ': the other rates change with the independent one.
+bool Marker::is_in_independent_rates(MarkedLine& line, const Sides& sides) {
+    const auto is_partial = [&](const Math& side) {
+        if (side.kind != Kind::partial || side.args.size() != 2 || side.args[1]->dots == 0) return false;
+        const auto by = letters_.name_of(side.args[1]->letter);
+        return by && speeds_.contains(*by + "'");
+    };
+    if (notes_.back().rates_are_speeds || (!is_partial(*sides.lhs) && !is_partial(*sides.rhs))) return false;
+    notes_.back().rates_are_speeds = true;
+    const Sides other = sides_of(*sides.lhs, *sides.rhs);
+    MotionRows& rows = system_.rows();
+    if (rows.holds(rows.row(truth_.value(other.left.text) - truth_.value(other.right.text))) == true) {
+        solves_constraints_ = true;
+        judge_pair(line, *sides.lhs, *sides.rhs);
+        return true;
+    }
+    notes_.back().rates_are_speeds = solves_constraints_;
+    if (solves_constraints_) judge_pair(line, *sides.lhs, *sides.rhs);
+    return solves_constraints_;
+}
+
 /// l = 2 m: a number for a parameter of the scene says nothing about its mechanics.
 bool Marker::is_given_value(MarkedLine& line, const Sides& sides) {
     const auto is_lone = [&](const Math& math) { return math.kind == Kind::letter && math.dots == 0; };

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "algebra/notation/readable.hpp"
 #include "base/language/say.hpp"
 #include "check/frequency.hpp"
+#include "model/energy.hpp"
+#include "model/formalism/elements.hpp"
 
 namespace alembert {
 
@@ -17,8 +20,8 @@ namespace {
 
 bool holds_letters_only(const std::set<std::string>& names, const Scene& scene) {
     return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-        return std::any_of(scene.parameters.begin(), scene.parameters.end(),
-                           [&](const Parameter& p) { return p.name.text == name; });
+        return name == "pi" || std::any_of(scene.parameters.begin(), scene.parameters.end(),
+                                           [&](const Parameter& p) { return p.name.text == name; });
     });
 }
 
@@ -83,6 +86,8 @@ bool Marker::is_frequency(MarkedLine& line, const Math& letter, const Math& rhs,
 
 /// Equilibria: θ = 0, or an equation that holds there.
 bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
+    if (speaks_of_roots_ && is_root(line, sides)) return true;
+    if (speaks_of_rest_ && !has_quantities(sides) && is_condition_of_rest(line, sides)) return true;
     if (!speaks_of_rest_ && !statement_->displayed) return false;
     const auto is_state = [&](const Math& a, const ClaimText& b) {
         return a.kind == Kind::letter && a.dots == 0 && letters_.moves(letters_.name_of(a.letter).value_or("")) &&
@@ -101,6 +106,55 @@ bool Marker::is_equilibrium(MarkedLine& line, const Sides& sides) {
     line.status = found.verdict == Verdict::proved ? LineStatus::right : LineStatus::mistake;
     line.reason = found.verdict == Verdict::proved ? say("an equilibrium") : found.reason;
     return true;
+}
+
+/// "with the roots": θ = π, or cos θ = g/(R Ω²), makes one of the conditions of rest zero, whether or not the
+/// system can stay there.
+bool Marker::is_root(MarkedLine& line, const Sides& sides) {
+    constexpr double largest = 3000;
+    constexpr std::size_t most_terms = 500;
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    const ex left = m.z->expand(truth_.value(sides.left.text)),
+             right = m.z->expand(truth_.value(sides.right.text));
+    if (!GiNaC::is_a<GiNaC::symbol>(left) && !GiNaC::is_a<GiNaC::function>(left)) return false;
+    for (const ex& condition : system_.conditions_of_rest()) {
+        if (m.z->tree_size(condition) > largest || rows.is_identity(rows.row(condition)) == true) continue;
+        const auto sum = fourier(m.z->expand(condition), *m.symbols, most_terms);
+        if (!sum) continue;
+        const ex there = expression(readable(*sum)).subs(left == right);  // in sines and cosines of single angles
+        if (rows.is_identity(rows.row(m.z->name(there))) != true) continue;
+        notes_.back().claim = {};
+        line.status = LineStatus::right;
+        line.reason = say("a root of the condition of rest");
+        return true;
+    }
+    return false;
+}
+
+/// A line that is one of the conditions of rest but for a constant factor, inputs and multipliers being open.
+bool Marker::is_condition_of_rest(MarkedLine& line, const Sides& sides) {
+    const Mechanism& m = system_.mechanism();
+    MotionRows& rows = system_.rows();
+    std::vector<GiNaC::symbol> open = m.moving();
+    const std::vector<GiNaC::symbol>& lambda = system_.equations().lambda;
+    open.insert(open.end(), lambda.begin(), lambda.end());
+    const auto slopes = [&](const ex& e) { return m.z->pull_back({{e, 1}}, open); };
+    const ex residual = m.z->name(truth_.value(sides.left.text) - truth_.value(sides.right.text));
+    const std::vector<ex> own = slopes(residual);
+    for (const ex& condition : system_.conditions_of_rest()) {
+        if (rows.is_identity(rows.row(condition)) == true) continue;
+        const std::vector<ex> others = slopes(condition);
+        bool is_multiple = true;
+        for (std::size_t k = 0; is_multiple && k < open.size(); ++k)
+            is_multiple = is_identically_zero(m.z->name(condition * own[k] - residual * others[k]), m);
+        if (!is_multiple) continue;
+        notes_.back().claim = {};
+        line.status = LineStatus::right;
+        line.reason = say("of states of rest");
+        return true;
+    }
+    return false;
 }
 
 bool Marker::holds_at_rest(MarkedLine& line, const Sides& sides) {

@@ -59,6 +59,9 @@ std::optional<ex> part_named(const Letter& letter, const Letters& letters, const
     const std::string word = plain_word(letter.raised.empty() ? letter.index : letter.raised);
     if (word.empty() || m.given_lagrangian) return std::nullopt;
     const std::string& base = letter.base;
+    if (base == "gap")
+        for (const Mechanism::Unilateral& contact : m.unilateral)
+            if (plain_word(contact.gap.name) == word) return *contact.gap.position;
     if (base == "T" || base == "K") return sum_of(m.kinetic, word, m);
     if (base == "V" || base == "U") return sum_of(m.potential, word, m);
     const std::string name = letters.coordinate_of(letter.index);

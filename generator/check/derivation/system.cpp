@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/derivation/system.hpp"
 
+#include <algorithm>
+
 #include "analysis/state/force_balance.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
@@ -41,26 +43,44 @@ ex DerivedSystem::reaction(int i) const {
 }
 
 // Kane's equations solve the speeds and the constraints for the rates.
-std::vector<std::vector<ex>> DerivedSystem::solved_speeds() const {
+std::vector<DerivedSystem::IndependentSpeed> DerivedSystem::solved_speeds() const {
+    const bool any = std::any_of(m_.constraints.begin(), m_.constraints.end(),
+                                 [](const Mechanism::Constraint& c) { return !c.position; });
+    if (m_.speeds.empty() && !any) return {};
     const Equations solved = formalism_for(Need::minimal_speeds).derive(derived_.mechanism);
     m_.z->adopt(*solved.z);
-    std::vector<std::vector<ex>> result(m_.speeds.size());
-    for (const ex& rate : solved.h) {
-        const std::vector<ex> slopes = m_.z->pull_back({{rate, 1}}, solved.u);
-        for (std::size_t k = 0; k < result.size(); ++k)
-            for (std::size_t j = 0; j < solved.u.size(); ++j)
-                if (solved.u[j].get_name() == m_.speeds[k].u.get_name()) result[k].push_back(slopes[j]);
+    std::vector<IndependentSpeed> result;
+    for (std::size_t k = 0; k < solved.u.size(); ++k) {
+        IndependentSpeed speed{.name = solved.u[k].get_name(), .form = solved.form[k]};
+        const auto is_it = [&](const Mechanism::Speed& s) { return s.u.get_name() == speed.name; };
+        speed.is_of_scene = std::any_of(m_.speeds.begin(), m_.speeds.end(), is_it);
+        for (std::size_t i = 0; i < m_.q.size(); ++i) {
+            if (!solved.u[k].is_equal(m_.qdot[i])) continue;
+            speed.is_rate = true;
+            speed.name = m_.q[i].get_name();
+        }
+        for (const ex& rate : solved.h) speed.slopes.push_back(m_.z->pull_back({{rate, 1}}, {solved.u[k]})[0]);
+        result.push_back(std::move(speed));
     }
     return result;
 }
 
-std::vector<ex> DerivedSystem::rates_by_speed(std::size_t speed) const {
-    if (!rates_by_speed_) try {
-            rates_by_speed_ = solved_speeds();
+std::vector<DerivedSystem::IndependentSpeed> DerivedSystem::independent_speeds() const {
+    if (!speeds_) try {
+            speeds_ = solved_speeds();
         } catch (const std::exception&) {  // the speeds do not determine the rates
-            rates_by_speed_.emplace(m_.speeds.size());
+            speeds_.emplace();
         }
-    return (*rates_by_speed_)[speed];
+    return *speeds_;
+}
+
+std::vector<ex> DerivedSystem::conditions_of_rest() const {
+    GiNaC::exmap still;
+    for (const auto* list : {&m_.qdot, &m_.qddot})
+        for (const GiNaC::symbol& s : *list) still[s] = 0;
+    std::vector<ex> result;
+    for (int i = 0; i < e_.size(); ++i) result.push_back(e_.forcing(i) + reaction(i));
+    return substitute(*m_.z, result, still);
 }
 
 ex DerivedSystem::without_accelerations(const ex& e) const {

@@ -45,9 +45,19 @@ public:
     /// Σ λ ∂f/∂q of the constraints along coordinate i.
     GiNaC::ex reaction(int i) const;
 
-    /// ∂q'/∂u of the generalized speed at this place in Mechanism::speeds, along motions that the constraints
-    /// allow; empty if the speeds do not determine the rates.
-    std::vector<GiNaC::ex> rates_by_speed(std::size_t speed) const;
+    /// A speed of motions that the constraints allow: one of the scene's, or one that is chosen as `derive` does.
+    struct IndependentSpeed {
+        std::string name;                    ///< that of the coordinate for its rate
+        bool is_rate = false;                ///< whether it is the rate of a coordinate
+        bool is_of_scene = false;            ///< whether the scene defines it
+        GiNaC::ex form;                      ///< in q, q', t
+        std::vector<GiNaC::ex> slopes = {};  ///< ∂q'/∂u, one for each coordinate
+    };
+    /// Empty if the scene has no speeds and no nonholonomic constraint, or if the speeds do not determine the
+    /// rates.
+    std::vector<IndependentSpeed> independent_speeds() const;
+    /// What is zero at states of rest, one for each coordinate: the forces and the reactions at q' = q'' = 0.
+    std::vector<GiNaC::ex> conditions_of_rest() const;
     /// The expression without accelerations: at q'' = 0.
     GiNaC::ex without_accelerations(const GiNaC::ex& e) const;
 
@@ -56,10 +66,9 @@ public:
                                     const std::map<std::string, GiNaC::ex>& known) const;
 
 private:
-    std::vector<std::vector<GiNaC::ex>> solved_speeds() const;
+    std::vector<IndependentSpeed> solved_speeds() const;
 
-    mutable std::optional<std::vector<std::vector<GiNaC::ex>>>
-        rates_by_speed_;  ///< made when it is first asked for
+    mutable std::optional<std::vector<IndependentSpeed>> speeds_;  ///< made when they are first asked for
     Derived derived_;
     std::string by_;
     Mechanism m_;

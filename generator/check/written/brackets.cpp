@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/language/greek.hpp"
 #include "base/language/say.hpp"
 #include "check/written/windows.hpp"
 #include "scene/unit_text.hpp"
@@ -218,7 +219,8 @@ std::size_t MathParser::unit_end(std::size_t i, std::string& unit) const {
             word = what.text;
         else if (what.kind == Kind::letter && what.dots == 0 && (what.upright || !is_upright))
             word = what.text.empty() || what.text == "word" ? what.letter.base : what.text;
-        if (word.empty() || (what.kind == Kind::letter && !is_known_unit(word))) return begin;
+        const bool is_angle = !what.upright && greek_named(word) != nullptr;  // 2ψ is no pressure in psi
+        if (word.empty() || is_angle || (what.kind == Kind::letter && !is_known_unit(word))) return begin;
         if (what.kind == Kind::text && (!meaning_of_unit(word) || word.find_first_of("0123456789") == 0))
             return begin;
         is_certain |= what.upright || what.kind == Kind::text || word.size() > 1;

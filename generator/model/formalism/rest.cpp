@@ -54,7 +54,12 @@ TrigonometricProduct product_of(const ex& e, const Mechanism& m) {
         if (GiNaC::is_a<GiNaC::symbol>(base) &&
             m.symbols->info(GiNaC::ex_to<GiNaC::symbol>(base)).kind == SymbolInfo::Kind::parameter)
             continue;
-        result.bases.push_back(base);
+        const bool divides = GiNaC::is_a<GiNaC::power>(factor) && GiNaC::is_a<GiNaC::numeric>(factor.op(1)) &&
+                             factor.op(1).info(GiNaC::info_flags::negative);
+        if (divides)  // never zero
+            result.has_poles = true;
+        else
+            result.bases.push_back(base);
     }
     return result;
 }
@@ -97,7 +102,9 @@ struct RestSteps {
                    std::tuple(simple_b, text(b.first), text(b.second));
         });
         // If there are parameters only, no factor vanishes, and rest is impossible.
-        const Phrase left = found.vanishes ? phrases::number(0) : atoms.empty() ? sum : phrases::product(atoms);
+        const Phrase left = found.vanishes                     ? phrases::number(0)
+                            : atoms.empty() || found.has_poles ? sum
+                                                               : phrases::product(atoms);
         products.equalities.emplace_back(left, phrases::number(0));
     }
 

@@ -19,6 +19,7 @@ struct TrigonometricProduct {
     std::vector<GiNaC::ex> bases;  ///< the factors, in letters
     GiNaC::exmap functions;        ///< letter → sine, cosine …
     bool vanishes = false;         ///< whether the expression is zero
+    bool has_poles = false;        ///< whether it is divided by anything that changes
 };
 TrigonometricProduct product_of(const GiNaC::ex& e, const Mechanism& mechanism);
 

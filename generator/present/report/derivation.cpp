@@ -3,7 +3,11 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "algebra/notation/latex.hpp"
+#include "algebra/notation/operations.hpp"
 #include "algebra/notation/text.hpp"
 #include "base/language/say.hpp"
 #include "present/report/formula_page.hpp"
@@ -13,11 +17,16 @@ namespace alembert {
 
 namespace {
 
+void add_to(Block& block, std::string left, std::string right, std::size_t operations) {
+    block.equalities.emplace_back(std::move(left), std::move(right));
+    block.operations.push_back(operations);
+}
+
 /// The four steps of the book without the equations themselves.
 std::vector<Block> steps(const Derivation& shown, const Notation& n) {
-    const auto statements = [&](const std::vector<Statement>& list) {
-        std::vector<std::pair<std::string, std::string>> result;
-        for (const Statement& s : list) result.emplace_back(n.left(s), n.phrase(s.value));
+    const auto block_of = [&](const std::string& words, const std::vector<Statement>& list) {
+        Block result{words, {}};
+        for (const Statement& s : list) add_to(result, n.left(s), n.phrase(s.value), operations_in(s.value));
         return result;
     };
     std::string names;
@@ -29,7 +38,7 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
          {}}};
 
     if (!shown.angular.empty())
-        blocks.push_back({say("Angular velocities along the axes of the bodies:"), statements(shown.angular)});
+        blocks.push_back(block_of(say("Angular velocities along the axes of the bodies:"), shown.angular));
     std::vector<Statement> energies = shown.energies;
     const auto total = [&](const char* letter, const Phrase& value) {
         energies.push_back({Statement::Kind::energy, letter, "", {}, value});
@@ -40,23 +49,28 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
         total("T", shown.kinetic);
         total("V", shown.potential);
     }
-    blocks.push_back({shown.lagrangian ? say("2. The Lagrangian, as the scene gives it:")
-                                       : say("2. Kinetic and potential energy:"),
-                      statements(energies)});
-    blocks.push_back({shown.forces.empty()
-                          ? say("3. No force does virtual work beside what is in the energies.")
-                          : say("3. Generalized forces, from the virtual work dW = sum of Q(q) dq:"),
-                      statements(shown.forces)});
+    blocks.push_back(block_of(shown.lagrangian ? say("2. The Lagrangian, as the scene gives it:")
+                                               : say("2. Kinetic and potential energy:"),
+                              energies));
+    blocks.push_back(block_of(shown.forces.empty()
+                                  ? say("3. No force does virtual work beside what is in the energies.")
+                                  : say("3. Generalized forces, from the virtual work dW = sum of Q(q) dq:"),
+                              shown.forces));
+    if (!shown.choice.empty()) {  // the formalism's own steps are in these speeds
+        blocks.push_back({shown.choice, {}, Block::Kind::equation});
+        for (const auto& [speed, form] : shown.speeds)
+            add_to(blocks.back(), n.phrase(speed), n.phrase(form), operations_in(form));
+    }
     for (std::size_t k = 0; k < shown.sections.size(); ++k) {
         const Section& section = shown.sections[k];
-        blocks.push_back({(k == 0 ? "4. " : "") + section.words, statements(section.statements)});
+        blocks.push_back(block_of((k == 0 ? "4. " : "") + section.words, section.statements));
         for (const auto& [left, right] : section.equalities)
-            blocks.back().equalities.emplace_back(n.phrase(left), n.phrase(right));
+            add_to(blocks.back(), n.phrase(left), n.phrase(right), operations_in(left) + operations_in(right));
     }
     if (!shown.sections.empty()) return blocks;
-    blocks.push_back({shown.lagrangian ? say("4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q:")
-                                       : say("4. For Lagrange's equations d/dt dT/dq' - dT/dq = Q:"),
-                      statements(shown.derivatives)});
+    blocks.push_back(block_of(shown.lagrangian ? say("4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q:")
+                                               : say("4. For Lagrange's equations d/dt dT/dq' - dT/dq = Q:"),
+                              shown.derivatives));
     return blocks;
 }
 
@@ -195,18 +209,23 @@ public:
 private:
     using Kind = Block::Kind;
 
-    void begin(const std::string& words, Kind kind) { blocks_.push_back({words, {}, kind}); }
-    void add(std::string left, std::string right) {
-        blocks_.back().equalities.emplace_back(std::move(left), std::move(right));
+    void begin(const std::string& words, Kind kind) {
+        blocks_.push_back({.words = words, .equalities = {}, .kind = kind});
+    }
+    void add(std::string left, std::string right, std::size_t operations) {
+        add_to(blocks_.back(), std::move(left), std::move(right), operations);
     }
     void add(const std::vector<Statement>& list) {
-        for (const Statement& s : list) add(n_.left(s), n_.phrase(s.value));
+        for (const Statement& s : list) add(n_.left(s), n_.phrase(s.value), operations_in(s.value));
+    }
+    void add(const Phrase& left, const Phrase& right) {
+        add(n_.phrase(left), n_.phrase(right), operations_in(left) + operations_in(right));
     }
     void add(const std::vector<ReadableEquation>& list) {
-        for (const ReadableEquation& e : list) add(n_.phrase(e.lhs), n_.phrase(e.rhs));
+        for (const ReadableEquation& e : list) add(e.lhs, e.rhs);
     }
     void add(const std::vector<std::pair<Phrase, Phrase>>& list) {
-        for (const auto& [left, right] : list) add(n_.phrase(left), n_.phrase(right));
+        for (const auto& [left, right] : list) add(left, right);
     }
 
     /// The intermediate symbols, or the steps of the derivation.
@@ -214,6 +233,7 @@ private:
         if (!shown_.definitions.empty()) {
             begin(say("The equations are beyond the readable size; intermediate symbols:"), Kind::definition);
             add(shown_.definitions);
+            blocks_.back().with_symbols = true;
             for (const Section& section : shown_.sections) {
                 if (!with_steps) break;
                 begin(section.words, Kind::step);
@@ -221,6 +241,7 @@ private:
             }
         } else if (with_steps) {
             blocks_ = steps(shown_, n_);
+            return;
         }
         if (!shown_.choice.empty()) begin(shown_.choice, Kind::equation);
         add(shown_.speeds);
@@ -229,6 +250,7 @@ private:
     void add_equations() {
         begin(words_before_equations(d_), Kind::equation);
         add(shown_.equations);
+        blocks_.back().with_symbols = !shown_.definitions.empty();
         if (!shown_.abbreviations.empty()) {
             begin(say("with the scene's definitions:"), Kind::equation);
             add(shown_.abbreviations);
@@ -241,6 +263,7 @@ private:
         if (!shown_.kinematics.empty()) {
             begin(say("with the rates of the coordinates:"), Kind::equation);
             add(shown_.kinematics);
+            blocks_.back().with_symbols = !shown_.definitions.empty();
         }
         for (const Phrase& pole : shown_.poles)
             begin(say("They do not follow from the speeds where {} = 0.", n_.inline_phrase(pole)), Kind::equation);
@@ -253,8 +276,7 @@ private:
                       : say("with the constraints (multipliers stand on the right with a plus: M q'' = F "
                             "+ A^T lambda):"),
                   Kind::equation);
-            for (const auto& [name, phrase] : shown_.constraints)
-                add(n_.phrase(phrase), n_.phrase(phrases::number(0)));
+            for (const auto& [name, phrase] : shown_.constraints) add(phrase, phrases::number(0));
         }
         if (!shown_.shares.empty()) {
             begin(say("with the least reactions, since constraints depend on each other:"), Kind::equation);
@@ -285,7 +307,7 @@ private:
         begin(say("with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:"),
               Kind::equation);
         for (const auto& [name, phrase] : shown_.gaps)
-            add(n_.left({Statement::Kind::energy, "gap", name, {}, {}}), n_.phrase(phrase));
+            add(n_.left({Statement::Kind::energy, "gap", name, {}, {}}), n_.phrase(phrase), operations_in(phrase));
     }
 
     void add_friction(const Derivation::Rubs& f) {
@@ -297,6 +319,11 @@ private:
                            : n_.inline_phrase(f.slip),
                   n_.inline_phrase(f.sticking)),
               Kind::remark);
+        if (f.operations > 0)
+            begin(say("While '{}' sticks, with its force {}, the equations are too long to be read: they have {} "
+                      "operations even with intermediate symbols. 'derive --full' prints them.",
+                      f.name, fmt::join(f.forces, ", "), f.operations),
+                  Kind::remark);
         if (f.held.empty()) return;
         begin(say("While '{}' sticks, with its force {}:", f.name, fmt::join(f.forces, ", ")), Kind::remark);
         add(f.held);
@@ -308,6 +335,38 @@ private:
     std::vector<Block> blocks_;
 };
 
+constexpr std::size_t most_lines = 100, most_operations = 3000;  // two screens, or 20 kB
+constexpr std::size_t most_of_one = 800;                         // operations of one equality
+
+/// What is too long to be read is named with its size, as long as nobody asks for it.
+void leave_out_what_is_too_long(std::vector<Block>& blocks) {
+    std::size_t lines = 0, operations = 0;
+    bool without_symbols = false;  // nobody can read the equations without them
+    std::vector<Block> result;
+    for (Block& block : blocks) {
+        const std::size_t own_lines = block.equalities.size(),
+                          own = std::accumulate(block.operations.begin(), block.operations.end(), std::size_t{0});
+        const bool longest = std::any_of(block.operations.begin(), block.operations.end(),
+                                         [](std::size_t one) { return one > most_of_one; });
+        const bool fits = !longest && lines + own_lines <= most_lines && operations + own <= most_operations;
+        const bool kept = fits && !(block.with_symbols && without_symbols);
+        without_symbols = without_symbols || (block.with_symbols && !kept);
+        result.push_back(std::move(block));
+        if (kept) {
+            lines += own_lines;
+            operations += own;
+            continue;
+        }
+        result.back().equalities.clear();
+        result.push_back(
+            {say("({} line{} with {} operations, left out because of the length. 'derive --full' prints "
+                 "everything, --json has it, and 'emit' writes the equations as a program.)",
+                 own_lines, own_lines == 1 ? "" : "s", own),
+             {}});
+    }
+    blocks = std::move(result);
+}
+
 }  // namespace
 
 std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with_steps) {
@@ -317,6 +376,7 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
 std::string as_page(const DerivedScene& d, const PageOptions& options) {
     const Notation n = notation_of(options.format);
     std::vector<Block> blocks = blocks_of(d, n, options.steps);
+    if (!options.full) leave_out_what_is_too_long(blocks);
     if (options.dimensions) blocks.push_back(dimensions_of(d.scene));
     if (options.format == "text" && !d.scene.title.empty()) blocks.insert(blocks.begin(), {d.scene.title, {}});
     return n.page(blocks);

@@ -14,6 +14,7 @@ struct PageOptions {
     std::string format = "text";  ///< text, latex or mathml
     bool dimensions = false;      ///< whether to tell the dimensions of coordinates, speeds and multipliers
     bool steps = false;  ///< whether to show coordinates, energies and generalized forces before the equations
+    bool full = false;   ///< whether to show what exceeds two screens too
 };
 
 /// The derivation as words and formulas in a notation; with `with_steps`, also everything before the equations.

@@ -135,6 +135,7 @@ Component component_of(const std::string& letter) {
 
 std::string latex_letter(const std::string& letter) {
     if (letter == "L'") return "\\dot{L}";
+    if (letter == "gap") return "\\mathrm{gap}";
     if (letter.ends_with('*')) return letter.substr(0, letter.size() - 1) + "^{*}";
     const Component c = component_of(letter);
     return c.index.empty() ? c.latex
@@ -154,7 +155,7 @@ std::string latex_left(const Statement& s) {
             return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", latex_letter(s.letter), latex(*s.by));
         case Statement::Kind::force:
         case Statement::Kind::work:
-            return fmt::format("{}_{{{}}}{}", s.letter, latex(*s.by), of);
+            return fmt::format("{}_{{{}}}{}", latex_letter(s.letter), latex(*s.by), of);
         default:
             return latex_letter(s.letter) + of;
     }

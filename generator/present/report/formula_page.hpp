@@ -25,6 +25,8 @@ struct Block {
     std::string words;
     std::vector<std::pair<std::string, std::string>> equalities;
     Kind kind = Kind::step;
+    std::vector<std::size_t> operations = {};  ///< of each of these; may be left out
+    bool with_symbols = false;  ///< whether they are, or hold, intermediate symbols, which only stand in this page
 };
 
 /// The functions with which a format writes formulas, left-hand sides of statements, and blocks.
