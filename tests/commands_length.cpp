@@ -17,7 +17,8 @@ namespace {
 
 /// A plane chain of rods by the angles of its joints.
 std::string chain(int n) {
-    std::string coordinates = "gravity = [0, \"g\"]\nparameters = { m = 1, l = 1, g = 9.81 }\n[coordinates]\n", bodies;
+    std::string coordinates = "gravity = [0, \"g\"]\nparameters = { m = 1, l = 1, g = 9.81 }\n[coordinates]\n",
+                bodies;
     for (int k = 1; k <= n; ++k) {
         const std::string now = std::to_string(k), last = std::to_string(k - 1);
         const std::string from = k > 1 ? "from = \"J" + last + "\"\n" : "", axes = "axes = \"F" + now + "\"\n";
@@ -26,7 +27,7 @@ std::string chain(int n) {
                   (k > 1 ? "parent = \"F" + last + "\"\n" : "") + "[[body]]\nname = \"rod" + now +
                   "\"\nmass = \"m\"\ninertia = \"m*l^2/12\"\nframe = \"F" + now + "\"\nposition = [\"l/2\", 0]\n" +
                   axes + from;
-        if (k < n) bodies += "[[point]]\nname = \"J" + now + "\"\nposition = [\"l\", 0]\n" + axes + from;
+        if (k < n) bodies += "[[point]]\nname = \"J" + now + "\"\noffset = [\"l\", 0]\n" + axes + from;
     }
     return temporary("chain_" + std::to_string(n) + ".toml", coordinates + bodies);
 }

@@ -223,11 +223,11 @@ def run(program, *words):
 
 def faults_of(program, scene, with_page):
     name, wrong, read_count, not_read = os.path.relpath(scene, ROOT), [], 0, []
-    plain_text = run(program, "derive", scene, "--steps")
+    plain_text = run(program, "derive", scene, "--steps", "--full")
     if plain_text.returncode:
         return name, wrong, 0, not_read
     texts = equations_of_text(plain_text.stdout)
-    maths = equations_of_mathml(run(program, "derive", scene, "--steps", "--format", "mathml").stdout)
+    maths = equations_of_mathml(run(program, "derive", scene, "--steps", "--full", "--format", "mathml").stdout)
     if len(maths) != len(texts):
         wrong.append(f"{len(texts)} equations in text, {len(maths)} in MathML")
     for (left, right), (plain_left, plain_right) in zip(maths, texts):

@@ -21,7 +21,7 @@ written() {
     # shellcheck disable=SC2016
     printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" bash -c 'set -eu
         "$PROGRAM" emit "$1" -o "$FOLDER" >"$FOLDER/$(basename "$1" .toml).log"
-        "$PROGRAM" derive "$1" --steps >"$FOLDER/$(basename "$1" .toml).txt"' one
+        "$PROGRAM" derive "$1" --steps --full >"$FOLDER/$(basename "$1" .toml).txt"' one
 }
 hashes() { (cd "$WORK/$1" && sha256sum -- *.cpp *.txt); }
 

@@ -48,7 +48,8 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                                    verb.take("--format", options.page.format);
                                    verb.add_flag("--steps", options.page.steps,
                                                  say("also coordinates, T, V, generalized forces, own steps"));
-                                   verb.add_flag("--full", options.page.full, say("also what exceeds two screens"));
+                                   verb.add_flag("--full", options.page.full,
+                                                 say("also what exceeds two screens"));
                                    verb.add_flag("--dimensions", options.page.dimensions,
                                                  say("also the dimension of each coordinate and multiplier"));
                                    verb.take("--svg", options.draw, say("SVG figure of the system"));
