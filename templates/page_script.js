@@ -123,7 +123,7 @@ function figureDrawer(f, root) {
 
   function path(shape, place, points, angles) {
     let d = "";
-    if (shape.kind === "path") {
+    if (shape.kind === "path" || shape.kind === "face") {
       for (const v of shape.v) d += text(vertex(v, shape, place, points), v[5] || d === "");
       return d + (shape.closed ? "Z" : "");
     }
@@ -135,25 +135,11 @@ function figureDrawer(f, root) {
       }
       return d + "Z";
     }
-    if (shape.kind === "arc") {
-      const [c, start, sweep] = arc(shape, place, angles);
-      for (let k = 0; k <= 20; ++k) {
-        const angle = start + sweep * k / 20;
-        d += text([c[0] + shape.size * Math.cos(angle), c[1] + shape.size * Math.sin(angle)], k === 0);
-      }
-      return d;
+    const [c, start, sweep] = arc(shape, place, angles);
+    for (let k = 0; k <= 20; ++k) {
+      const angle = start + sweep * k / 20;
+      d += text([c[0] + shape.size * Math.cos(angle), c[1] + shape.size * Math.sin(angle)], k === 0);
     }
-    const c = points[shape.v[0][0]], middle = place(shape.v[0][0]);
-    const half = [1, 2, 3].map((k) => points[shape.v[k][0]].map((x, i) => x - c[i]));
-    for (let k = 0; k < 3; ++k)
-      for (const side of [-1, 1]) {
-        if (side * dot(half[k], view.toward) <= 0) continue;
-        const out = direction(half[k].map((x) => side * x)), a = direction(half[(k + 1) % 3]), b = direction(half[(k + 2) % 3]);
-        [[1, 1], [1, -1], [-1, -1], [-1, 1]].forEach(([s, r], n) => {
-          d += text([middle[0] + out[0] + s * a[0] + r * b[0], middle[1] + out[1] + s * a[1] + r * b[1]], n === 0);
-        });
-        d += "Z";
-      }
     return d;
   }
 
@@ -169,6 +155,16 @@ function figureDrawer(f, root) {
     });
     order.sort((a, b) => Math.abs(a.depth - b.depth) > 1e-9 ? a.depth - b.depth : a.k - b.k);
     order.forEach(({ k }) => group.append(nodes[k]));
+  }
+
+  // How much light a face returns; 0 if it is turned away. The same as brightness in report/figure_screen.cpp.
+  function brightness(shape, points) {
+    const [a, b, c] = [0, 1, 2].map((k) => points[shape.v[k][0]]);
+    const p = b.map((x, i) => x - a[i]), q = c.map((x, i) => x - a[i]);
+    const n = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]], length = norm(n);
+    if (!(length > 0) || !(dot(n, view.toward) > 0)) return 0;
+    const light = view.toward.map((x, i) => 0.75 * x + 0.6 * view.up[i] - 0.28 * view.right[i]);
+    return 0.55 + 0.45 * Math.max(0, dot(n, light) / length / norm(light));
   }
 
   function recorded(t) {
@@ -219,6 +215,12 @@ function figureDrawer(f, root) {
       if (shape.from !== undefined) {
         const a = place(shape.from), b = place(shape.to), length = Math.hypot(a[0] - b[0], a[1] - b[1]);
         hidden = hidden || length < shape.least || (shape.most > 0 && length >= shape.most);
+      }
+      if (shape.kind === "face") {
+        const light = brightness(shape, points), grey = Math.round(245 * light);
+        hidden = hidden || light === 0;
+        node.style.fill = `rgb(${grey},${grey},${grey})`;
+        if (node.classList.contains("facet")) node.style.stroke = node.style.fill;
       }
       node.setAttribute("visibility", hidden ? "hidden" : "visible");
       if (shape.kind === "circle") {

@@ -129,6 +129,7 @@ Tables of_the_schema() {
             result[""].insert(name);
         }
     }
+    add_keys(result, "body.shape", schema()["definitions"]["shape"]);
     add_keys(result, "body.inertia", schema()["properties"]["body"]["items"]["properties"]["inertia"]);
     return result;
 }

@@ -175,7 +175,7 @@ TEST_CASE("figure: wheels have the radius of their rolling condition, and their 
         Drawn d = drawn("scenes/textbook/hoop_pendulum.toml");
         d.start.q = {0.3, 0.7, 1.0};
         d.pose = pose_at(d.figure, d.start);
-        const std::vector<FigureElement> rings = of_kind(d.figure, Kind::ring);
+        const std::vector<FigureElement> rings = of_kind(d.figure, Kind::hoop);
         REQUIRE(rings.size() == 1);
         CHECK(rings[0].size == doctest::Approx(0.5));
         const Vector3d centre(0.3, 0.5, 0);
@@ -273,9 +273,9 @@ TEST_CASE("figure: a particle hangs on the centre of its circle, on its rope, or
     CHECK(has_line(swing, Kind::rope, {0, 0, 0}, {std::sin(1.5), -std::cos(1.5), 0}, ""));
 }
 
-TEST_CASE("figure: scenes with energies only have none, and all others have finite points") {
-    CHECK_FALSE(drawn("scenes/textbook/rolling_disc.toml").figure.obstacle.empty());
-    CHECK_FALSE(drawn("scenes/textbook/magnetic_field.toml").figure.obstacle.empty());
+TEST_CASE("figure: scenes with energies only and no scenery have none, and all others have finite points") {
+    CHECK_FALSE(drawn("scenes/stability/henon_heiles.toml").figure.obstacle.empty());
+    CHECK_FALSE(drawn("scenes/stability/gyroscopic.toml").figure.obstacle.empty());
     for (const char* folder : {"scenes/textbook", "scenes/gallery", "scenes/benchmark"})
         for (const std::string& file : scenes_in(folder)) {
             CAPTURE(file);

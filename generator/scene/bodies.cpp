@@ -100,6 +100,37 @@ std::optional<Inertia> read_inertia(const Table& table) {
     return inertia;
 }
 
+constexpr std::string_view from_shape = "from shape";
+
+bool is_from_shape(const Table& table) {
+    const Entry* const entry = table.find("inertia");
+    const auto* const text = entry ? entry->node->as_string() : nullptr;
+    return text != nullptr && text->get() == from_shape;
+}
+
+std::optional<Inertia> inertia_from_shape(const Table& table, const Expression& mass) {
+    if (!table.has("shape")) {
+        table.complain("inertia", say("{} is \"{}\", but there is no 'shape', such as shape = {{ disc = \"r\" }}",
+                                      table.what("inertia"), from_shape));
+        return {};
+    }
+    std::vector<Diagnostic> elsewhere;  // `read_looks` reports the mistakes of all shapes
+    const Reading quiet{table.reading().source, elsewhere, table.reading().has_joints, table.reading().names};
+    const std::optional<Shape> shape = read_shape(table.with(quiet));
+    if (!shape || !mass) return {};
+    if (table.has("about") || shape->axes || shape->turn)
+        table.complain(
+            table.has("about") ? "about" : "shape",
+            say("the inertia from a shape is about the mass centre, along the axes of the body; leave out "
+                "'{}'",
+                table.has("about") ? "about"
+                : shape->axes      ? "axes"
+                                   : "turn"));
+    Inertia inertia = inertia_of(*shape, mass);
+    inertia.place = place_of(*table.find("inertia")->node);
+    return inertia;
+}
+
 }  // namespace
 
 Rotation read_axis(const Reading& reading, const toml::node& axis) {
@@ -189,7 +220,7 @@ void read_body(Table table, Scene& scene) {
     if (auto frame = table.name("frame")) body.frame = std::move(*frame);
     body.position = read_position(table, "position", true);
     body.has_position = table.has("at") || table.has("position");
-    body.inertia = read_inertia(table);
+    body.inertia = is_from_shape(table) ? inertia_from_shape(table, body.mass) : read_inertia(table);
     body.about = table.name("about");
     if (body.about && !table.has("inertia"))
         table.complain("about", say("{} says about which point the inertia is, but there is no 'inertia'",

@@ -40,6 +40,28 @@ public:
         for (const Claim& claim : scene_.claims) check_claim(claim, {scene_, names_, quantities_, diagnostics_});
     }
 
+    void check(const Looks& looks) {
+        const Legal size{.subject = say("a size")},
+            place{.subject = say("a place"), .order = 0, .input_order = 0, .time = true};
+        for (const auto& [name, shape] : looks.shapes) check(shape, place);
+        for (const Scenery& one : looks.scenery) {
+            const auto is_pulley = [&](const std::string& name) {
+                return std::any_of(looks.scenery.begin(), looks.scenery.end(), [&](const Scenery& other) {
+                    return other.kind == Scenery::Kind::pulley && other.name && other.name->text == name;
+                });
+            };
+            for (const Scenery::Spot& spot : one.spots)
+                if (!spot.name)
+                    check(spot.position, place);
+                else if (!is_pulley(spot.name->text))
+                    quantities_.check_point(*spot.name);
+            check(one.shape, place);
+            quantities_.check(one.from, size);
+            quantities_.check(one.to, size);
+            if (one.over) check_coordinate(*one.over);
+        }
+    }
+
     /// After `check`.
     std::vector<Diagnostic> warnings() const {
         std::vector<Diagnostic> found = quantities_.warnings();
@@ -205,6 +227,13 @@ private:
             if (body.inertia->planar) quantities_.check(*body.inertia->planar, moment);
             for (const Expression& element : body.inertia->tensor) quantities_.check(element, moment);
         }
+    }
+
+    void check(const Shape& shape, const Legal& size) {
+        for (const Expression& one : shape.sizes) quantities_.check(one, size);
+        check(shape.middle, size);
+        quantities_.check(shape.turn, size);
+        if (shape.axes) quantities_.check_frame(*shape.axes);
     }
 
     void check_loads() {
@@ -420,10 +449,11 @@ private:
 
 }  // namespace
 
-std::vector<Diagnostic> check_scene(const Scene& scene, std::vector<Diagnostic>& warnings) {
+std::vector<Diagnostic> check_scene(const Scene& scene, const Looks& looks, std::vector<Diagnostic>& warnings) {
     std::vector<Diagnostic> diagnostics;
     Checker checker(scene, diagnostics);
     checker.check();
+    checker.check(looks);
     for (Diagnostic& one : checker.warnings()) warnings.push_back(std::move(one));
     return diagnostics;
 }

@@ -6,12 +6,12 @@
 
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "scene/looks.hpp"
 
 namespace alembert {
 
 /// The mistakes. What is not wrong but has no effect, or is hardly meant, is added to `warnings`.
-std::vector<Diagnostic> check_scene(const Scene& scene, std::vector<Diagnostic>& warnings);
+std::vector<Diagnostic> check_scene(const Scene& scene, const Looks& looks, std::vector<Diagnostic>& warnings);
 
 /// The same checks for the claims only, of a scene that has been read already.
 std::vector<Diagnostic> check_claims(const Scene& scene);

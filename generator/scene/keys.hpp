@@ -27,7 +27,7 @@ struct TableKeys {
     std::string_view table;
     Shape shape;
     /// Followed by empty entries; all are empty if the user chooses the names.
-    std::array<std::string_view, 15> known = {};
+    std::array<std::string_view, 32> known = {};
 
     constexpr std::span<const std::string_view> keys() const {
         return {known.data(), static_cast<std::size_t>(std::find(known.begin(), known.end(), "") - known.begin())};
@@ -48,11 +48,15 @@ inline constexpr TableKeys table_keys[] = {
     {"functions", TableKeys::Shape::one},
     {"frame", TableKeys::Shape::list, {"name", "parent", "rotate", "quaternion"}},
     {"point", TableKeys::Shape::list, {"name", "from", "offset", "axes"}},
-    {"particle", TableKeys::Shape::list, {"name", "mass", "at", "position", "from", "axes"}},
+    {"particle", TableKeys::Shape::list, {"name", "mass", "at", "position", "from", "axes", "shape"}},
     {"body",
      TableKeys::Shape::list,
-     {"name", "mass", "frame", "at", "position", "from", "axes", "inertia", "about"}},
+     {"name", "mass", "frame", "at", "position", "from", "axes", "inertia", "about", "shape"}},
     {"body.inertia", TableKeys::Shape::inner, {"xx", "yy", "zz", "xy", "yz", "zx"}},
+    {"body.shape",
+     TableKeys::Shape::inner,
+     {"box", "disc", "ring", "rod", "ball", "cylinder", "cone", "wedge", "polygon", "axis", "middle", "axes",
+      "turn"}},
     {"joint",
      TableKeys::Shape::list,
      {"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate", "axis",
@@ -77,6 +81,11 @@ inline constexpr TableKeys table_keys[] = {
      TableKeys::Shape::one,
      {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "regularize", "period"}},
     {"letters", TableKeys::Shape::one},
+    {"scenery",
+     TableKeys::Shape::list,
+     {"box",  "disc",  "ring", "rod",    "ball",   "cylinder", "cone",   "wedge",  "polygon", "line",
+      "wall", "floor", "rope", "spring", "damper", "support",  "dot",    "circle", "curve",   "pulley",
+      "name", "label", "at",   "turn",   "axis",   "axes",     "middle", "from",   "to",      "over"}},
     {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at", "near", "where"}},
 };
 

@@ -116,6 +116,7 @@ void refuse_unknown(const Reading& reading, const Entry& entry) {
     const std::span<const std::string_view> own = keys_of("");
     std::vector<std::string> known(own.begin(), own.end());
     for (const TableReader& section : sections()) known.emplace_back(section.name);
+    known.emplace_back("scenery");
     const bool is_table = entry.node->is_table() || entry.node->is_array_of_tables();
     std::string advice = advice_on_table(entry.key);
     if (advice.empty())
@@ -136,7 +137,8 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
             read_section(reading, *section, entry, scene);
         else if (entry.key == "gravity")
             scene.gravity = top.vector("gravity");
-        else if (entry.key != "title" && entry.key != "source" && entry.key != "notes" && entry.key != "allow")
+        else if (entry.key != "scenery" && entry.key != "title" && entry.key != "source" && entry.key != "notes" &&
+                 entry.key != "allow")
             refuse_unknown(reading, entry);
     }
     const Entry* const coordinates = top.find("coordinates");
@@ -234,7 +236,8 @@ Scene parse_scene(std::string text, std::string file) {
                       read_tables(reading, root, scene);
                       std::vector<Diagnostic> warnings = warnings_of(reading.diagnostics);
                       place_by_joints(scene, reading.diagnostics);
-                      std::vector<Diagnostic> more = check_scene(scene, warnings);
+                      const Looks looks = read_looks(reading, root);
+                      std::vector<Diagnostic> more = check_scene(scene, looks, warnings);
                       reading.diagnostics.insert(reading.diagnostics.end(), more.begin(), more.end());
                       scene.warnings = std::move(warnings);
                       if (reading.diagnostics.empty()) take_units(scene, reading.diagnostics);
@@ -256,6 +259,14 @@ Scene read_joints(const std::string& file) {
                 reading.complain(joint.coordinates[0].place,
                                  say("joint {} closes a loop and has no coordinates", in_quotes(joint.name.text)));
     });
+}
+
+Looks looks_of(const Scene& scene) {
+    Looks looks;
+    const bool has_own = !scene.own_text.empty();
+    filled(has_own ? scene.own_text : scene.text, has_own ? scene.own_file : scene.file,
+           [&](const Reading& reading, const toml::table& root, Scene&) { looks = read_looks(reading, root); });
+    return looks;
 }
 
 std::optional<double> value_of(const Expression& e) {

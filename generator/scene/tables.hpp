@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "scene/looks.hpp"
 #include "scene/value.hpp"
 
 namespace alembert {
@@ -29,5 +30,15 @@ Coordinate read_coordinate(const Reading& reading, const Entry& entry);
 std::vector<Rotation> read_rotations(const Table& table, std::string_view key);
 /// Reads the axis of a rotation; the angle stays null.
 Rotation read_axis(const Reading& reading, const toml::node& node);
+
+/// scenery.cpp: all shapes and all that is drawn beside them.
+Looks read_looks(const Reading& reading, const toml::table& root);
+/// shapes.cpp: the shape of a body or particle, `shape = { disc = "r" }`, if it has one.
+std::optional<Shape> read_shape(const Table& table);
+/// The shape that one of the keys of a table names; nothing after a mistake, which is reported.
+std::optional<Shape> read_solid(const Table& table);
+/// Where its middle and its axes are.
+void read_attitude(const Table& table, Shape& shape);
+bool names_solid(std::string_view key);
 
 }  // namespace alembert

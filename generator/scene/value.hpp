@@ -95,6 +95,13 @@ public:
     /// `'key' of [[table]]`, for messages.
     std::string what(std::string_view key) const;
 
+    /// The same table; mistakes are reported to `other`.
+    Table with(const Reading& other) const {
+        Table table = *this;
+        table.reading_ = &other;
+        return table;
+    }
+
     /// Adds the table's own name to its title, for the messages that follow.
     void entitle(const Name& name);
 

@@ -23,10 +23,20 @@ bool nearly(double a, double b, double part) {
 
 class BodyShapes {
 public:
-    BodyShapes(Sketch& sketch, const Asked& asked) : s_(sketch), asked_(asked) {}
+    BodyShapes(Sketch& sketch, const Asked& asked, LooksOfScene& looks)
+        : s_(sketch), asked_(asked), looks_(looks) {}
 
     void add(const Sketch::Frame3& body) {
         body_ = &body;
+        if (looks_.has_shape(body.name)) {
+            looks_.add_shape(body.name, body.mass);
+            const std::optional<double> radius = wheel_radius();
+            if (radius && s_.is_plane && nearly(*radius, s_.elements.back().size, 1e-6)) {
+                if (!looks_.has(Scenery::Kind::floor)) add_ground(*radius);
+                add_track({});
+            }
+            return;
+        }
         const std::vector<int> held = held_places();
         if (const std::optional<double> radius = wheel_radius()) {
             add_wheel(*radius);
@@ -387,19 +397,26 @@ private:
         const double all = I.sum();
         Vector3d half;
         for (int k = 0; k < 3; ++k) half[k] = std::sqrt(std::max(1.5 * (all - 2 * I[k]), 1e-4 * all));
-        element(Kind::box,
-                {centre(), spot_at({half[0], 0, 0}), spot_at({0, half[1], 0}), spot_at({0, 0, half[2]})});
+        FigureElement box{.kind = Kind::solid, .points = {}, .owner = body_->mass, .faces = faces_of_box()};
+        for (int corner = 0; corner < 8; ++corner) {
+            Vector3d place = half;
+            for (int k = 0; k < 3; ++k)
+                if ((corner >> k & 1) == 0) place[k] = -half[k];
+            box.points.push_back(spot_at(place));
+        }
+        s_.add(std::move(box));
     }
 
     Sketch& s_;
     const Asked& asked_;
+    LooksOfScene& looks_;
     const Sketch::Frame3* body_ = nullptr;
 };
 
 }  // namespace
 
-void add_bodies(Sketch& sketch, const Asked& asked) {
-    BodyShapes shapes(sketch, asked);
+void add_bodies(Sketch& sketch, const Asked& asked, LooksOfScene& looks) {
+    BodyShapes shapes(sketch, asked, looks);
     for (const Sketch::Frame3& body : sketch.bodies) shapes.add(body);
 }
 

@@ -54,17 +54,20 @@ Asked asked(Sketch& sketch) {
 }
 
 Drawing draw(const Scene& scene, const Mechanism& mechanism) {
-    if (!has_geometry(mechanism))
-        return {.obstacle = say("The scene gives energies and no geometry, so there is no figure of it.")};
     Sketch sketch(scene, mechanism);
+    LooksOfScene looks(sketch);
+    if (!has_geometry(mechanism) && !looks.has_scenery())
+        return {.obstacle = say("The scene gives energies and no geometry, so there is no figure of it.")};
     Asked tracks = asked(sketch);
     sketch.sample();
-    spread(sketch, tracks);
+    if (!looks.has_shapes()) spread(sketch, tracks);
     find_centres(sketch);
-    add_bodies(sketch, tracks);
-    add_particles(sketch);
+    add_bodies(sketch, tracks, looks);
+    add_particles(sketch, looks);
+    looks.add_scenery();
     add_constraints(sketch, tracks);
-    add_springs(sketch, tracks);
+    if (!looks.has(Scenery::Kind::floor) && !looks.has(Scenery::Kind::wall)) add_rests(sketch, tracks);
+    add_springs(sketch, tracks, looks);
     add_hinges(sketch);
     add_coordinates(sketch);
     add_loads(sketch, tracks);

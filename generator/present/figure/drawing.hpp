@@ -31,12 +31,11 @@ struct FigureElement {
         ring,     ///< centre, and two points of its rim in perpendicular directions: a wheel or a disc
         ball,     ///< centre, then points of its surface in perpendicular directions; with the label "cage" it is
                   ///< transparent
-        box,      ///< centre, and the centres of three faces: a body of which only the inertia is known
         pin,      ///< point: a hinge
         support,  ///< point: a hinge on the ground
         guide,    ///< the place of the block at the start, a point at distance one along its path, and the block
         floor,    ///< a point of it, points at distance one along it and out of the ground, and the point that
-                  ///< touches it; `size` is 1 if that always touches it
+                  ///< touches it; perhaps the end of what stands there; `size` is 1 if that always touches it
         wall,     ///< point, direction away from it: the fixed end of a spring
         spring,   ///< two ends
         coil,     ///< point: a spring along an angle
@@ -52,7 +51,12 @@ struct FigureElement {
         axes,     ///< origin, three directions of unit length
         angle,    ///< vertex, the side at which the coordinate is zero, and the present side
         length,   ///< foot, end, and the end if the length were larger by one; the last only for a fixed direction
-        mark,     ///< a point with only a name
+        mark,     ///< a point with only a name; in its middle if `size` is 1
+        hoop,     ///< centre, and two points of its rim in perpendicular directions: a ring without a face
+        pulley,   ///< the same, for a wheel over which a rope runs
+        ground,   ///< two ends of a line; the ground is to the right of who walks from the first to the second
+        line,     ///< points of a line that the scene asks for
+        solid,    ///< points, and in `faces` those of each face, counterclockwise from outside; convex
     };
     Kind kind;
     std::vector<int> points;
@@ -60,6 +64,7 @@ struct FigureElement {
     double size = 0;
     int coordinate = -1;  ///< for angles and lengths, the position in Mechanism::q
     int owner = -1;       ///< the body or particle to which it belongs, as a position in Mechanism::masses
+    std::vector<std::vector<int>> faces = {};  ///< of solids
 };
 
 /// The position of each point of a drawing.

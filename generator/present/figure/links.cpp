@@ -119,12 +119,14 @@ std::optional<std::pair<int, int>> ends_on(const std::vector<std::pair<int, int>
 
 }  // namespace
 
-void add_springs(Sketch& s, const Asked& asked) {
+void add_springs(Sketch& s, const Asked& asked, const LooksOfScene& looks) {
     const auto add = [&](const std::vector<Link>& links, const std::vector<int>& along, Kind kind,
                          const char* what) {
+        // What acts along an expression is where the scene draws it, if it draws any.
+        const bool is_drawn = looks.has(kind == Kind::spring ? Scenery::Kind::spring : Scenery::Kind::damper);
         for (std::size_t k = 0; k < links.size(); ++k) {
             const std::string label = links[k].constant.text.size() <= 8 ? links[k].constant.text : "";
-            if (!links[k].between && along[k] == -2) continue;
+            if (!links[k].between && (along[k] == -2 || is_drawn)) continue;
             if (links[k].between) {
                 const auto& [a, b] = *links[k].between;
                 s.add(

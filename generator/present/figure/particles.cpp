@@ -149,6 +149,23 @@ void add_curve(Sketch& s, const Sketch::Site& site) {
     s.add({.kind = Kind::curve, .points = points, .owner = site.mass});
 }
 
+/// The floor on which a shape slides whose centre moves on a line.
+void add_floor_below(Sketch& s, LooksOfScene& looks, const Sketch::Site& site, const Vector3d& way) {
+    Vector3d below = way.cross(Vector3d::Unit(s.normal));
+    const Vector3d down = s.down.norm() > 0 ? s.down : Vector3d(-Vector3d::Unit(s.normal == 2 ? 1 : 2));
+    if (below.dot(down) < 0) below = -below;
+    const int origin = s.place("O");
+    const double ahead = looks.reach(site.name, way), behind = looks.reach(site.name, -way);
+    Vector3d foot =
+        s.at(0, site.track) - s.at(0, origin) + looks.reach(site.name, below) * below + (ahead - behind) / 2 * way;
+    for (const auto& [track, by] : s.displaced)
+        if (track == site.track) foot += by;
+    s.add({.kind = Kind::floor,
+           .points = {s.spot(origin, -1, foot), s.spot(origin, -1, foot + way), s.spot(origin, -1, foot - below),
+                      s.spot(site.track), s.spot(origin, -1, foot + (ahead + behind) / 2 * way)},
+           .size = 1});
+}
+
 }  // namespace
 
 void find_centres(Sketch& s) {
@@ -168,7 +185,7 @@ void find_centres(Sketch& s) {
     s.sample();
 }
 
-void add_particles(Sketch& s) {
+void add_particles(Sketch& s, LooksOfScene& looks) {
     for (const Sketch::Site& site : s.sites) {
         if (!is_particle(s, site)) continue;
         const double mass = s.masses[site.mass];
@@ -178,16 +195,22 @@ void add_particles(Sketch& s) {
         const bool is_free = !is_part_of_a_body(s, site.track);
         const std::vector<const Sketch::Site*> about =
             is_free ? pivots(s, site) : std::vector<const Sketch::Site*>();
-        for (const Sketch::Site* pivot : about)
+        for (const Sketch::Site* pivot : about) {
+            if (looks.has_circle(pivot->track, site.track)) continue;
             s.add({.kind = Kind::rod,
                    .points = {s.spot(pivot->track), s.spot(site.track)},
                    .label = s.name_of_length(pivot->track, site.track),
                    .owner = site.mass});
+        }
         const std::optional<Vector3d> way = straight_way(s, site.track);
         if (is_free && about.empty() && !way && s.displaced.empty()) add_curve(s, site);
         const bool slides = s.is_plane && way && std::abs(way->dot(s.down)) < 0.99;
         const int here = s.spot(site.track);
-        if (slides) {
+        if (looks.has_shape(site.name)) {
+            const int middle = looks.add_shape(site.name, site.mass);
+            if (slides && !looks.has(Scenery::Kind::floor)) add_floor_below(s, looks, site, *way);
+            s.add({.kind = Kind::mark, .points = {middle}, .label = label, .size = 1, .owner = site.mass});
+        } else if (slides) {
             const int along = s.spot(site.track, -1, *way);
             Vector3d start = s.at(0, site.track) - s.at(0, s.place("O"));
             for (const auto& [track, by] : s.displaced)

@@ -4,7 +4,10 @@
 /// The parts of a figure; each function adds one of them to the sketch. Only draw.cpp uses these functions, in
 /// this order, because later parts depend on the elements of earlier ones.
 
+#include <algorithm>
+
 #include "present/figure/sketch.hpp"
+#include "scene/looks.hpp"
 
 namespace alembert {
 
@@ -20,6 +23,56 @@ struct Asked {
 };
 Asked asked(Sketch& sketch);
 
+/// The faces of a box whose corner k has its i-th coordinate positive if bit i of k is set.
+std::vector<std::vector<int>> faces_of_box();
+
+/// What the scene says of its looks, as expressions; made before the sketch is sampled.
+class LooksOfScene {
+public:
+    explicit LooksOfScene(Sketch& sketch);
+    /// Whether the scene says what this body or particle looks like.
+    bool has_shape(const std::string& name) const { return looks_.shape_of(name) != nullptr; }
+    /// Adds the shape that the scene gives a body or particle; its middle as a spot.
+    int add_shape(const std::string& name, int owner);
+    /// How far the shape reaches from its place in a direction, at the start.
+    double reach(const std::string& name, const Eigen::Vector3d& direction);
+    bool has_shapes() const { return !looks_.shapes.empty(); }
+    bool has(Scenery::Kind kind) const {
+        return std::any_of(looks_.scenery.begin(), looks_.scenery.end(),
+                           [&](const Scenery& one) { return one.kind == kind; });
+    }
+    bool has_scenery() const { return !looks_.scenery.empty(); }
+    void add_scenery();
+    /// Is there a circle about that track through the other?
+    bool has_circle(int middle, int through) const;
+
+private:
+    struct Axes {
+        Vector3 middle;
+        std::array<Vector3, 3> axis;
+    };
+    Axes axes_of(const Shape& shape, const Vector3& place, const std::string& frame);
+    Axes axes_of_mass(const std::string& name, const Shape& shape);
+    Vector3 place_of(const Scenery::Spot& spot);
+    Vector3 in(const Axes& axes, const GiNaC::ex& x, const GiNaC::ex& y, const GiNaC::ex& z);
+    int spot(const Vector3& place) { return s_.spot(s_.track(place)); }
+    void add_solid(const Shape& shape, const Axes& axes, int owner);
+    void add_flat(const Shape& shape, const Axes& axes, int owner);
+    void add_round(FigureElement::Kind kind, const GiNaC::ex& radius, char axis, const Axes& axes, int owner);
+    void add_box(const Shape& shape, const Axes& axes, int owner);
+    void add_turned(const Shape& shape, const Axes& axes, int owner);
+    void add_rope(const Scenery& rope);
+    void add_curve(const Scenery& curve);
+    void add_one(const Scenery& scenery, const std::vector<int>& tracks);
+    std::array<int, 3> order(char axis) const;
+    GiNaC::ex size(const Shape& shape, std::size_t k) { return s_.formulas.value(shape.sizes[k]); }
+
+    Sketch& s_;
+    Looks looks_;
+    std::vector<std::vector<int>> tracks_;  ///< of the places of each piece of scenery
+    std::vector<int> radii_;                ///< scalars, of circles and pulleys; else -1
+};
+
 /// Masses that move on one line would cover each other: they are drawn apart, with the springs between them and
 /// the walls. For other scenes it does nothing. Springs and dampers that it has drawn are marked in `asked`.
 void spread(Sketch& sketch, Asked& asked);
@@ -27,14 +80,16 @@ void spread(Sketch& sketch, Asked& asked);
 /// Adds the points about which particles turn as sites, where the scene has no name for them.
 void find_centres(Sketch& sketch);
 
-void add_bodies(Sketch& sketch, const Asked& asked);
-void add_particles(Sketch& sketch);
+void add_bodies(Sketch& sketch, const Asked& asked, LooksOfScene& looks);
+void add_particles(Sketch& sketch, LooksOfScene& looks);
 /// The circle on which a wheel rolls, if the wheel's centre `wheel` keeps its distance from the fixed point
 /// `middle` and the radius of that circle is a parameter, also where the wheel's radius is `changed` because all
 /// parameters are. Returns whether it was added.
 bool add_round_ground(Sketch& sketch, int middle, int wheel, std::optional<double> changed = {});
 void add_constraints(Sketch& sketch, const Asked& asked);
-void add_springs(Sketch& sketch, const Asked& asked);
+/// Floors and walls that an end of a bar touches, by a contact or a constraint that is its height over them.
+void add_rests(Sketch& sketch, const Asked& asked);
+void add_springs(Sketch& sketch, const Asked& asked, const LooksOfScene& looks);
 void add_hinges(Sketch& sketch);
 void add_coordinates(Sketch& sketch);
 void add_loads(Sketch& sketch, const Asked& asked);

@@ -149,13 +149,15 @@ void Sketch::find_plane() {
     std::array<bool, 3> flat{true, true, true};
     scale = 0;
     for (int s = 0; s < states; ++s) {
-        for (const Site& site : sites) {
-            if (!is_finite(site.track)) continue;
+        const auto hold = [&](int track) {
+            if (!is_finite(track)) return;
             for (int k = 0; k < 3; ++k) {
-                scale = std::max(scale, std::abs(at(s, site.track)[k]));
-                if (std::abs(at(s, site.track)[k]) > 1e-9) flat[k] = false;
+                scale = std::max(scale, std::abs(at(s, track)[k]));
+                if (std::abs(at(s, track)[k]) > 1e-9) flat[k] = false;
             }
-        }
+        };
+        for (const Site& site : sites) hold(site.track);
+        for (const int track : also) hold(track);
         for (const Frame3& body : bodies)
             for (int k = 0; k < 3; ++k)
                 if (std::abs(at(s, body.axes[k])[k] - 1) > 1e-9) flat[k] = false;

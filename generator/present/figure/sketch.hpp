@@ -43,6 +43,11 @@ public:
     /// Adds a scalar, as the first component of a track.
     int scalar(const GiNaC::ex& value) { return track({value, 0, 0}); }
     void sample();
+    /// The value of an expression at the initial state.
+    double number(const GiNaC::ex& value) { return formulas.places().numbers_at_start({value})[0]; }
+    Eigen::Vector3d numbers(const Vector3& value) {
+        return {number(value[0]), number(value[1]), number(value[2])};
+    }
 
     const Eigen::Vector3d& at(int state, int track) const { return numbers_[state][track]; }
     bool is_finite(int track) const;
@@ -77,6 +82,7 @@ public:
     int gravity() const { return gravity_; }
     /// An index into the poses of the drawing for a track.
     int spot(int track, int zeroed = -1, const Eigen::Vector3d& own_shift = {0, 0, 0});
+    int track_of(int spot) const { return spot_tracks_[static_cast<std::size_t>(spot)]; }
     Drawing finished();
 
     const Scene& scene;
@@ -84,6 +90,7 @@ public:
     Formulas formulas;
     Start start;
     std::vector<Site> sites;
+    std::vector<int> also;  ///< further tracks that say whether the figure is plane, and its size
     struct Frame3 {
         std::array<int, 3> axes;
         int centre;

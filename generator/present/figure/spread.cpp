@@ -39,7 +39,10 @@ public:
             for (int state = 0; state < Sketch::states; ++state)
                 reach = std::max(reach, std::abs(s_.at(state, track).dot(along_)));
         space_ = 5 * std::max(reach, 1e-9);
-        if (along_.sum() < 0) along_ = -along_;
+        if (s_.down.norm() > 0 && std::abs(along_.dot(s_.down)) > 0.99)
+            along_ = s_.down;  // they hang
+        else if (along_.sum() < 0)
+            along_ = -along_;
         for (std::size_t k = 0; k < s_.free_track.size(); ++k)
             s_.displaced.emplace_back(s_.free_track[k], (static_cast<double>(k) + 1) * space_ * along_);
     }
@@ -89,7 +92,11 @@ void spread(Sketch& s, Asked& asked) {
     if (!s.is_plane || s.free_track.empty() || !s.bodies.empty() || !s.scene.joints.empty()) return;
     const std::optional<Vector3d> along = one_line(s);
     if (!along) return;
-    if (std::abs(along->dot(s.down)) > 0.99) {
+    const auto is_a_chain = [&](const std::vector<Link>& links) {
+        return std::all_of(links.begin(), links.end(), [](const Link& link) { return !link.between; });
+    };
+    const bool is_chain = !s.scene.springs.empty() && is_a_chain(s.scene.springs) && is_a_chain(s.scene.dampers);
+    if (std::abs(along->dot(s.down)) > 0.99 && !is_chain) {
         if (s.free_track.size() < 2) return;
         const Vector3d beside = along->cross(Vector3d::Unit(s.normal)).cwiseAbs();
         const double space = 0.5 * std::max(s.scale, 1e-9);
@@ -98,10 +105,7 @@ void spread(Sketch& s, Asked& asked) {
         s.notes.emplace_back(say("All masses move on one line; they are drawn side by side."));
         return;
     }
-    const auto is_a_chain = [&](const std::vector<Link>& links) {
-        return std::all_of(links.begin(), links.end(), [](const Link& link) { return !link.between; });
-    };
-    if (s.scene.springs.empty() || !is_a_chain(s.scene.springs) || !is_a_chain(s.scene.dampers)) return;
+    if (!is_chain) return;
     Chain chain(s, *along);
     const auto add = [&](const std::vector<Link>& links, std::vector<int>& values, Kind kind) {
         for (std::size_t k = 0; k < links.size(); ++k)

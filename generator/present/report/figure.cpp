@@ -24,9 +24,11 @@ std::string description_of(const Drawing& drawing) {
                 return to_say("rod without mass");
             case Kind::bar:
             case Kind::plate:
-            case Kind::box:
+            case Kind::solid:
                 return to_say("body");
             case Kind::ring:
+            case Kind::hoop:
+            case Kind::pulley:
                 return to_say("disc or wheel");
             case Kind::ball:
                 return to_say("ball");

@@ -72,7 +72,7 @@ std::vector<LetterInk> ink_of(const FigureShapes& figure, const FigureScreen& sc
             continue;
         }
         const double room = shape.style == "bar-edge" ? 4.5 : 0.8;
-        const bool is_closed = shape.closed || shape.kind == Kind::ring || shape.kind == Kind::box;
+        const bool is_closed = shape.closed || shape.kind == Kind::ring;
         const std::vector<FigureScreen::Place> line = screen.outline(shape);
         std::size_t first = 0;
         const auto draw = [&](const Vector2d& a, const Vector2d& b) {

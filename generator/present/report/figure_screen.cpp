@@ -73,7 +73,18 @@ double FigureScreen::radius_of(const FigureShape& circle) const {
     return circle.in_scene ? circle.size * f_.scale : circle.size;
 }
 
+std::optional<double> FigureScreen::brightness(const FigureShape& face) const {
+    const auto at = [&](std::size_t k) { return pose_[static_cast<std::size_t>(face.vertices[k].a)]; };
+    Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
+    if (!(normal.norm() > 0)) return {};
+    normal.normalize();
+    if (!(normal.dot(f_.toward) > 0)) return {};
+    const Vector3d light = (0.75 * f_.toward + 0.6 * f_.up - 0.28 * f_.right).normalized();
+    return 0.55 + 0.45 * std::max(0.0, normal.dot(light));
+}
+
 bool FigureScreen::is_hidden(const FigureShape& shape) const {
+    if (shape.kind == Kind::face && !brightness(shape)) return true;
     if (shape.vector >= 0 && !(pose_[shape.vector].norm() > 0)) return true;
     if (shape.inside > 0)
         for (const FigureVertex& v : shape.vertices) {
@@ -99,6 +110,7 @@ std::vector<FigureScreen::Place> FigureScreen::outline(const FigureShape& shape)
     const auto to = [&](bool begins, const Vector2d& p) { line.push_back({begins || line.empty(), p}); };
     switch (shape.kind) {
         case Kind::path:
+        case Kind::face:
             for (const FigureVertex& v : shape.vertices) to(v.begins, place(v, shape));
             return line;
         case Kind::ring: {
@@ -117,23 +129,6 @@ std::vector<FigureScreen::Place> FigureScreen::outline(const FigureShape& shape)
                 const double angle = start + sweep * k / arc_steps;
                 to(false, c + shape.size * Vector2d(std::cos(angle), std::sin(angle)));
             }
-            return line;
-        }
-        case Kind::box: {
-            const auto at = [&](int k) { return pose_[shape.vertices[k].a]; };
-            const Vector3d c = at(0);
-            const std::array<Vector3d, 3> half{at(1) - c, at(2) - c, at(3) - c};
-            const Vector2d middle = place(shape.vertices[0].a);
-            for (int k = 0; k < 3; ++k)
-                for (const double side : {-1.0, 1.0}) {
-                    if (side * half[k].dot(f_.toward) <= 0) continue;
-                    const Vector2d face = middle + direction(side * half[k]);
-                    const Vector2d a = direction(half[(k + 1) % 3]), b = direction(half[(k + 2) % 3]);
-                    to(true, face + a + b);
-                    to(false, face + a - b);
-                    to(false, face - a - b);
-                    to(false, face - a + b);
-                }
             return line;
         }
         default:

@@ -8,6 +8,7 @@
 ///     screen.outline(shapes.shapes[0]);        // the points of its lines
 ///     place_letters(shapes, pose, q);          // moves letters that cover each other or strokes
 
+#include <optional>
 #include <utility>
 
 #include "present/report/figure_shapes.hpp"
@@ -25,13 +26,16 @@ public:
     };
 
     Eigen::Vector2d place(const FigureVertex& vertex, const FigureShape& shape) const;
-    /// The points of a path, ring, arc or box; nothing for circles and texts. Rings, boxes and closed paths are to
+    /// The points of a path, ring, arc or face; nothing for circles and texts. Rings and closed paths are to
     /// be closed.
     std::vector<Place> outline(const FigureShape& shape) const;
     /// The middle of a text, without its `nudge`.
     Eigen::Vector2d middle_of_text(const FigureShape& shape) const;
     double radius_of(const FigureShape& circle) const;
     bool is_hidden(const FigureShape& shape) const;
+    /// How much of the light a face returns: 1 where it looks to the light, which comes from above the viewer.
+    /// Nothing if the face is turned away.
+    std::optional<double> brightness(const FigureShape& face) const;
 
 private:
     Eigen::Vector2d direction(const Eigen::Vector3d& v) const;

@@ -24,6 +24,9 @@ int layer_of(Element kind) {
         case Element::guide:
         case Element::curve:
         case Element::wall:
+        case Element::ground:
+        case Element::line:
+        case Element::hoop:
         case Element::axes:
         case Element::gravity:
         case Element::support:
@@ -31,6 +34,7 @@ int layer_of(Element kind) {
         case Element::pin:
         case Element::disc:
             return 2;
+        case Element::mark:
         case Element::angle:
         case Element::length:
         case Element::force:
@@ -139,6 +143,17 @@ FigureShape& add_path(StrokeBoard& board, const char* style, const FigureElement
     return board.put(Kind::path, style, way);
 }
 
+void add_faces(StrokeBoard& board, const FigureElement& e) {
+    for (const std::vector<int>& face : e.faces) {
+        std::vector<FigureVertex> corners;
+        for (const int k : face) corners.push_back(vertex_at(e.points[static_cast<std::size_t>(k)]));
+        FigureShape& shape =
+            board.put(Kind::face, face.size() == 4 && e.faces.size() > 8 ? "facet" : "face", corners);
+        if (face.size() == 3) shape.style = "facet";
+        shape.closed = true;
+    }
+}
+
 void add(StrokeBoard& board, const FigureElement& e, double largest) {
     const std::vector<int>& p = e.points;
     switch (e.kind) {
@@ -156,9 +171,6 @@ void add(StrokeBoard& board, const FigureElement& e, double largest) {
             return add_ring(board, e);
         case Element::ball:
             return add_ball(board, e);
-        case Element::box:
-            board.put(Kind::box, "box", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2]), vertex_at(p[3])});
-            return;
         case Element::pin:
             board.put(Kind::circle, "pin", {vertex_at(p[0])}).size = 3.6;
             return;
@@ -201,8 +213,40 @@ void add(StrokeBoard& board, const FigureElement& e, double largest) {
         case Element::length:
             return add_length(board, e);
         case Element::mark:
-            return board.text("name", vertex_at(p[0], 8, -8), e.label);
+            return board.text("name", e.size > 0 ? vertex_at(p[0]) : vertex_at(p[0], 8, -8), e.label);
+        case Element::hoop:
+            board.put(Kind::ring, "rod", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2])});
+            return;
+        case Element::pulley:
+            board.put(Kind::ring, "ring", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2])});
+            board.put(Kind::circle, "pin", {vertex_at(p[0])}).size = 2.5;
+            return;
+        case Element::ground:
+            return add_ground(board, e);
+        case Element::line:
+            add_path(board, "string", e);
+            return;
+        case Element::solid:
+            return add_faces(board, e);
     }
+}
+
+/// The elements of a layer; in space, what is farther away comes first.
+std::vector<const FigureElement*> from_back(const StrokeBoard& board, int layer) {
+    std::vector<std::pair<double, const FigureElement*>> found;
+    for (const FigureElement& e : board.drawing.elements) {
+        if (layer_of(e.kind) != layer) continue;
+        double depth = 0;
+        if (!board.drawing.is_plane && layer == 1)
+            for (const int k : e.points)
+                depth += board.first()[k].dot(board.shapes.toward) / static_cast<double>(e.points.size());
+        found.emplace_back(depth, &e);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
+    std::vector<const FigureElement*> elements;
+    for (const auto& [depth, e] : found) elements.push_back(e);
+    return elements;
 }
 
 }  // namespace
@@ -214,8 +258,7 @@ FigureShapes shapes_of(const Drawing& drawing, const std::vector<Pose>& poses,
     for (const FigureElement& e : drawing.elements)
         largest = std::max(largest, e.kind == Element::disc || e.kind == Element::block ? e.size : 0.0);
     for (const int layer : {0, 1, 2, 3})
-        for (const FigureElement& e : drawing.elements)
-            if (layer_of(e.kind) == layer) add(board, e, largest);
+        for (const FigureElement* e : from_back(board, layer)) add(board, *e, largest);
     place_letters(board.shapes, poses.front(), q.front());
     return std::move(board.shapes);
 }

@@ -30,9 +30,9 @@ struct FigureShape {
         circle,      ///< about the first vertex
         ring,        ///< about vertex 0, through vertices 1 and 2
         arc,         ///< about vertex 0, from the side of vertex 1 to that of vertex 2, with radius `size`
-        box,         ///< about vertex 0, with half the edges to vertices 1, 2, 3
         text,        ///< at the first vertex
         angle_text,  ///< text in the middle of such an arc
+        face,  ///< of a solid, counterclockwise from outside: seen from there, and darker where it turns away
     };
     Kind kind = Kind::path;
     std::string style;  ///< the name of its style class

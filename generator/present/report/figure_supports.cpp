@@ -42,7 +42,12 @@ void add_guide(StrokeBoard& board, const FigureElement& e) {
 
 void add_floor(StrokeBoard& board, const FigureElement& e) {
     const std::vector<int>& p = e.points;
-    const auto [low, high] = board.reach(p[0], p[1], p[3]);
+    auto [low, high] = board.reach(p[0], p[1], p[3]);
+    if (p.size() > 4) {
+        const double half = (board.first()[p[4]] - board.first()[p[0]]).norm();
+        low = std::min(low, -half);
+        high = std::max(high, half);
+    }
     const Eigen::Vector2d way = board.screen(board.first()[p[1]] - board.first()[p[0]]),
                           out = board.screen(board.first()[p[2]] - board.first()[p[0]]);
     const double side = -way[1] * out[0] + way[0] * out[1] > 0 ? -1 : 1;
@@ -53,13 +58,20 @@ void add_floor(StrokeBoard& board, const FigureElement& e) {
                 std::clamp(static_cast<int>(((high - low) * board.shapes.scale + 140) / 12), 4, 60));
 }
 
+void add_ground(StrokeBoard& board, const FigureElement& e) {
+    const int a = e.points[0], b = e.points[1];
+    board.put(FigureShape::Kind::path, "ground", {vertex_between(a, b, 0, 0, 0, true), vertex_between(a, b, 1)});
+    const double length = board.screen(board.first()[b] - board.first()[a]).norm();
+    board.hatch(vertex_between(a, b, 0, 0, 4, true), vertex_between(a, b, 1), 1,
+                std::clamp(static_cast<int>(length / 12), 2, 60));
+}
+
 void add_wall(StrokeBoard& board, const FigureElement& e) {
-    const Eigen::Vector2d away = board.screen(board.first()[e.points[1]] - board.first()[e.points[0]]);
-    const double side = away[0] >= 0 ? -1 : 1;
-    std::vector<FigureVertex> wall{vertex_at(e.points[0], 0, -26, true), vertex_at(e.points[0], 0, 26)};
+    const int p = e.points[0], away = e.points[1];
+    std::vector<FigureVertex> wall{vertex_between(p, away, 0, -26, 0, true), vertex_between(p, away, 0, 26)};
     for (int k = 0; k <= 4; ++k) {
-        wall.push_back(vertex_at(e.points[0], 0, -26.0 + 13 * k, true));
-        wall.push_back(vertex_at(e.points[0], 8 * side, -19.0 + 13 * k));
+        wall.push_back(vertex_between(p, away, 0, -26.0 + 13 * k, 0, true));
+        wall.push_back(vertex_between(p, away, 0, -19.0 + 13 * k, -8));
     }
     board.put(FigureShape::Kind::path, "hatch", wall);
 }

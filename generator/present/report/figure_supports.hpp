@@ -10,6 +10,8 @@ namespace alembert {
 void add_support(StrokeBoard& board, const FigureElement& e);
 void add_guide(StrokeBoard& board, const FigureElement& e);
 void add_floor(StrokeBoard& board, const FigureElement& e);
+/// A wall or a floor between two places.
+void add_ground(StrokeBoard& board, const FigureElement& e);
 void add_wall(StrokeBoard& board, const FigureElement& e);
 
 }  // namespace alembert

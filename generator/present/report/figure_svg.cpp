@@ -26,10 +26,15 @@ std::string number(double x) {
 
 std::string path_of(const FigureScreen& screen, const FigureShape& shape) {
     std::string d;
-    const auto closing = [&](bool now) { return shape.kind == Kind::box && now && !d.empty() ? "Z" : ""; };
     for (const auto& [begins, p] : screen.outline(shape))
-        d += fmt::format("{}{}{} {}", closing(begins), begins ? "M" : "L", number(p[0]), number(p[1]));
-    return d + (shape.closed || shape.kind == Kind::ring ? "Z" : closing(true));
+        d += fmt::format("{}{} {}", begins ? "M" : "L", number(p[0]), number(p[1]));
+    return d + (shape.closed || shape.kind == Kind::ring ? "Z" : "");
+}
+
+/// The grey of a face; a facet of a round side has no edges.
+std::string shade_of(const FigureShape& face, double brightness) {
+    const std::string grey = fmt::format("rgb({0},{0},{0})", std::lround(245 * brightness));
+    return face.style == "facet" ? fmt::format("fill:{0};stroke:{0}", grey) : fmt::format("fill:{}", grey);
 }
 
 std::string element_of(const FigureScreen& screen, const FigureShape& shape) {
@@ -44,7 +49,12 @@ std::string element_of(const FigureScreen& screen, const FigureShape& shape) {
         return fmt::format("<circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", shape.style, number(c[0]),
                            number(c[1]), number(screen.radius_of(shape)));
     }
-    return fmt::format("<path class=\"{}\" d=\"{}\"{}/>\n", shape.style, path_of(screen, shape), visibility);
+    std::string shade;
+    if (shape.kind == Kind::face)
+        if (const std::optional<double> brightness = screen.brightness(shape))
+            shade = fmt::format(" style=\"{}\"", shade_of(shape, *brightness));
+    return fmt::format("<path class=\"{}\" d=\"{}\"{}{}/>\n", shape.style, path_of(screen, shape), visibility,
+                       shade);
 }
 
 /// Black on white, as on paper. The page has the same classes in its own colours.
@@ -55,7 +65,7 @@ constexpr const char* paper = R"css(
 .figure .sub{font-size:11px}
 .figure .upright{font-style:normal}
 .figure .mass,.figure .dot{fill:#000}
-.figure .body,.figure .plate,.figure .box{fill:#e8e8e8}
+.figure .body,.figure .plate{fill:#e8e8e8}
 .figure .ring{fill:#e8e8e8;fill-opacity:.55}
 .figure .bar-edge{stroke-width:9}
 .figure .bar{stroke:#e8e8e8;stroke-width:6.6}
@@ -106,7 +116,7 @@ Json as_json(const FigureShapes& f) {
               {"centre", vector(f.centre)}, {"right", vector(f.right)}, {"up", vector(f.up)},
               {"toward", vector(f.toward)}, {"plane", f.is_plane},      {"follows", f.follows},
               {"followed", f.followed},     {"shapes", Json::array()}};
-    constexpr std::array names{"path", "circle", "ring", "arc", "box", "text", "angle_text"};
+    constexpr std::array names{"path", "circle", "ring", "arc", "text", "angle_text", "face"};
     for (const FigureShape& shape : f.shapes) {
         Json one{{"kind", names[static_cast<std::size_t>(shape.kind)]}};
         one["v"] = Json::array();

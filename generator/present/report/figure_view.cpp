@@ -65,7 +65,7 @@ private:
             const bool first_alone = e.kind == Element::block || e.kind == Element::force ||
                                      e.kind == Element::impulse || e.kind == Element::torque;
             if (e.kind == Element::gravity || e.kind == Element::axes || e.kind == Element::angle ||
-                e.kind == Element::guide || e.kind == Element::box || e.kind == Element::wall)
+                e.kind == Element::guide || e.kind == Element::wall)
                 continue;
             if (e.kind == Element::floor) {
                 if (with_lengths) points.push_back(e.points[3]);
@@ -99,7 +99,7 @@ private:
             extent.hold({p.dot(v_.right), p.dot(v_.up), p.dot(v_.toward)});
         }
         for (const FigureElement& e : d_.elements)
-            if (e.kind == Element::ring || e.kind == Element::ball || e.kind == Element::box) {
+            if (e.kind == Element::ring || e.kind == Element::ball || e.kind == Element::hoop || e.kind == Element::pulley) {
                 const Vector3d p = pose[e.points[0]] - origin;
                 const Vector3d c(p.dot(v_.right), p.dot(v_.up), p.dot(v_.toward));
                 double size = e.size;
@@ -126,7 +126,7 @@ private:
             return e.kind == Element::floor && e.size == 0;
         });
         v_.followed = d_.traced;
-        if (poses_.size() > 1 && own > 0 && whole.size().norm() > 4 * own && !has_floor) {
+        if (poses_.size() > 1 && own > 0 && !v_.followed.empty() && whole.size().norm() > 4 * own && !has_floor) {
             v_.follows = true;
             points = near;
             whole = {};
