@@ -407,7 +407,7 @@ if (play) {
     setPlaying(!playing);
   });
   slider.addEventListener("input", () => setTime(start + slider.value / 1000 * (end - start)));
-  trace.addEventListener("change", () => setTime(now));
+  if (trace) trace.addEventListener("change", () => setTime(now));
 }
 
 // The view of a figure in space --------------------------------------------------------------------------------------

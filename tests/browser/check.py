@@ -42,10 +42,11 @@ def faults_of_animation(browser):
     if not browser.run_until_told(RUNS, time, 300):
         yield "the animation stands still"
     browser.click("#play")
-    if not browser.run("return document.getElementById('trace').checked"):
-        browser.click("#trace")
-    if not browser.run("return document.querySelector('.trace').getAttribute('d')"):
-        yield "there is no trace"
+    if has(browser, "#trace"):
+        if not browser.run("return document.getElementById('trace').checked"):
+            browser.click("#trace")
+        if not browser.run("return document.querySelector('.trace').getAttribute('d')"):
+            yield "there is no trace"
     if not has(browser, ".plot .cursor"):
         yield "plots have no cursor"
 

@@ -25,6 +25,14 @@ std::vector<BarEnd> ends_of_bars(const Sketch& s) {
     return ends;
 }
 
+/// Does something of the scene stand at this end, such as the slider of a crank?
+bool is_taken(const Sketch& s, const BarEnd& end) {
+    return std::any_of(s.sites.begin(), s.sites.end(), [&](const Sketch::Site& site) {
+        return site.of != Sketch::Site::Of::origin &&
+               (s.at(0, site.track) - s.at(0, end.track)).norm() <= 1e-6 * s.scale;
+    });
+}
+
 /// Adds the line that the end touches, if the value is its height over it.
 bool add_rest(Sketch& s, const BarEnd& end, int value, bool is_gap, const std::string& name) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -60,7 +68,7 @@ void add_rests(Sketch& s, const Asked& asked) {
     const auto add = [&](int value, bool is_gap, const std::string& name) {
         if (value < 0 || is_drawn(name)) return;
         for (const BarEnd& end : ends)
-            if (add_rest(s, end, value, is_gap, name)) return;
+            if (!is_taken(s, end) && add_rest(s, end, value, is_gap, name)) return;
     };
     for (std::size_t k = 0; k < asked.gaps.size(); ++k) add(asked.gaps[k], true, s.m.unilateral[k].gap.name);
     for (std::size_t k = 0; k < asked.constraints.size(); ++k)

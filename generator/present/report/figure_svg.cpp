@@ -37,7 +37,8 @@ std::string shade_of(const FigureShape& face, double brightness) {
     return face.style == "facet" ? fmt::format("fill:{0};stroke:{0}", grey) : fmt::format("fill:{}", grey);
 }
 
-std::string element_of(const FigureScreen& screen, const FigureShape& shape) {
+/// A page allows no styles in its elements; there the script shades the faces.
+std::string element_of(const FigureScreen& screen, const FigureShape& shape, bool for_page) {
     const char* const visibility = screen.is_hidden(shape) ? " visibility=\"hidden\"" : "";
     if (is_text(shape)) {
         const Vector2d p = screen.middle_of_text(shape) + shape.nudge;
@@ -50,7 +51,7 @@ std::string element_of(const FigureScreen& screen, const FigureShape& shape) {
                            number(c[1]), number(screen.radius_of(shape)));
     }
     std::string shade;
-    if (shape.kind == Kind::face)
+    if (shape.kind == Kind::face && !for_page)
         if (const std::optional<double> brightness = screen.brightness(shape))
             shade = fmt::format(" style=\"{}\"", shade_of(shape, *brightness));
     return fmt::format("<path class=\"{}\" d=\"{}\"{}{}/>\n", shape.style, path_of(screen, shape), visibility,
@@ -106,7 +107,7 @@ std::string as_svg(const FigureShapes& figure, const Pose& pose, const std::vect
         svg += fmt::format("<style>{}</style>\n<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n", paper,
                            number(figure.width), number(figure.height));
     svg += "<g class=\"shapes\">\n";
-    for (const FigureShape& shape : figure.shapes) svg += element_of(screen, shape);
+    for (const FigureShape& shape : figure.shapes) svg += element_of(screen, shape, for_page);
     return svg + "</g>\n</svg>\n";
 }
 

@@ -99,7 +99,8 @@ private:
             extent.hold({p.dot(v_.right), p.dot(v_.up), p.dot(v_.toward)});
         }
         for (const FigureElement& e : d_.elements)
-            if (e.kind == Element::ring || e.kind == Element::ball || e.kind == Element::hoop || e.kind == Element::pulley) {
+            if (e.kind == Element::ring || e.kind == Element::ball || e.kind == Element::hoop ||
+                e.kind == Element::pulley) {
                 const Vector3d p = pose[e.points[0]] - origin;
                 const Vector3d c(p.dot(v_.right), p.dot(v_.up), p.dot(v_.toward));
                 double size = e.size;

@@ -35,7 +35,7 @@ Json frames_of(const FigureShapes& shapes, const std::vector<Pose>& poses) {
     return frames;
 }
 
-void add_controls(PageParts& page, const FigureShapes& shapes, double duration) {
+void add_controls(PageParts& page, const FigureShapes& shapes, double duration, bool traces) {
     static constexpr std::array speeds{0.001, 0.01, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 100.0};
     const auto* const best = std::min_element(speeds.begin(), speeds.end(), [&](double a, double b) {
         const auto badness = [&](double s) { return std::abs(std::log(duration / s / 8)) - (s == 1 ? 1.2 : 0); };
@@ -49,7 +49,8 @@ void add_controls(PageParts& page, const FigureShapes& shapes, double duration) 
         say("Animation"), say("Play"), say("Time"), say("Speed"));
     for (const double s : speeds)
         put(page.body, "<option value=\"{0}\"{1}>{0}×</option>", s, s == *best ? " selected" : "");
-    put(page.body, "</select></label>\n<label><input type=\"checkbox\" id=\"trace\"> {}</label>\n", say("Trace"));
+    page.body += "</select></label>\n";
+    if (traces) put(page.body, "<label><input type=\"checkbox\" id=\"trace\"> {}</label>\n", say("Trace"));
     if (!shapes.is_plane) put(page.body, "<button type=\"button\" id=\"view\">{}</button>\n", say("Turn back"));
     put(page.body, "</div>\n");
     if (!shapes.is_plane)
@@ -116,8 +117,8 @@ void add_figure(PageParts& page, const Overview& all) {
         as_svg(shapes, poses[0], q[0], say("Figure: {}", all.mechanism.name), description_of(*drawing), true);
     put(page.body, "</div>\n");
     if (moves) {
-        add_controls(page, shapes,
-                     motion->run.rows.at(motion->run.rows.rows() - 1, 0) - motion->run.rows.at(0, 0));
+        add_controls(page, shapes, motion->run.rows.at(motion->run.rows.rows() - 1, 0) - motion->run.rows.at(0, 0),
+                     !drawing->traced.empty());
         put(page.body, "<p id=\"happening\" role=\"status\" class=\"happening\"></p>\n");
     } else if (!all.motion.problem.empty()) {
         page.problem(all.motion.problem);
