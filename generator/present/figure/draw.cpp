@@ -66,7 +66,7 @@ Drawing draw(const Scene& scene, const Mechanism& mechanism) {
     add_particles(sketch, looks);
     looks.add_scenery();
     add_constraints(sketch, tracks);
-    if (!looks.has(Scenery::Kind::floor) && !looks.has(Scenery::Kind::wall)) add_rests(sketch, tracks);
+    if (!looks.has_scenery()) add_rests(sketch, tracks);
     add_springs(sketch, tracks, looks);
     add_hinges(sketch);
     add_coordinates(sketch);
