@@ -225,7 +225,10 @@ TEST_CASE("command line: a scene alone makes its page, and opens it on a termina
                     "[ -s opened ] || sleep 0.2; done",
                 {folder}, 80);
     CHECK(opened() == std::filesystem::canonical(folder).string() + "/a.html");
-    CHECK(run({folder + "/none.toml"}).exit == 3);
+    const Run mistyped = run_shell("cd \"$1\" && \"$ALEMBERT\" none.toml", {folder});
+    CHECK(mistyped.exit == 3);
+    CHECK(mistyped.err.find("none.toml: no such file") != std::string::npos);
+    CHECK(!std::filesystem::exists(folder + "/none.html"));
 }
 
 }  // namespace commands_earlier_names

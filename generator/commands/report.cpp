@@ -38,6 +38,8 @@ std::string usual_page(const std::string& scene) {
 
 int run(const ReportVerb& given) {
     ReportVerb verb = given;
+    std::error_code none;
+    if (!std::filesystem::exists(verb.scene, none)) read_scene(verb.scene);  // throws; a wrong name makes no page
     if (verb.output.empty()) verb.output = usual_page(verb.scene);
     check_output(verb.output, FileForm::page, {verb.scene, verb.derivation});
     Progress progress;
