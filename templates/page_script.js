@@ -127,6 +127,17 @@ function figureDrawer(f, root) {
       for (const v of shape.v) d += text(vertex(v, shape, place, points), v[5] || d === "");
       return d + (shape.closed ? "Z" : "");
     }
+    if (shape.kind === "hull") {
+      const c = place(shape.v[0][0]);
+      const ends = shape.v.slice(1).map((v) => place(v[0])).map((p) => [p[0] - c[0], p[1] - c[1]]);
+      const sum = (i, j) => ends.reduce((total, p) => total + p[i] * p[j], i === j ? 1e-12 : 0);
+      const a = Math.sqrt(sum(0, 0)), b = sum(0, 1) / a, h = Math.sqrt(Math.max(sum(1, 1) - b * b, 0));
+      for (let k = 0; k < 48; ++k) {
+        const x = Math.cos(2 * Math.PI * k / 48), y = Math.sin(2 * Math.PI * k / 48);
+        d += text([c[0] + a * x, c[1] + b * x + h * y], k === 0);
+      }
+      return d + "Z";
+    }
     if (shape.kind === "ring") {
       const c = place(shape.v[0][0]), u = place(shape.v[1][0]), w = place(shape.v[2][0]);
       for (let k = 0; k < 48; ++k) {

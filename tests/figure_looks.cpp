@@ -188,6 +188,14 @@ TEST_CASE("looks: the moments of inertia from a shape are those of a numerical i
                     {0.7 * ((i + 0.5) / 120 - 0.5), 0.4 * ((j + 0.5) / 120 - 0.5), 1.1 * ((k + 0.5) / 120 - 0.5)},
                     1);
     agree("{ box = [\"a\", \"b\", \"c\"] }", box.tensor(), 1e-4);
+    Spread ellipsoid;
+    for (int i = 0; i < 100; ++i)
+        for (int j = 0; j < 100; ++j)
+            for (int k = 0; k < 100; ++k) {
+                const Vector3d p((2 * i + 1) / 100.0 - 1, (2 * j + 1) / 100.0 - 1, (2 * k + 1) / 100.0 - 1);
+                if (p.norm() < 1) ellipsoid.add({0.7 * p[0], 0.4 * p[1], 1.1 * p[2]}, 1);
+            }
+    agree("{ ellipsoid = [\"a\", \"b\", \"c\"] }", ellipsoid.tensor(), 1e-3);
     // Turned axes: x in place of z.
     Matrix3d x = turned(-0.55, 0.55, [](double) { return 0.7; });
     std::swap(x(0, 0), x(2, 2));
@@ -202,6 +210,34 @@ TEST_CASE("looks: the moments of inertia from a shape are those of a numerical i
     agree("{ polygon = [[0.5, 1.6], [0.9, 1.6], [0.9, 0.6], [2.5, 0.6], [2.5, 0.2], [0.5, 0.2]] }", flat(angle),
           5e-3);
     CHECK(std::abs(flat(angle)(0, 1)) > 0.1);
+}
+
+TEST_CASE("looks: a word with its sizes beside it means what the table means") {
+    for (const auto& [word, table] :
+         {std::pair("\"box\"\nsize = [\"a\", \"b\", \"c\"]", "{ box = [\"a\", \"b\", \"c\"] }"),
+          std::pair("\"box\"\nsize = [\"a\", 2]", "{ box = [\"a\", 2] }"),
+          std::pair("\"ellipsoid\"\nsize = [\"a\", \"b\", \"c\"]", "{ ellipsoid = [\"a\", \"b\", \"c\"] }"),
+          std::pair("\"wedge\"\nsize = [\"a\", \"b\"]", "{ wedge = [\"a\", \"b\"] }"),
+          std::pair("\"disc\"\nradius = \"a\"", "{ disc = \"a\" }"),
+          std::pair("\"ring\"\nradius = \"a\"", "{ ring = \"a\" }"),
+          std::pair("\"ball\"\nradius = \"a + b\"", "{ ball = \"a + b\" }"),
+          std::pair("\"rod\"\nlength = \"c\"", "{ rod = \"c\" }"),
+          std::pair("\"cylinder\"\nradius = \"a\"\nheight = \"b\"", "{ cylinder = [\"a\", \"b\"] }"),
+          std::pair("\"cone\"\nheight = \"b\"\nradius = \"a\"", "{ cone = [\"a\", \"b\"] }"),
+          std::pair("[[0, 0], [\"a\", 0], [0, \"b\"]]", "{ polygon = [[0, 0], [\"a\", 0], [0, \"b\"]] }")}) {
+        CAPTURE(word);
+        const Matrix3d J = tensor_of(word);
+        CHECK(J.norm() > 0);
+        CHECK(J == tensor_of(table));
+        // The same figure, of a particle too.
+        const std::string particle =
+            "[coordinates]\nx = 0.5\n[parameters]\nm = 1\na = 0.7\nb = 0.4\nc = 1.1\n"
+            "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", 2]\nshape = ";
+        const Drawn one = drawn(parse_scene(particle + word + "\n", "word.toml")),
+                    other = drawn(parse_scene(particle + table + "\n", "table.toml"));
+        REQUIRE(one.figure.elements.size() == other.figure.elements.size());
+        for (std::size_t k = 0; k < one.pose.size(); ++k) CHECK((one.pose[k] - other.pose[k]).norm() < 1e-12);
+    }
 }
 
 TEST_CASE("looks: a scene with looks has the same program as without, byte for byte") {
@@ -371,6 +407,26 @@ TEST_CASE("looks: mistakes are told where they are") {
                       "\"from shape\"\n")
               .find("there is no 'shape'") != std::string::npos);
     CHECK(mistakes_of(start + "[[scenery]]\nrope = [\"P\", [\"2*x\", 1]]\n").empty());
+    const auto tells = [&](const std::string& shape, const std::string& words) {
+        CAPTURE(shape);
+        const std::string told = mistakes_of(start + shape);
+        CAPTURE(told);
+        CHECK(told.find(words) != std::string::npos);
+    };
+    tells("shape = \"box\"\n", "shape = \"box\" needs 'size'");
+    tells("shape = \"box\"\nsize = 1\n", "needs its sizes: size = [\"a\", \"b\"]");
+    tells("shape = \"ellipsoid\"\nsize = [1, 2]\n", "needs its sizes: size = [\"a\", \"b\", \"c\"]");
+    tells("shape = \"cylinder\"\nradius = 1\n", "shape = \"cylinder\" needs 'radius' and 'height'");
+    tells("shape = \"disc\"\nradius = 1\nheight = 2\n", "a disc has no 'height': its sizes are 'radius'");
+    tells("shape = \"disk\"\nradius = 1\n", "there is no shape 'disk'");
+    tells("shape = \"polygon\"\n", "there is no shape 'polygon'");
+    tells("shape = { disc = 1 }\nradius = 1\n", "leave out 'radius'");
+    tells("shape = [[0, 0], [1, 0], [0, 1]]\nsize = [1, 1]\n", "leave out 'size'");
+    tells("shape = [[0, 0], [1, 0]]\n", "needs its sizes");
+    tells("radius = 1\n", "there is no 'shape'");
+    tells("shape = \"ball\"\nradius = [1, 2]\n", "'radius'");
+    tells("shape = \"ball\"\nradius = \"rho\"\n", "'rho'");
+    tells("shape = 3\n", "expected a solid and its sizes");
 }
 
 }  // namespace figure_looks

@@ -19,9 +19,10 @@ namespace alembert {
 
 /// A solid about its middle, with its edges and axis along its own axes.
 struct Shape {
-    enum class Kind { box, disc, ring, rod, ball, cylinder, cone, polygon };
+    enum class Kind { box, disc, ring, rod, ball, ellipsoid, cylinder, cone, polygon };
     Kind kind = Kind::box;
-    /// The edges of a box; a radius; a length; radius and height; of a polygon x, y of each corner in turn.
+    /// The edges of a box; a radius; a length; radius and height; the half axes of an ellipsoid; of a polygon x, y
+    /// of each corner in turn.
     std::vector<Expression> sizes = {};
     char axis = 0;                  ///< of discs, rings, rods, cylinders, cones; 0 if the scene does not say it
     Vector middle = {};             ///< from the place of the body or particle

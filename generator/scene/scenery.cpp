@@ -148,10 +148,10 @@ Looks read_looks(const Reading& reading, const toml::table& root) {
     };
     for (const char* key : {"particle", "body"})
         each(key, [&](const Table& table) {
-            if (!table.has("shape")) return;
             std::optional<Shape> shape = read_shape(table);
+            if (!shape) return;
             std::optional<Name> name = table.name("name");
-            if (shape && name) looks.shapes.emplace_back(std::move(*name), std::move(*shape));
+            if (name) looks.shapes.emplace_back(std::move(*name), std::move(*shape));
         });
     each("scenery", [&](const Table& table) { read_scenery(table, looks); });
     return looks;

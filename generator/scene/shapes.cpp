@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <string_view>
 
@@ -22,19 +23,21 @@ struct SolidRow {
     std::string_view key;
     Solid kind;
     std::size_t least, most;
-    std::string_view sizes;  ///< as examples in messages
+    std::string_view sizes;                             ///< as examples in messages
+    std::array<std::string_view, 2> beside = {"size"};  ///< the keys of its sizes beside shape = "box"
 };
 
 constexpr std::size_t any_corners = 1000;
 
 constexpr SolidRow solids[] = {
     {"box", Solid::box, 2, 3, "[\"a\", \"b\"]"},
-    {"disc", Solid::disc, 1, 1, "\"r\""},
-    {"ring", Solid::ring, 1, 1, "\"r\""},
-    {"rod", Solid::rod, 1, 1, "\"l\""},
-    {"ball", Solid::ball, 1, 1, "\"r\""},
-    {"cylinder", Solid::cylinder, 2, 2, "[\"r\", \"h\"]"},
-    {"cone", Solid::cone, 2, 2, "[\"r\", \"h\"]"},
+    {"disc", Solid::disc, 1, 1, "\"r\"", {"radius"}},
+    {"ring", Solid::ring, 1, 1, "\"r\"", {"radius"}},
+    {"rod", Solid::rod, 1, 1, "\"l\"", {"length"}},
+    {"ball", Solid::ball, 1, 1, "\"r\"", {"radius"}},
+    {"ellipsoid", Solid::ellipsoid, 3, 3, "[\"a\", \"b\", \"c\"]"},
+    {"cylinder", Solid::cylinder, 2, 2, "[\"r\", \"h\"]", {"radius", "height"}},
+    {"cone", Solid::cone, 2, 2, "[\"r\", \"h\"]", {"radius", "height"}},
     {"wedge", Solid::polygon, 2, 2, "[\"b\", \"h\"]"},
     {"polygon", Solid::polygon, 3, any_corners, "[[\"0\", \"0\"], [\"b\", \"0\"], [\"0\", \"h\"]]"},
 };
@@ -54,19 +57,20 @@ std::vector<Expression> corners_of_wedge(const std::vector<Expression>& legs, Pl
     return corners;
 }
 
-std::optional<std::vector<Expression>> read_sizes(const Table& table, const SolidRow& row) {
-    const Entry& entry = *table.find(row.key);
+/// The sizes that stand after `key`, the row's own or that of shape = "box".
+std::optional<std::vector<Expression>> read_sizes(const Table& table, const SolidRow& row, std::string_view key) {
+    const Entry& entry = *table.find(key);
     const Reading& reading = table.reading();
     const toml::array* const list = entry.node->as_array();
     const std::size_t count = list ? list->size() : 1;
     const bool needs_list = row.most > 1;
     if ((list != nullptr) != needs_list || count < row.least || count > row.most) {
-        table.complain(row.key, say("{} needs its sizes: {} = {}", table.what(row.key), row.key, row.sizes));
+        table.complain(key, say("{} needs its sizes: {} = {}", table.what(key), key, row.sizes));
         return {};
     }
     std::vector<Expression> sizes;
     const std::size_t before = reading.diagnostics.size();
-    if (!list) sizes.push_back(read_expression(reading, *entry.node, table.what(row.key)));
+    if (!list) sizes.push_back(read_expression(reading, *entry.node, table.what(key)));
     for (std::size_t k = 0; list && k < count; ++k)
         if (row.key == "polygon") {
             const Vector corner = read_vector(reading, *list->get(k), say("a corner"));
@@ -119,16 +123,100 @@ std::optional<Shape> read_solid(const Table& table) {
         table.reading().complain(table.place(), say("{} needs one of {}", table.title(), fmt::join(keys, ", ")));
         return {};
     }
-    std::optional<std::vector<Expression>> sizes = read_sizes(table, *found);
+    std::optional<std::vector<Expression>> sizes = read_sizes(table, *found, found->key);
     if (!sizes) return {};
     Shape shape{.kind = found->kind, .sizes = std::move(*sizes)};
     read_attitude(table, shape);
     return shape;
 }
 
+namespace {
+
+constexpr std::string_view keys_of_sizes[] = {"size", "radius", "length", "height"};
+
+/// "size", or "radius and height".
+std::string keys_in_words(const SolidRow& row) {
+    return row.beside[1].empty() ? in_quotes(row.beside[0])
+                                 : say("{} and {}", in_quotes(row.beside[0]), in_quotes(row.beside[1]));
+}
+
+bool is_size_of(const SolidRow& row, std::string_view key) {
+    return key == row.beside[0] || key == row.beside[1];
+}
+
+/// Complains of a size that does not belong to the shape; `row` is null if its sizes stand in `shape` itself.
+bool has_superfluous_size(const Table& table, const SolidRow* row) {
+    for (const std::string_view key : keys_of_sizes) {
+        if (!table.has(key) || (row && is_size_of(*row, key))) continue;
+        table.complain(key,
+                       row ? say("a {} has no {}: its sizes are {}", row->key, in_quotes(key), keys_in_words(*row))
+                           : say("the sizes stand in 'shape' already; leave out {}", in_quotes(key)));
+        return true;
+    }
+    return false;
+}
+
+/// shape = "box" and the keys of its sizes.
+std::optional<Shape> read_shape_word(const Table& table, const std::string& word) {
+    const SolidRow* const row = std::find_if(std::begin(solids), std::end(solids), [&](const SolidRow& one) {
+        return one.key == word && one.key != "polygon";
+    });
+    if (row == std::end(solids)) {
+        std::vector<std::string_view> words;
+        for (const SolidRow& one : solids)
+            if (one.key != "polygon") words.push_back(one.key);
+        table.complain("shape", say("there is no shape {}; there are {}, and lists of corners", in_quotes(word),
+                                    fmt::join(words, ", ")));
+        return {};
+    }
+    if (has_superfluous_size(table, row)) return {};
+    for (const std::string_view key : row->beside)
+        if (!key.empty() && !table.has(key)) {
+            table.complain("shape", say("shape = \"{}\" needs {}", row->key, keys_in_words(*row)));
+            return {};
+        }
+    std::optional<std::vector<Expression>> sizes;
+    if (row->beside[0] == "size") {
+        sizes = read_sizes(table, *row, "size");
+    } else {
+        const std::size_t before = table.reading().diagnostics.size();
+        sizes.emplace();
+        for (const std::string_view key : row->beside)
+            if (!key.empty())
+                sizes->push_back(read_expression(table.reading(), *table.find(key)->node, table.what(key)));
+        if (table.reading().diagnostics.size() > before) return {};
+    }
+    if (!sizes) return {};
+    Shape shape{.kind = row->kind, .sizes = std::move(*sizes), .place = table.find("shape")->place};
+    for (Expression& component : shape.middle.component) component = zero(shape.place);
+    return shape;
+}
+
+}  // namespace
+
 std::optional<Shape> read_shape(const Table& table) {
     const Entry* const entry = table.find("shape");
-    if (!entry) return {};
+    if (!entry) {
+        for (const std::string_view key : keys_of_sizes)
+            if (table.has(key)) {
+                table.complain(key, say("{} is the size of a shape, and there is no 'shape', such as shape = "
+                                        "\"disc\"",
+                                        table.what(key)));
+                break;
+            }
+        return {};
+    }
+    if (const auto* const word = entry->node->as_string()) return read_shape_word(table, word->get());
+    if (has_superfluous_size(table, nullptr)) return {};
+    if (entry->node->is_array()) {
+        const SolidRow& polygon = *std::find_if(std::begin(solids), std::end(solids),
+                                                [](const SolidRow& one) { return one.key == "polygon"; });
+        std::optional<std::vector<Expression>> corners = read_sizes(table, polygon, "shape");
+        if (!corners) return {};
+        Shape shape{.kind = Solid::polygon, .sizes = std::move(*corners), .place = entry->place};
+        for (Expression& component : shape.middle.component) component = zero(shape.place);
+        return shape;
+    }
     const toml::table* const inner = entry->node->as_table();
     if (!inner) {
         table.complain("shape", say("{} is {}; expected a solid and its sizes: shape = {{ disc = \"r\" }}",
@@ -204,6 +292,10 @@ Moments moments_of(const Shape& shape) {
             return symmetric(axis, "0", times("1/12", square(0)));
         case Solid::ball:
             return symmetric(axis, times("2/5", square(0)), times("2/5", square(0)));
+        case Solid::ellipsoid:
+            return {.xx = times("1/5", square(1) + "+" + square(2)),
+                    .yy = times("1/5", square(0) + "+" + square(2)),
+                    .zz = times("1/5", square(0) + "+" + square(1))};
         case Solid::cylinder:
             return symmetric(axis, times("1/2", square(0)), times("1/12", "3*" + square(0) + "+" + square(1)));
         case Solid::cone:

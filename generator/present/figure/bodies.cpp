@@ -38,6 +38,7 @@ public:
             return;
         }
         const std::vector<int> held = held_places();
+        if (held.empty() && add_if_slides()) return;
         if (const std::optional<double> radius = wheel_radius()) {
             add_wheel(*radius);
             return;
@@ -257,6 +258,19 @@ private:
         add_track({});
     }
 
+    /// A body that moves along a line and never turns.
+    bool add_if_slides() {
+        const std::optional<Vector3d> way = straight_way(s_, body_->centre);
+        if (!s_.is_plane || !way || !s_.is_fixed(body_->axes[s_.normal == 0 ? 1 : 0])) return false;
+        const bool has_joint =
+            std::any_of(s_.scene.joints.begin(), s_.scene.joints.end(),
+                        [&](const Joint& joint) { return joint.child.body.text == body_->name; });
+        if (!has_joint && std::abs(way->dot(s_.down)) > 0.99) return false;
+        const std::string& symbol = s_.scene.bodies[s_.m.masses[body_->mass].origin.index].mass.text;
+        add_slider(s_, body_->centre, body_->mass, symbol.size() <= 6 ? symbol : body_->name, *way);
+        return true;
+    }
+
     /// The circle on which a wheel rolls whose centre turns about a fixed point.
     void add_track(std::optional<double> changed_radius) {
         for (const Sketch::Site& site : s_.sites)
@@ -314,10 +328,12 @@ private:
         if (low > 0 || high < 0) {
             const double reach = low > 0 ? high : low;
             const bool is_rod = nearly(square, reach * reach / 3, 0.05);
-            const int other = is_rod ? spot_at(own(-reach * along)) : centre();
+            const int other = is_rod                       ? spot_at(own(-reach * along))
+                              : s_.is_fixed(body_->centre) ? s_.spot(s_.canonical(body_->centre).track)
+                                                           : centre();
             from = s_.spot(low > 0 ? *last : *first);
             to = other;
-            if (square == 0) {
+            if (square == 0 && !s_.is_fixed(body_->centre)) {
                 element(Kind::rod, {from, to}, 0, s_.name_of_length(low > 0 ? *last : *first, body_->centre));
                 element(Kind::disc, {centre()}, body_->weight);
                 return;
@@ -374,7 +390,8 @@ private:
             if (is_flat || held.size() != 1 || !(I.norm() > 0)) return;
             const Vector3d stem = own(arm(held[0]).normalized()).cwiseAbs();
             for (int k = 0; k < 3; ++k)
-                if (stem[k] > 0.999 && nearly(I[(k + 1) % 3], I[(k + 2) % 3], 1e-6) && I[k] > 0)
+                if (stem[k] > 0.999 && nearly(I[(k + 1) % 3], I[(k + 2) % 3], 1e-6) && I[k] > 0 &&
+                    2 * I[k] > std::pow(0.2 * arm(held[0]).norm(), 2))
                     add_ring(k, std::min(std::sqrt(2 * I[k]), 0.4 * arm(held[0]).norm()));
             return;
         }

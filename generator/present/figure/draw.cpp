@@ -3,6 +3,7 @@
 
 #include "present/figure/parts.hpp"
 
+#include "algebra/symbolic/unspecified.hpp"
 #include "base/language/say.hpp"
 
 namespace alembert {
@@ -25,6 +26,16 @@ void add_axes(Sketch& sketch) {
     sketch.add({.kind = FigureElement::Kind::axes, .points = points, .label = "N"});
 }
 
+/// Whether an expression has a value: nothing in it is a function that the scene leaves open.
+bool has_value(const Mechanism& m, const GiNaC::ex& e) {
+    constexpr double longest = 1e5;
+    if (m.z->tree_size(e) > longest) return true;
+    const GiNaC::ex whole = m.z->expand(e);
+    for (auto part = whole.preorder_begin(); part != whole.preorder_end(); ++part)
+        if (unspecified_call(*part)) return false;
+    return true;
+}
+
 }  // namespace
 
 Asked asked(Sketch& sketch) {
@@ -43,13 +54,18 @@ Asked asked(Sketch& sketch) {
     for (const Torque& t : sketch.scene.torques) result.torques.push_back(vector(t.vector, t.axes));
     for (const Impulse& s : sketch.scene.impulses) result.impulses.push_back(vector(s.vector, s.axes));
     for (const RollingRule& r : sketch.scene.rolling) result.contacts.push_back(vector(r.contact, r.axes));
+    const bool has_functions = !sketch.scene.functions.empty();
     for (const Mechanism::Constraint& c : m.constraints) {
-        result.constraints.push_back(c.position ? sketch.scalar(*c.position) : -1);
+        const bool is_open = has_functions && std::any_of(c.row.begin(), c.row.end(),
+                                                          [&](const GiNaC::ex& e) { return !has_value(m, e); });
+        result.constraints.push_back(c.position && !is_open ? sketch.scalar(*c.position) : -1);
         result.rows.emplace_back();
-        if (m.q.size() > small) continue;
+        if (m.q.size() > small || is_open) continue;
         for (const GiNaC::ex& entry : c.row) result.rows.back().push_back(sketch.scalar(entry));
     }
-    for (const Mechanism::Unilateral& u : m.unilateral) result.gaps.push_back(sketch.scalar(*u.gap.position));
+    for (const Mechanism::Unilateral& u : m.unilateral)
+        result.gaps.push_back(has_functions && !has_value(m, *u.gap.position) ? -1
+                                                                              : sketch.scalar(*u.gap.position));
     return result;
 }
 
@@ -65,6 +81,7 @@ Drawing draw(const Scene& scene, const Mechanism& mechanism) {
     add_bodies(sketch, tracks, looks);
     add_particles(sketch, looks);
     looks.add_scenery();
+    if (!looks.has_grounds()) add_grounds(sketch, tracks);
     add_constraints(sketch, tracks);
     if (!looks.has_scenery()) add_rests(sketch, tracks);
     add_springs(sketch, tracks, looks);

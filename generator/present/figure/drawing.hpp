@@ -56,7 +56,10 @@ struct FigureElement {
         pulley,   ///< the same, for a wheel over which a rope runs
         ground,   ///< two ends of a line; the ground is to the right of who walks from the first to the second
         line,     ///< points of a line that the scene asks for
-        solid,    ///< points, and in `faces` those of each face, counterclockwise from outside; convex
+        ellipsoid,     ///< centre, and the ends of its three half axes
+        ground_plane,  ///< four corners of the ground in space, then what stands on it; `size` is how far it
+                       ///< reaches beyond that
+        solid,         ///< points, and in `faces` those of each face, counterclockwise from outside; convex
     };
     Kind kind;
     std::vector<int> points;
@@ -94,6 +97,10 @@ struct Drawing {
 
 /// The positions of all points. q and q' in the state are in the order of the scene.
 Pose pose_at(const Drawing& drawing, const State<double>& state);
+
+/// Lets each ground in space reach as far as what stands on it goes in these poses, which are changed with the
+/// drawing.
+void stretch_grounds(Drawing& drawing, std::vector<Pose>& poses);
 
 /// Makes the drawing from the geometry of a scene. A scene without geometry gives a drawing with an `obstacle`.
 Drawing draw(const Scene& scene, const Mechanism& mechanism);

@@ -223,11 +223,14 @@ std::optional<FigureElement> length_of_shift(Sketch& s, int k) {
         if (moved == nullptr || rank(site) < rank(*moved)) moved = &site;
     }
     if (moved == nullptr) return {};
+    int end = moved->track;
+    for (const auto& [mass, middle] : s.middles)
+        if (mass == end && shifts_by(s, k, middle)) end = middle;
     FigureElement length{.kind = Kind::length,
-                         .points = {s.spot(moved->track, k), s.spot(moved->track)},
+                         .points = {s.spot(end, k), s.spot(end)},
                          .label = s.m.q[k].get_name(),
                          .coordinate = k};
-    if (const auto way = direction_of(s, k, moved->track)) length.points.push_back(s.spot(moved->track, -1, *way));
+    if (const auto way = direction_of(s, k, end)) length.points.push_back(s.spot(end, -1, *way));
     return length;
 }
 
@@ -275,6 +278,7 @@ void place_coils(Sketch& s) {
 }  // namespace
 
 void add_coordinates(Sketch& s) {
+    if (!s.middles.empty()) s.sample();  // they are newer than the sample
     const std::vector<TurningLine> lines = turning_lines(s);
     std::vector<FigureElement> found;
     for (int k = 0; k < s.m.size(); ++k) {

@@ -71,7 +71,11 @@ int LooksOfScene::add_shape(const std::string& name, int owner) {
     const Shape& shape = *looks_.shape_of(name);
     const Axes axes = axes_of_mass(name, shape);
     add_solid(shape, axes, owner);
-    return spot(axes.middle);
+    const int middle = s_.track(axes.middle);
+    const bool is_elsewhere = std::any_of(shape.middle.component.begin(), shape.middle.component.end(),
+                                          [](const Expression& e) { return e.text != "0"; });
+    if (is_elsewhere) s_.middles.emplace_back(s_.place(name), middle);
+    return s_.spot(middle);
 }
 
 void LooksOfScene::add_solid(const Shape& shape, const Axes& axes, int owner) {
@@ -91,6 +95,8 @@ void LooksOfScene::add_solid(const Shape& shape, const Axes& axes, int owner) {
                     .owner = owner});
             return;
         }
+        case Shape::Kind::ellipsoid:
+            return add_ellipsoid(shape, axes, owner);
         case Shape::Kind::rod: {
             Axes ends = axes;
             const int axis = shape.axis != 0 ? shape.axis - 'x' : s_.is_plane && s_.normal == 0 ? 1 : 0;
@@ -119,6 +125,16 @@ void LooksOfScene::add_round(Kind kind, const ex& radius, char axis, const Axes&
                     spot(sum(axes.middle, radius, axes.axis[static_cast<std::size_t>(k[1])]))},
          .size = s_.number(radius),
          .owner = owner});
+}
+
+void LooksOfScene::add_ellipsoid(const Shape& shape, const Axes& axes, int owner) {
+    const std::array<int, 3> k = order(s_.is_plane ? 0 : 'z');
+    FigureElement body{
+        .kind = s_.is_plane ? Kind::ring : Kind::ellipsoid, .points = {spot(axes.middle)}, .owner = owner};
+    for (std::size_t i = 0; i < (s_.is_plane ? 2 : 3); ++i)
+        body.points.push_back(spot(sum(axes.middle, size(shape, static_cast<std::size_t>(k[i])),
+                                       axes.axis[static_cast<std::size_t>(k[i])])));
+    s_.add(std::move(body));
 }
 
 /// The corners of a polygon, in the plane of the figure or of x and y.
@@ -215,6 +231,12 @@ double LooksOfScene::reach(const std::string& name, const Vector3d& direction) {
             most =
                 std::max(most, (s_.number(size(shape, i)) * u + s_.number(size(shape, i + 1)) * v).dot(direction));
         return far + most;
+    }
+    if (shape.kind == Shape::Kind::ellipsoid) {
+        double square = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            square += std::pow(s_.numbers(axes.axis[k]).dot(direction) * s_.number(size(shape, k)), 2);
+        return far + std::sqrt(square);
     }
     return far + (shape.kind == Shape::Kind::rod ? 0 : s_.number(size(shape, 0)));
 }

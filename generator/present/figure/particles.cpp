@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector3d;
 using Kind = FigureElement::Kind;
 
-/// The direction in which a point moves, if it is always the same.
+}  // namespace
+
 std::optional<Vector3d> straight_way(const Sketch& s, int track) {
     std::optional<Vector3d> along;
     for (int state = 1; state < Sketch::states; ++state) {
@@ -26,6 +27,23 @@ std::optional<Vector3d> straight_way(const Sketch& s, int track) {
     }
     return along;
 }
+
+void add_slider(Sketch& s, int track, int mass, const std::string& label, const Vector3d& way) {
+    const int here = s.spot(track), along = s.spot(track, -1, way);
+    Vector3d start = s.at(0, track) - s.at(0, s.place("O"));
+    for (const auto& [moved, by] : s.displaced)
+        if (moved == track) start += by;
+    s.add({.kind = Kind::guide,
+           .points = {s.spot(s.place("O"), -1, start), s.spot(s.place("O"), -1, start + way), here},
+           .owner = mass});
+    s.add({.kind = Kind::block,
+           .points = {here, along},
+           .label = label,
+           .size = s.masses[static_cast<std::size_t>(mass)],
+           .owner = mass});
+}
+
+namespace {
 
 bool is_part_of_a_body(const Sketch& s, int track) {
     return std::any_of(s.bodies.begin(), s.bodies.end(), [&](const Sketch::Frame3& body) {
@@ -149,6 +167,15 @@ void add_curve(Sketch& s, const Sketch::Site& site) {
     s.add({.kind = Kind::curve, .points = points, .owner = site.mass});
 }
 
+/// Is the particle one of a row that springs hold together and nothing else: no wall, no weight?
+bool floats(const Sketch& s, int track) {
+    const bool is_in_row =
+        std::any_of(s.displaced.begin(), s.displaced.end(), [&](const auto& one) { return one.first == track; });
+    return is_in_row && s.down.norm() == 0 &&
+           std::none_of(s.elements.begin(), s.elements.end(),
+                        [](const FigureElement& e) { return e.kind == Kind::wall; });
+}
+
 /// The floor on which a shape slides whose centre moves on a line.
 void add_floor_below(Sketch& s, LooksOfScene& looks, const Sketch::Site& site, const Vector3d& way) {
     Vector3d below = way.cross(Vector3d::Unit(s.normal));
@@ -205,23 +232,18 @@ void add_particles(Sketch& s, LooksOfScene& looks) {
         const std::optional<Vector3d> way = straight_way(s, site.track);
         if (is_free && about.empty() && !way && s.displaced.empty()) add_curve(s, site);
         const bool slides = s.is_plane && way && std::abs(way->dot(s.down)) < 0.99;
-        const int here = s.spot(site.track);
         if (looks.has_shape(site.name)) {
             const int middle = looks.add_shape(site.name, site.mass);
             if (slides && !looks.has(Scenery::Kind::floor)) add_floor_below(s, looks, site, *way);
             s.add({.kind = Kind::mark, .points = {middle}, .label = label, .size = 1, .owner = site.mass});
-        } else if (slides) {
-            const int along = s.spot(site.track, -1, *way);
-            Vector3d start = s.at(0, site.track) - s.at(0, s.place("O"));
-            for (const auto& [track, by] : s.displaced)
-                if (track == site.track) start += by;
-            s.add({.kind = Kind::guide,
-                   .points = {s.spot(s.place("O"), -1, start), s.spot(s.place("O"), -1, start + *way), here},
-                   .owner = site.mass});
-            s.add(
-                {.kind = Kind::block, .points = {here, along}, .label = label, .size = mass, .owner = site.mass});
+        } else if (slides && !floats(s, site.track)) {
+            add_slider(s, site.track, site.mass, label, *way);
         } else {
-            s.add({.kind = Kind::disc, .points = {here}, .label = label, .size = mass, .owner = site.mass});
+            s.add({.kind = Kind::disc,
+                   .points = {s.spot(site.track)},
+                   .label = label,
+                   .size = mass,
+                   .owner = site.mass});
         }
     }
 }
@@ -289,6 +311,7 @@ void add_constraints(Sketch& s, const Asked& asked) {
             });
         }
     for (std::size_t k = 0; k < asked.gaps.size(); ++k) {
+        if (asked.gaps[k] < 0) continue;
         const auto value = [&](int state) { return s.at(state, asked.gaps[k])[0]; };
         const std::string& name = s.m.unilateral[k].gap.name;
         bool is_drawn = false;

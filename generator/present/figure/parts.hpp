@@ -42,6 +42,16 @@ public:
                            [&](const Scenery& one) { return one.kind == kind; });
     }
     bool has_scenery() const { return !looks_.scenery.empty(); }
+    /// Does the scene draw something at rest on which bodies may stand?
+    bool has_grounds() const {
+        for (std::size_t k = 0; k < looks_.scenery.size(); ++k) {
+            const Scenery::Kind kind = looks_.scenery[k].kind;
+            if (kind == Scenery::Kind::floor || kind == Scenery::Kind::wall) return true;
+            if ((kind == Scenery::Kind::solid || kind == Scenery::Kind::circle) && s_.is_fixed(tracks_[k][0]))
+                return true;
+        }
+        return false;
+    }
     void add_scenery();
     /// Is there a circle about that track through the other?
     bool has_circle(int middle, int through) const;
@@ -59,6 +69,7 @@ private:
     void add_solid(const Shape& shape, const Axes& axes, int owner);
     void add_flat(const Shape& shape, const Axes& axes, int owner);
     void add_round(FigureElement::Kind kind, const GiNaC::ex& radius, char axis, const Axes& axes, int owner);
+    void add_ellipsoid(const Shape& shape, const Axes& axes, int owner);
     void add_box(const Shape& shape, const Axes& axes, int owner);
     void add_turned(const Shape& shape, const Axes& axes, int owner);
     void add_rope(const Scenery& rope);
@@ -80,12 +91,18 @@ void spread(Sketch& sketch, Asked& asked);
 /// Adds the points about which particles turn as sites, where the scene has no name for them.
 void find_centres(Sketch& sketch);
 
+/// The direction in which a point moves, if it is always the same.
+std::optional<Eigen::Vector3d> straight_way(const Sketch& sketch, int track);
+/// A block on a guide along that way.
+void add_slider(Sketch& sketch, int track, int mass, const std::string& label, const Eigen::Vector3d& way);
 void add_bodies(Sketch& sketch, const Asked& asked, LooksOfScene& looks);
 void add_particles(Sketch& sketch, LooksOfScene& looks);
 /// The circle on which a wheel rolls, if the wheel's centre `wheel` keeps its distance from the fixed point
 /// `middle` and the radius of that circle is a parameter, also where the wheel's radius is `changed` because all
 /// parameters are. Returns whether it was added.
 bool add_round_ground(Sketch& sketch, int middle, int wheel, std::optional<double> changed = {});
+/// The ground in a figure in space, below what touches it. Gaps that it shows are −1 in `asked` then.
+void add_grounds(Sketch& sketch, Asked& asked);
 void add_constraints(Sketch& sketch, const Asked& asked);
 /// Floors and walls that an end of a bar touches, by a contact or a constraint that is its height over them.
 void add_rests(Sketch& sketch, const Asked& asked);

@@ -23,6 +23,25 @@ std::vector<double> moved(std::vector<double> values, std::mt19937_64& random, d
     return values;
 }
 
+/// The coordinates of each quaternion whose length a constraint keeps at one.
+std::vector<std::array<int, 4>> quaternions_of(const Mechanism& m) {
+    std::vector<std::array<int, 4>> found;
+    for (const Mechanism::Constraint& c : m.constraints) {
+        if (!c.norm) continue;
+        std::vector<int> four;
+        for (std::size_t k = 0; k < c.row.size(); ++k)
+            if (!c.row[k].is_zero()) four.push_back(static_cast<int>(k));
+        if (four.size() == 4) found.push_back({four[0], four[1], four[2], four[3]});
+    }
+    return found;
+}
+
+void normalize(std::vector<double>& q, const std::array<int, 4>& four) {
+    double square = 0;
+    for (const int k : four) square += q[static_cast<std::size_t>(k)] * q[static_cast<std::size_t>(k)];
+    for (const int k : four) q[static_cast<std::size_t>(k)] /= std::sqrt(square);
+}
+
 /// The assembled initial state; if it cannot be assembled, the numbers of the scene.
 Start assembled(const Mechanism& m) {
     Start start = start_of(m);
@@ -48,9 +67,11 @@ Sketch::Sketch(const Scene& of, const Mechanism& mechanism)
     state.qdot.assign(m.q.size(), 0.0);
     std::mt19937_64 random(1788);
     at_.push_back(state);
+    const std::vector<std::array<int, 4>> quaternions = quaternions_of(m);
     for (int k = 1; k <= states; ++k) {
         State<double> other = state;
         other.q = moved(state.q, random, 0.5);
+        for (const std::array<int, 4>& four : quaternions) normalize(other.q, four);
         if (k >= at_one_time) other.t += 0.37 * k;
         if (k == states) other.parameters = moved(state.parameters, random, 0.0);
         at_.push_back(other);

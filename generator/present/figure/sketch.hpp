@@ -110,6 +110,8 @@ public:
     /// Tracks that are drawn away from their positions: masses that move on one line are drawn apart.
     std::vector<std::pair<int, Eigen::Vector3d>> displaced;
     Eigen::Vector3d down{0, 0, 0};
+    /// Tracks of masses whose shape has its middle elsewhere, with the track of that middle.
+    std::vector<std::pair<int, int>> middles;
 
 private:
     void collect_sites();

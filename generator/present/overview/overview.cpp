@@ -88,7 +88,7 @@ void watch_constraints(WatchedMotion& motion, const Mechanism& m, const State<do
     }
 }
 
-void pose(WatchedMotion& motion, const Drawing& drawing, const State<double>& start) {
+void pose(WatchedMotion& motion, Drawing& drawing, const State<double>& start) {
     const std::size_t rows = motion.run.rows.rows();
     const std::size_t most =
         std::clamp(numbers_shown / std::max<std::size_t>(drawing.spots.size(), 1), std::size_t{60}, poses_shown);
@@ -103,9 +103,10 @@ void pose(WatchedMotion& motion, const Drawing& drawing, const State<double>& st
         motion.frames.push_back(row);
         motion.poses.push_back(std::move(pose));
     }
+    stretch_grounds(drawing, motion.poses);
 }
 
-WatchedMotion watched(const Overview& all, const OverviewOptions& options) {
+WatchedMotion watched(Overview& all, const OverviewOptions& options) {
     RunOptions wishes = options.wishes;
     wishes.by = options.by;
     if (!wishes.sample) {

@@ -31,6 +31,7 @@ std::string description_of(const Drawing& drawing) {
             case Kind::pulley:
                 return to_say("disc or wheel");
             case Kind::ball:
+            case Kind::ellipsoid:
                 return to_say("ball");
             case Kind::support:
                 return to_say("hinge on the ground");
@@ -57,10 +58,16 @@ std::string description_of(const Drawing& drawing) {
 
 std::string figure_of(const Scene& scene) {
     const Mechanism mechanism = build(scene);
-    const Drawing drawing = draw(scene, mechanism);
+    Drawing drawing = draw(scene, mechanism);
     if (!drawing.obstacle.empty()) throw ModelError(drawing.obstacle);
     Start start = start_of(mechanism);
-    assemble(start, mechanism, lower_constraints(mechanism), {}, false);
+    try {
+        Start assembled = start;
+        assemble(assembled, mechanism, lower_constraints(mechanism), {}, false);
+        start = assembled;
+    } catch (const ModelError&) {  // constraints with functions that the scene leaves open have no values
+        if (scene.functions.empty()) throw;
+    }
     Pose pose = pose_at(drawing, start.state());
     // A force that is zero at the start is shown at the point where it will act.
     for (const FigureElement& e : drawing.elements)
@@ -69,7 +76,9 @@ std::string figure_of(const Scene& scene) {
             later.t += k * start.duration / 37;
             pose[e.points[1]] = pose_at(drawing, later)[e.points[1]];
         }
-    return as_svg(shapes_of(drawing, {pose}, {start.q}), pose, start.q,
+    std::vector<Pose> poses{pose};
+    stretch_grounds(drawing, poses);
+    return as_svg(shapes_of(drawing, poses, {start.q}), poses[0], start.q,
                   scene.title.empty() ? mechanism.name : scene.title, description_of(drawing), false);
 }
 

@@ -37,7 +37,12 @@ void add_arrow(StrokeBoard& board, const FigureElement& e) {
 void add_torque(StrokeBoard& board, const FigureElement& e) {
     std::vector<FigureVertex> bow;
     constexpr int steps = 24;
-    constexpr double r = 24;
+    // Several torques at one place are drawn around each other.
+    double r = 24;
+    for (const FigureElement& other : board.drawing.elements) {
+        if (&other == &e) break;
+        if (other.kind == e.kind && other.points[0] == e.points[0]) r += 12;
+    }
     for (int k = 0; k <= steps; ++k) {
         const double angle = -0.3 - 1.5 * std::numbers::pi * k / steps;
         bow.push_back(vertex_at(e.points[0], r * std::cos(angle), r * std::sin(angle), k == 0));
@@ -51,7 +56,7 @@ void add_torque(StrokeBoard& board, const FigureElement& e) {
         bow.push_back(vertex_at(e.points[0], tip[0], tip[1]));
     }
     board.put(FigureShape::Kind::path, "force", bow);
-    board.text("force-name", vertex_at(e.points[0], 30, -16), e.label);
+    board.text("force-name", vertex_at(e.points[0], r + 6, 8 - r), e.label);
 }
 
 void add_gravity(StrokeBoard& board, const FigureElement& e) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Where letters stand: a letter stays at its usual place if that is free, otherwise it moves a little way.
+/// Where letters stand: a letter stays at its usual place if that is free, otherwise it moves a little way. One
+/// that has no room is left out, and of a coordinate the whole mark: the important ones are placed first.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
 
 #include "present/report/figure_screen.hpp"
 
@@ -18,6 +21,7 @@ constexpr double step = 3;  // between points of a stroke, in units of the scree
 
 struct Box {
     Vector2d low, high;
+    Box wider(double by) const { return {low.array() - by, high.array() + by}; }
     double area() const { return (high - low).cwiseMax(0).prod(); }
     Box with(const Box& other) const { return {low.cwiseMax(other.low), high.cwiseMin(other.high)}; }
     bool holds(const Vector2d& p, double room) const {
@@ -50,7 +54,8 @@ struct LetterInk {
 };
 
 double weight_of(const std::string& style) {
-    if (style == "reference" || style == "hatch" || style == "axis" || style == "great" || style == "curve")
+    if (style == "reference" || style == "hatch" || style == "ground-plane" || style == "axis" ||
+        style == "great" || style == "curve")
         return 0.4;
     return 1;
 }
@@ -98,25 +103,56 @@ public:
         : f_(figure), screen_(screen), ink_(ink_of(figure, screen)) {}
 
     void place() {
-        // The letters that are bound most closely to a place come first.
-        for (const char* const style : {"angle-name", "dimension-name", "name", "", "axis-name"})
-            for (FigureShape& shape : f_.shapes) {
-                const bool is_other = shape.style != "angle-name" && shape.style != "dimension-name" &&
-                                      shape.style != "name" && shape.style != "axis-name";
-                if (!is_text(shape) || (*style == 0 ? !is_other : shape.style != style)) continue;
-                if (!screen_.is_hidden(shape)) place(shape);
-            }
+        constexpr auto many = 18;  // letters; they stand near what they name then
+        is_crowded_ = std::count_if(f_.shapes.begin(), f_.shapes.end(), is_text) > many;
+        std::vector<FigureShape*> repeated;
+        for (FigureShape* const shape : by_importance(repeated))
+            if (!screen_.is_hidden(*shape)) place(*shape);
+        if (is_crowded_) without_room_.insert(repeated.begin(), repeated.end());
+        leave_out();
     }
 
 private:
-    double cost(const Box& box, double way) const {
-        double sum = 0.02 * way;
-        for (const Box& other : taken_) sum += 12 * box.with(other).area() / box.area();
+    /// Coordinates, loads, and names: the first of each name before those that repeat it.
+    std::vector<FigureShape*> by_importance(std::vector<FigureShape*>& repeated) {
+        const std::array styles{"angle-name", "dimension-name", "", "name", "axis-name"};
+        std::vector<FigureShape*> order;
+        std::set<std::string> known;
+        for (const std::string style : styles) {
+            if (style == "axis-name" && !is_crowded_) order.insert(order.end(), repeated.begin(), repeated.end());
+            for (FigureShape& shape : f_.shapes) {
+                const bool is_other = std::find(styles.begin(), styles.end(), shape.style) == styles.end();
+                if (!is_text(shape) || (style.empty() ? !is_other : shape.style != style)) continue;
+                const bool is_new = style != "name" || known.insert(shape.text).second;
+                (is_new ? order : repeated).push_back(&shape);
+            }
+        }
+        return order;
+    }
+
+    double covered(const Box& box) const {
+        double sum = 0;
+        constexpr double gap = 1.5;
+        for (const Box& other : taken_)
+            sum += box.wider(gap).with(other).area() / std::min(box.area(), other.area());
+        return sum;
+    }
+
+    double ink_in(const Box& box) const {
+        double sum = 0;
         for (const LetterInk& dot : ink_)
             if (box.holds(dot.at, dot.room)) sum += 0.25 * dot.weight;
+        return sum;
+    }
+
+    double outside(const Box& box) const {
         constexpr double edge = 4;
         const Box picture{Vector2d(edge, edge), Vector2d(f_.width - edge, f_.height - edge)};
-        return sum + 40 * (1 - box.with(picture).area() / box.area());
+        return 1 - box.with(picture).area() / box.area();
+    }
+
+    double cost(const Box& box, double way) const {
+        return 0.02 * way + 12 * covered(box) + ink_in(box) + 40 * outside(box);
     }
 
     void place(FigureShape& shape) {
@@ -131,7 +167,7 @@ private:
         constexpr double good = 0.5;  // a letter that is touched by a thin line stays
         static constexpr std::array ways{8.0, 14.0, 20.0, 27.0, 35.0};
         for (const double way : ways) {
-            if (least <= good || (shape.style == "axis-name" && way > 15)) break;
+            if (least <= good || (shape.style == "axis-name" && way > 15) || (is_crowded_ && way > 20)) break;
             for (int k = 0; k < 16; ++k) {
                 const double angle = std::numbers::pi * k / 8;
                 const Vector2d nudge = way * Vector2d(std::cos(angle), std::sin(angle));
@@ -139,14 +175,35 @@ private:
                 if (here < least - 1e-9) least = here, best = nudge;
             }
         }
+        const Box box = box_at(best);
+        constexpr double legible = 0.05, in_picture = 0.3;
+        const double most_ink = is_crowded_ ? 2 : 3;
+        if (covered(box) > legible || ink_in(box) > most_ink || outside(box) > in_picture) {
+            without_room_.insert(&shape);
+            return;
+        }
         shape.nudge = best;
-        taken_.push_back(box_at(best));
+        taken_.push_back(box);
+    }
+
+    /// The mark of a coordinate says nothing without its letter.
+    void leave_out() {
+        if (without_room_.empty()) return;
+        std::set<int> marks;
+        for (const FigureShape* const shape : without_room_)
+            if (shape->style == "angle-name" || shape->style == "dimension-name") marks.insert(shape->element);
+        std::vector<FigureShape> kept;
+        for (const FigureShape& shape : f_.shapes)
+            if (!without_room_.contains(&shape) && !marks.contains(shape.element)) kept.push_back(shape);
+        f_.shapes = std::move(kept);
     }
 
     FigureShapes& f_;
     const FigureScreen& screen_;
     std::vector<LetterInk> ink_;
     std::vector<Box> taken_;
+    std::set<const FigureShape*> without_room_;
+    bool is_crowded_ = false;
 };
 
 }  // namespace

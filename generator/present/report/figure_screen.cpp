@@ -26,6 +26,10 @@ bool is_text(const FigureShape& shape) {
     return shape.kind == Kind::text || shape.kind == Kind::angle_text;
 }
 
+bool is_ring(const FigureShape& shape) {
+    return shape.kind == Kind::ring || shape.kind == Kind::hull;
+}
+
 FigureScreen::FigureScreen(const FigureShapes& figure, const Pose& pose, const std::vector<double>& q)
     : f_(figure), pose_(pose), q_(q), origin_(figure.centre) {
     if (!f_.follows) return;
@@ -119,6 +123,21 @@ std::vector<FigureScreen::Place> FigureScreen::outline(const FigureShape& shape)
             for (int k = 0; k < ring_steps; ++k) {
                 const double angle = 2 * std::numbers::pi * k / ring_steps;
                 to(false, c + std::cos(angle) * u + std::sin(angle) * v);
+            }
+            return line;
+        }
+        case Kind::hull: {
+            // The half axes are seen as p_k. With M = Σ p_k p_kᵀ = L Lᵀ the outline is L u for all unit vectors u.
+            const Vector2d c = place(shape.vertices[0].a);
+            Eigen::Matrix2d M = Eigen::Matrix2d::Identity() * 1e-12;
+            for (std::size_t k = 1; k < shape.vertices.size(); ++k) {
+                const Vector2d p = place(shape.vertices[k].a) - c;
+                M += p * p.transpose();
+            }
+            const double a = std::sqrt(M(0, 0)), b = M(0, 1) / a, d = std::sqrt(std::max(M(1, 1) - b * b, 0.0));
+            for (int k = 0; k < ring_steps; ++k) {
+                const double angle = 2 * std::numbers::pi * k / ring_steps, x = std::cos(angle);
+                to(false, c + Vector2d(a * x, b * x + d * std::sin(angle)));
             }
             return line;
         }

@@ -50,6 +50,7 @@ private:
 };
 
 bool is_text(const FigureShape& shape);
+bool is_ring(const FigureShape& shape);  ///< a closed line through no vertices
 
 /// Gives letters that would cover each other, a stroke or the edge of the picture at this pose a `nudge` to the
 /// nearest free place.

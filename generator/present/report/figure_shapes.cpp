@@ -30,6 +30,7 @@ int layer_of(Element kind) {
         case Element::axes:
         case Element::gravity:
         case Element::support:
+        case Element::ground_plane:
             return 0;
         case Element::pin:
         case Element::disc:
@@ -64,6 +65,8 @@ void add_spring(StrokeBoard& board, const FigureElement& e) {
         zigzag.push_back(vertex_between(a, b, 0.16 + 0.68 * (k + 0.5) / teeth, k % 2 == 0 ? 7 : -7));
     zigzag.push_back(vertex_between(a, b, 0.84));
     zigzag.push_back(vertex_between(a, b, 1));
+    if (board.is_doubled_on_blocks(a, b))
+        for (FigureVertex& v : zigzag) v.across -= 10;
     board.put(Kind::path, "spring", zigzag);
     board.text("name", vertex_between(a, b, 0.5, 1.7 * board.label_side(a, b)), e.label);
 }
@@ -86,24 +89,26 @@ void add_damper(StrokeBoard& board, const FigureElement& e) {
                                    [&](const FigureElement& other) {
                                        return other.kind == Element::spring && other.points == e.points;
                                    })
-                           ? 22
+                           ? board.is_doubled_on_blocks(a, b) ? 10 : 22
                            : 0;
+    const double end = off == 10 ? off : 0;
     board.put(
         Kind::path, "damper",
-        {vertex_between(a, b, 0, 0, 0, true), vertex_between(a, b, 0, off), vertex_between(a, b, 0.38, off),  //
+        {vertex_between(a, b, 0, end, 0, true), vertex_between(a, b, 0, off), vertex_between(a, b, 0.38, off),  //
          vertex_between(a, b, 0.62, off - 7, 0, true), vertex_between(a, b, 0.38, off - 7),
          vertex_between(a, b, 0.38, off + 7), vertex_between(a, b, 0.62, off + 7),  //
          vertex_between(a, b, 0.52, off - 6, 0, true), vertex_between(a, b, 0.52, off + 6),
-         vertex_between(a, b, 0.52, off, 0, true), vertex_between(a, b, 1, off), vertex_between(a, b, 1, 0)});
+         vertex_between(a, b, 0.52, off, 0, true), vertex_between(a, b, 1, off), vertex_between(a, b, 1, end)});
     board.text("name", vertex_between(a, b, 0.5, off > 0 ? off + 17 : 1.7 * board.label_side(a, b)), e.label);
 }
 
 void add_block(StrokeBoard& board, const FigureElement& e) {
     const int a = e.points[0], b = e.points[1];
+    const double half = board.half_height_of_block(a);
     board
         .put(Kind::path, "body",
-             {vertex_between(a, b, 0, -11, -18, true), vertex_between(a, b, 0, -11, 18),
-              vertex_between(a, b, 0, 11, 18), vertex_between(a, b, 0, 11, -18)})
+             {vertex_between(a, b, 0, -half, -18, true), vertex_between(a, b, 0, -half, 18),
+              vertex_between(a, b, 0, half, 18), vertex_between(a, b, 0, half, -18)})
         .closed = true;
     board.text("name", vertex_at(a), e.label);
 }
@@ -134,6 +139,21 @@ void add_ball(StrokeBoard& board, const FigureElement& e) {
     if (p.size() < 4) return;
     board.put(Kind::ring, "great", {vertex_at(p[0]), vertex_at(p[2]), vertex_at(p[3])});
     board.put(Kind::ring, "great", {vertex_at(p[0]), vertex_at(p[3]), vertex_at(p[1])});
+}
+
+void add_ellipsoid(StrokeBoard& board, const FigureElement& e) {
+    const std::vector<int>& p = e.points;
+    board.put(Kind::hull, "ring", {vertex_at(p[0]), vertex_at(p[1]), vertex_at(p[2]), vertex_at(p[3])});
+    for (const auto& [a, b] : {std::pair(1, 2), std::pair(2, 3), std::pair(3, 1)})
+        board.put(Kind::ring, "great",
+                  {vertex_at(p[0]), vertex_at(p[static_cast<std::size_t>(a)]),
+                   vertex_at(p[static_cast<std::size_t>(b)])});
+}
+
+void add_ground_plane(StrokeBoard& board, const FigureElement& e) {
+    std::vector<FigureVertex> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners.push_back(vertex_at(e.points[k], 0, 0, k == 0));
+    board.put(Kind::path, "ground-plane", corners).closed = true;
 }
 
 /// The line through all points of an element.
@@ -171,6 +191,10 @@ void add(StrokeBoard& board, const FigureElement& e, double largest) {
             return add_ring(board, e);
         case Element::ball:
             return add_ball(board, e);
+        case Element::ellipsoid:
+            return add_ellipsoid(board, e);
+        case Element::ground_plane:
+            return add_ground_plane(board, e);
         case Element::pin:
             board.put(Kind::circle, "pin", {vertex_at(p[0])}).size = 3.6;
             return;
@@ -258,7 +282,12 @@ FigureShapes shapes_of(const Drawing& drawing, const std::vector<Pose>& poses,
     for (const FigureElement& e : drawing.elements)
         largest = std::max(largest, e.kind == Element::disc || e.kind == Element::block ? e.size : 0.0);
     for (const int layer : {0, 1, 2, 3})
-        for (const FigureElement* e : from_back(board, layer)) add(board, *e, largest);
+        for (const FigureElement* e : from_back(board, layer)) {
+            const std::size_t before = board.shapes.shapes.size();
+            add(board, *e, largest);
+            for (std::size_t k = before; k < board.shapes.shapes.size(); ++k)
+                board.shapes.shapes[k].element = static_cast<int>(e - drawing.elements.data());
+        }
     place_letters(board.shapes, poses.front(), q.front());
     return std::move(board.shapes);
 }

@@ -32,6 +32,7 @@ struct FigureShape {
         arc,         ///< about vertex 0, from the side of vertex 1 to that of vertex 2, with radius `size`
         text,        ///< at the first vertex
         angle_text,  ///< text in the middle of such an arc
+        hull,        ///< the outline of an ellipsoid about vertex 0 with the ends of its half axes
         face,  ///< of a solid, counterclockwise from outside: seen from there, and darker where it turns away
     };
     Kind kind = Kind::path;
@@ -48,6 +49,7 @@ struct FigureShape {
     int from = -1, to = -1;       ///< the stroke is hidden if these points are
     double least = 0;             ///< nearer to each other on the screen than this,
     double most = 0;              ///< or not nearer than this; 0 means no bound
+    int element = -1;             ///< position of its element in Drawing::elements
     double inside = 0;            ///< if not 0: hidden if a vertex is nearer than this to the edge of the picture
     Eigen::Vector2d nudge{0, 0};  ///< shifts a text on the screen
 };

@@ -33,8 +33,9 @@ void add_guide(StrokeBoard& board, const FigureElement& e) {
     const Eigen::Vector2d way = board.screen(board.first()[e.points[1]] - board.first()[e.points[0]]);
     const Eigen::Vector2d normal(-way[1], way[0]);
     const double side = normal[1] >= 0 ? 1 : -1;  // below
-    const FigureVertex from = vertex_between(e.points[0], e.points[1], low, 12 * side, -34, true),
-                       to = vertex_between(e.points[0], e.points[1], high, 12 * side, 34);
+    const double below = (board.half_height_of_block(e.points[2]) + 1) * side;
+    const FigureVertex from = vertex_between(e.points[0], e.points[1], low, below, -34, true),
+                       to = vertex_between(e.points[0], e.points[1], high, below, 34);
     board.put(FigureShape::Kind::path, "ground", {from, to});
     board.hatch(from, to, side,
                 std::clamp(static_cast<int>(((high - low) * board.shapes.scale + 68) / 12), 4, 48));

@@ -28,7 +28,7 @@ std::string path_of(const FigureScreen& screen, const FigureShape& shape) {
     std::string d;
     for (const auto& [begins, p] : screen.outline(shape))
         d += fmt::format("{}{} {}", begins ? "M" : "L", number(p[0]), number(p[1]));
-    return d + (shape.closed || shape.kind == Kind::ring ? "Z" : "");
+    return d + (shape.closed || is_ring(shape) ? "Z" : "");
 }
 
 /// The grey of a face; a facet of a round side has no edges.
@@ -68,6 +68,7 @@ constexpr const char* paper = R"css(
 .figure .mass,.figure .dot{fill:#000}
 .figure .body,.figure .plate{fill:#e8e8e8}
 .figure .ring{fill:#e8e8e8;fill-opacity:.55}
+.figure .ground-plane{fill:#f6f6f6;stroke:#888;stroke-width:.8}
 .figure .bar-edge{stroke-width:9}
 .figure .bar{stroke:#e8e8e8;stroke-width:6.6}
 .figure .rod{stroke-width:2}
@@ -117,7 +118,7 @@ Json as_json(const FigureShapes& f) {
               {"centre", vector(f.centre)}, {"right", vector(f.right)}, {"up", vector(f.up)},
               {"toward", vector(f.toward)}, {"plane", f.is_plane},      {"follows", f.follows},
               {"followed", f.followed},     {"shapes", Json::array()}};
-    constexpr std::array names{"path", "circle", "ring", "arc", "text", "angle_text", "face"};
+    constexpr std::array names{"path", "circle", "ring", "arc", "text", "angle_text", "hull", "face"};
     for (const FigureShape& shape : f.shapes) {
         Json one{{"kind", names[static_cast<std::size_t>(shape.kind)]}};
         one["v"] = Json::array();

@@ -65,7 +65,7 @@ private:
             const bool first_alone = e.kind == Element::block || e.kind == Element::force ||
                                      e.kind == Element::impulse || e.kind == Element::torque;
             if (e.kind == Element::gravity || e.kind == Element::axes || e.kind == Element::angle ||
-                e.kind == Element::guide || e.kind == Element::wall)
+                e.kind == Element::guide || e.kind == Element::wall || e.kind == Element::ground_plane)
                 continue;
             if (e.kind == Element::floor) {
                 if (with_lengths) points.push_back(e.points[3]);
@@ -100,7 +100,7 @@ private:
         }
         for (const FigureElement& e : d_.elements)
             if (e.kind == Element::ring || e.kind == Element::ball || e.kind == Element::hoop ||
-                e.kind == Element::pulley) {
+                e.kind == Element::pulley || e.kind == Element::ellipsoid) {
                 const Vector3d p = pose[e.points[0]] - origin;
                 const Vector3d c(p.dot(v_.right), p.dot(v_.up), p.dot(v_.toward));
                 double size = e.size;

@@ -81,6 +81,30 @@ double StrokeBoard::label_side(int a, int b) const {
     return 14 * sign;
 }
 
+bool StrokeBoard::is_doubled_on_blocks(int a, int b) const {
+    const auto joins = [&](Element kind) {
+        return std::any_of(drawing.elements.begin(), drawing.elements.end(), [&](const FigureElement& e) {
+            return e.kind == kind && e.points[0] == a && e.points[1] == b;
+        });
+    };
+    const auto ends = [&](int point, bool also_wall) {
+        return std::any_of(drawing.elements.begin(), drawing.elements.end(), [&](const FigureElement& e) {
+            return e.points[0] == point && (e.kind == Element::block || (also_wall && e.kind == Element::wall));
+        });
+    };
+    return joins(Element::spring) && joins(Element::damper) &&
+           ((ends(a, true) && ends(b, false)) || (ends(a, false) && ends(b, true)));
+}
+
+double StrokeBoard::half_height_of_block(int point) const {
+    constexpr double usual = 11, high = 20;
+    for (const FigureElement& e : drawing.elements)
+        if (e.kind == Element::damper && (e.points[0] == point || e.points[1] == point) &&
+            is_doubled_on_blocks(e.points[0], e.points[1]))
+            return high;
+    return usual;
+}
+
 std::pair<double, double> StrokeBoard::reach(int origin, int end, int point) const {
     double low = 0, high = 0;
     for (const Pose& pose : poses) {

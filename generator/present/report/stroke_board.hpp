@@ -42,6 +42,10 @@ struct StrokeBoard {
     Eigen::Vector2d free_side(int point) const;
     /// The side of a label: left of a rod that points down, above one that points right, where nothing else is.
     double label_side(int a, int b) const;
+    /// Are there a spring and a damper between these points, which are those of blocks or of a block and a wall?
+    /// Then they are side by side, and the blocks higher.
+    bool is_doubled_on_blocks(int a, int b) const;
+    double half_height_of_block(int point) const;
     /// Signed lengths along a line that the points of all poses reach.
     std::pair<double, double> reach(int origin, int end, int point) const;
     /// The largest size of a direction in all poses; 0 where there is one pose.
