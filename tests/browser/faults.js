@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Runs in a page, as the body of a function: what is wrong with its layout.
 //   nothing is wider than the window; equations have a size; plots have axes with ticks and labels; texts of a plot do
-//   not cover each other; the figure's strokes are inside it; headings do not overlap what follows.
+//   not cover each other; the figure's strokes are inside it, and its letters do not cover each other; headings do not overlap
+//   what follows.
 const found = [];
 for (const fold of document.querySelectorAll("details")) fold.open = true;
 const wide = document.documentElement.clientWidth;
@@ -14,6 +15,7 @@ if (document.documentElement.scrollWidth > wide) {
   found.push("wider than the window: " + who.slice(0, 3).map((e) => e.tagName + "." + e.getAttribute("class")).join(", "));
 }
 for (const e of document.querySelectorAll("math")) {
+  if (matchMedia("print").matches && !e.checkVisibility()) continue;  // of the sliders, which are not printed
   const box = e.getBoundingClientRect();
   if (!(box.width > 0 && box.height > 0)) found.push("an equation without size: " + e.textContent.slice(0, 40));
 }
@@ -47,5 +49,17 @@ if (stage) {
     if (b.left < box.left - 3 || b.right > box.right + 3 || b.top < box.top - 3 || b.bottom > box.bottom + 3)
       found.push("outside the figure: " + e.getAttribute("class") + " " + e.textContent);
   }
+  // What is seen of letters, from the height of an x to a little below the line: the boxes of fonts are far higher.
+  const letters = Array.from(stage.querySelectorAll(".shapes text")).filter((e) => e.getAttribute("visibility") !== "hidden").map((e) => {
+    const b = e.getBoundingClientRect(), place = e.getScreenCTM(), size = parseFloat(getComputedStyle(e).fontSize) * place.d;
+    const line = place.d * Number(e.getAttribute("y")) + place.f;
+    return { text: e.textContent, left: b.left, right: b.right, top: line - 0.5 * size, bottom: line + 0.1 * size, size };
+  });
+  for (let i = 0; i < letters.length; ++i)
+    for (let j = i + 1; j < letters.length; ++j) {
+      const p = letters[i], q = letters[j];
+      const x = Math.min(p.right, q.right) - Math.max(p.left, q.left), y = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+      if (x > 0.12 * p.size && y > 0.12 * p.size) found.push("in the figure '" + p.text + "' covers '" + q.text + "'");
+    }
 }
 return found;

@@ -3,6 +3,7 @@
 # Opens the pages of scenes in headless Chromium and looks whether they are right (check.py says at what), and drives the sliders
 # and bodies of some (live.py). Before that, a page with faults must be found wrong in each of the ways that it announces.
 #   run.sh PROGRAM [SCENE...]        a few scenes of all kinds where none is named
+#   run.sh PROGRAM --all             every scene of the repository, with a short motion
 # Needs Debian's chromium and chromium-driver, and Python; skipped with exit code 77 where one is missing, which is a
 # failure where test.sh has installed them. SHOTS=FOLDER keeps a picture of each page.
 set -u
@@ -23,16 +24,22 @@ sed -n 's/^ *expect: //p' "$here/faulty.html" | while IFS= read -r fault; do
     grep -qF "$fault" "$work/found" || { echo "FAILED: not found in faulty.html: $fault"; cat "$work/found"; exit 1; }
 done || exit 1
 named=1
-if [ $# -eq 0 ]; then
+short=()
+if [ "${1-}" = --all ]; then
+    set -- "$root"/scenes/*/*.toml "$root"/scenes/benchmark/*/*.toml
+    short=(--duration 0.05 --budget 100000)
+elif [ $# -eq 0 ]; then
     named=0
     for name in double_pendulum four_bar slider_crank coupled_oscillators bouncing_ball rolling_disc rolling_disc_in_space \
         heavy_top free_body; do
         set -- "$@" "$root/scenes/textbook/$name.toml"
     done
-    set -- "$@" "$root/tests/browser/hostile.toml"
+    set -- "$@" "$root/tests/browser/hostile.toml" "$root/scenes/benchmark/andrews.toml" "$root/scenes/gallery/stewart.toml" \
+        "$root/scenes/benchmark/trees/pend32.toml"
 fi
 for scene in "$@"; do
-    "$program" report "$scene" -o "$work/pages/$(basename "$scene" .toml).html" >/dev/null 2>"$work/errors" || {
+    page=$(basename "$(dirname "$scene")")-$(basename "$scene" .toml)
+    "$program" report "$scene" "${short[@]}" -o "$work/pages/$page.html" >/dev/null 2>"$work/errors" || {
         echo "FAILED: report $scene"
         cat "$work/errors"
         exit 1

@@ -72,7 +72,11 @@ class Browser:
     def resize(self, width, height, dark=False):
         """The window, in pixels, and whether a person has asked for dark pages; holds for pages opened after it."""
         self.protocol("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self.protocol("Emulation.setEmulatedMedia",
+        self.show(dark)
+
+    def show(self, dark=False, printed=False):
+        """The colours that a person has asked for, or the page as it is printed."""
+        self.protocol("Emulation.setEmulatedMedia", media="print" if printed else "",
                       features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
     def run(self, script, *arguments):
