@@ -434,7 +434,8 @@ private:
 
 void add_bodies(Sketch& sketch, const Asked& asked, LooksOfScene& looks) {
     BodyShapes shapes(sketch, asked, looks);
-    for (const Sketch::Frame3& body : sketch.bodies) shapes.add(body);
+    for (const Sketch::Frame3& body : sketch.bodies)
+        if (!sketch.shown.contains(body.mass)) shapes.add(body);
 }
 
 }  // namespace alembert

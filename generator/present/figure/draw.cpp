@@ -78,7 +78,10 @@ Drawing draw(const Scene& scene, const Mechanism& mechanism) {
     sketch.sample();
     if (!looks.has_shapes()) spread(sketch, tracks);
     find_centres(sketch);
+    const std::vector<Slope> slopes = find_slopes(sketch, looks);
     add_bodies(sketch, tracks, looks);
+    add_slopes(sketch, slopes, looks);
+    if (!looks.has_scenery()) add_ropes(sketch, tracks);  // below the blocks that hang on them
     add_particles(sketch, looks);
     looks.add_scenery();
     if (!looks.has_grounds()) add_grounds(sketch, tracks);

@@ -214,7 +214,7 @@ void find_centres(Sketch& s) {
 
 void add_particles(Sketch& s, LooksOfScene& looks) {
     for (const Sketch::Site& site : s.sites) {
-        if (!is_particle(s, site)) continue;
+        if (!is_particle(s, site) || s.shown.contains(site.mass)) continue;
         const double mass = s.masses[site.mass];
         const std::string& symbol = s.scene.particles[s.m.masses[site.mass].origin.index].mass.text;
         const bool is_symbol = symbol.size() <= 6 && symbol.find_first_not_of("0123456789.") != std::string::npos;

@@ -95,6 +95,17 @@ void find_centres(Sketch& sketch);
 std::optional<Eigen::Vector3d> straight_way(const Sketch& sketch, int track);
 /// A block on a guide along that way.
 void add_slider(Sketch& sketch, int track, int mass, const std::string& label, const Eigen::Vector3d& way);
+/// A mass that slides or rolls on an inclined side of another one.
+struct Slope {
+    int wedge, rider;     ///< positions in Mechanism::masses
+    Eigen::Vector3d way;  ///< downhill
+};
+/// Only of scenes that say no shapes. What slopes draw is marked as shown.
+std::vector<Slope> find_slopes(Sketch& sketch, const LooksOfScene& looks);
+/// After the wheels that roll on them.
+void add_slopes(Sketch& sketch, const std::vector<Slope>& slopes, const LooksOfScene& looks);
+/// Ropes over pulleys, between masses whose ways along lines add up.
+void add_ropes(Sketch& sketch, const Asked& asked);
 void add_bodies(Sketch& sketch, const Asked& asked, LooksOfScene& looks);
 void add_particles(Sketch& sketch, LooksOfScene& looks);
 /// The circle on which a wheel rolls, if the wheel's centre `wheel` keeps its distance from the fixed point

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 
 #include "model/formulas.hpp"
 #include "present/figure/drawing.hpp"
@@ -110,6 +111,7 @@ public:
     /// Tracks that are drawn away from their positions: masses that move on one line are drawn apart.
     std::vector<std::pair<int, Eigen::Vector3d>> displaced;
     Eigen::Vector3d down{0, 0, 0};
+    std::set<int> shown;  ///< masses that something else draws than their kind does
     /// Tracks of masses whose shape has its middle elsewhere, with the track of that middle.
     std::vector<std::pair<int, int>> middles;
 
