@@ -323,7 +323,7 @@ private:
                 continue;
             }
             const cln::cl_I whole = cln::numerator(exponent);
-            const cln::cl_I residue = cln::mod(whole, cln::cl_I(static_cast<unsigned long>(Prime::modulus - 1)));
+            const cln::cl_I residue = cln::mod(whole, cln::cl_I(Prime::modulus - 1));
             const Prime e = point_.random(203, leaf(monomial).bits());
             if (e.is_zero()) return std::nullopt;
             result *= (e * e).power(cln::cl_I_to_UQ(residue));

@@ -41,7 +41,7 @@ public:
     /// Nothing if the modulus divides the denominator.
     static std::optional<Prime> from(const Rational& r) {
         const auto residue = [](const cln::cl_I& n) {
-            return from_bits(cln::cl_I_to_UQ(cln::mod(n, cln::cl_I(static_cast<unsigned long>(modulus)))));
+            return from_bits(cln::cl_I_to_UQ(cln::mod(n, cln::cl_I(modulus))));
         };
         const Prime below = residue(cln::denominator(r));
         if (below.is_zero()) return std::nullopt;

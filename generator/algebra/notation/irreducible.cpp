@@ -25,7 +25,7 @@ std::uint64_t power_mod(std::uint64_t base, std::uint64_t exponent) {
 }
 
 std::uint64_t residue(const cln::cl_I& n) {
-    return static_cast<std::uint64_t>(cln::cl_I_to_ulong(cln::mod(n, cln::cl_I(static_cast<unsigned long>(p)))));
+    return cln::cl_I_to_UQ(cln::mod(n, cln::cl_I(p)));
 }
 
 /// Nothing if p divides the denominator.

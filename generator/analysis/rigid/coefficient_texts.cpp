@@ -17,7 +17,7 @@ constexpr std::size_t most_symbols = 6;  // parameters in which coefficients are
 std::string text_of(const Rational& r) {
     const cln::cl_I above = cln::numerator(r), below = cln::denominator(r);
     if (below > 999) return fmt::format("{:.10g}", cln::double_approx(r));
-    const auto digits = [](const cln::cl_I& n) { return std::to_string(cln::cl_I_to_long(n)); };
+    const auto digits = [](const cln::cl_I& n) { return std::to_string(cln::cl_I_to_Q(n)); };
     return cln::equal(below, 1) ? digits(above) : fmt::format("{}/{}", digits(above), digits(below));
 }
 
@@ -61,7 +61,7 @@ std::optional<Rational> short_fraction(Prime p) {
         t0 = std::exchange(t1, t0 - quotient * t1);
     }
     if (t1 == 0 || std::abs(t1) > bound) return std::nullopt;
-    return Rational(cln::cl_I(static_cast<long>(t1 < 0 ? -r1 : r1))) / cln::cl_I(static_cast<long>(std::abs(t1)));
+    return Rational(cln::cl_I(t1 < 0 ? -r1 : r1)) / cln::cl_I(std::abs(t1));
 }
 
 std::string coefficient_text(const Rational& r) {
