@@ -77,8 +77,9 @@ def first_paint(browser, page, times=3):
     return least
 
 
-def faults_of_looks(browser, dark):
-    """The layout in the other colours and in print."""
+def faults_of_looks(browser, page, dark):
+    """The layout in the other colours and in print, at the start of the motion."""
+    browser.open(page.resolve().as_uri())
     for name, looks in (("light" if dark else "dark", {"dark": not dark}), ("printed", {"printed": True})):
         browser.show(**looks)
         yield from ((name, fault) for fault in browser.run(FAULTS))
@@ -114,7 +115,7 @@ def main(folder, shots=""):
                 picture = shots and os.path.join(shots, f"{page.stem}-{width}.png")
                 found = faults_of_page(browser, page, picture)
                 wrong += [f"{width} px: {fault}" for fault in found]
-                wrong += [f"{width} px, {name}: {fault}" for name, fault in faults_of_looks(browser, width == 380)]
+                wrong += [f"{width} px, {name}: {fault}" for name, fault in faults_of_looks(browser, page, width == 380)]
             print("FAILED " if wrong else "ok     ", page.name, *("\n    " + fault for fault in wrong), sep="")
             failures += bool(wrong)
     return 1 if failures else 0

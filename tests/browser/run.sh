@@ -34,8 +34,7 @@ elif [ $# -eq 0 ]; then
         heavy_top free_body; do
         set -- "$@" "$root/scenes/textbook/$name.toml"
     done
-    set -- "$@" "$root/tests/browser/hostile.toml" "$root/scenes/benchmark/andrews.toml" "$root/scenes/gallery/stewart.toml" \
-        "$root/scenes/benchmark/trees/pend32.toml"
+    set -- "$@" "$root/tests/browser/hostile.toml" "$root/scenes/benchmark/trees/pend32.toml"
 fi
 for scene in "$@"; do
     page=$(basename "$(dirname "$scene")")-$(basename "$scene" .toml)
