@@ -105,6 +105,13 @@ TEST_CASE("stability: the period of coefficients that are sines of t is found") 
     CHECK(two["period"].get<double>() == doctest::Approx(2 * std::numbers::pi).epsilon(1e-15));
     const Json shifted = Json::parse(run({"stability", scene("cos(w*t+a)"), "--json", "--at", "w=4"}).out);
     CHECK(shifted["period"].get<double>() == doctest::Approx(std::numbers::pi / 2).epsilon(1e-15));
+    // A parameter that depends on others
+    const std::string dependent = temporary(
+        "dependent.toml",
+        "[parameters]\na = 1\nq = 0.1\nv = 3\nw = \"2*v\"\n[coordinates]\nx = 0\n[[particle]]\nname = "
+        "\"P\"\nmass = 1\nposition = [\"x\", 0]\n[[force]]\nat = \"P\"\nvector = [\"-(a-2*q*cos(w*t))*x\", 0]\n");
+    CHECK(asked({"stability", dependent, "--json"}, 2)["period"].get<double>() ==
+          doctest::Approx(std::numbers::pi / 3).epsilon(1e-15));
     CHECK(run({"stability", scene("cos(t^2)")}).exit == 3);
     CHECK(run({"stability", scene("(cos(t)+cos(sqrt(2)*t))")}).exit == 3);
     CHECK(run({"stability", scene("t*cos(t)")}).exit == 3);
@@ -123,6 +130,44 @@ TEST_CASE("stability: squares of parameters are no conditions") {
                                      std::regex("(^|[*])[A-Za-z]\\w*\\^2([*][A-Za-z0-9]+)* > 0")));
         }
     }
+}
+
+// The pendulum of length l with a spring and a damper, by its angle and by x and y with a rod: the conditions are
+// those of m l^2 s^2 + c l^2 s + (m g + k l) l, and the sign of the second decides about the verdict.
+TEST_CASE("stability: conditions in the parameters with a constraint") {
+    const std::string scene = temporary(
+        "rod.toml",
+        "gravity = [0, \"-g\"]\n[parameters]\nm = 1\nl = 2\ng = 9\nc = 0.1\nk = 3\n[coordinates]\nx = 0\n"
+        "y = { initial = \"-l\" }\n[[particle]]\nname = \"A\"\nmass = \"m\"\nposition = [\"x\", \"y\"]\n"
+        "[[spring]]\nstiffness = \"k\"\nalong = \"x\"\nlength = 0\n[[damper]]\ndamping = \"c\"\nalong = \"x\"\n"
+        "[[constraint]]\nname = \"rod\"\nholonomic = \"x^2 + y^2 = l^2\"\n");
+    const Json conditions = asked({"stability", scene, "--json"})["conditions"];
+    CHECK(conditions == Json{"c > 0", "(m*g+l*k)*l > 0"});
+    CHECK(asked({"stability", scene, "--json", "--at", "k=-4"})["verdict"] == "asymptotically stable");
+    CHECK(asked({"stability", scene, "--json", "--at", "k=-5"}, 1)["verdict"] == "unstable");
+}
+
+TEST_CASE("derive --steps leads from positions to velocities, squares of speeds, T and d/dt, and check reads it") {
+    const std::string scene = source_path("scenes/textbook/double_pendulum.toml");
+    const std::string text = run({"derive", scene, "--steps"}).out;
+    std::size_t last = 0;
+    for (const char* const line :
+         {"x_M1 = l1*sin(theta1)", "x_M1' = l1*theta1'*cos(theta1)", "v_M1^2 = l1^2*theta1'^2",
+          "T of particle M1 = m1*l1^2*theta1'^2/2", "d/dt dT/d(theta1') = (m1+m2)*l1^2*theta1''"}) {
+        CAPTURE(line);
+        const std::size_t at = text.find(line);
+        REQUIRE(at != std::string::npos);
+        CHECK(at > last);
+        last = at;
+    }
+    const Json read = asked({"check", scene, temporary("steps.txt", text), "--json"});
+    int right = 0;
+    for (const Json& line : read["lines"]) {
+        CAPTURE(line["source"].get<std::string>());
+        right += line["status"] == "right" ? 1 : 0;
+        CHECK((line["status"] == "right" || line["status"] == "not_about_scene"));
+    }
+    CHECK(right > 25);
 }
 
 TEST_CASE("inertia: a rod has no moment about its axis, whichever way it lies") {

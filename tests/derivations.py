@@ -4,6 +4,7 @@
 
     tests/derivations.py PROGRAM corpus                 # tests/derivations/: each file has its .expected
     tests/derivations.py PROGRAM steps                  # derive --steps --format latex of the scenes, every line right
+    tests/derivations.py PROGRAM steps --format text    # the same, printed as text
     tests/derivations.py PROGRAM steps --all --limit 60 # the same for all scenes by all formalisms, in 60 s a pair
     tests/derivations.py PROGRAM made --count 1000 --seed 7
                                                         # the same rewritten in several hands, with random slips
@@ -155,22 +156,22 @@ def corpus(program, options):
 # What the program derives
 
 
-def steps_of(program, scene, formalism="", limit=600):
+def steps_of(program, scene, formalism="", limit=600, form="latex"):
     by = ["--by", formalism] if formalism else []
-    result = run(program, "derive", scene, "--steps", "--format", "latex", *by, limit=limit)
+    result = run(program, "derive", scene, "--steps", "--format", form, *by, limit=limit)
     return result.stdout if result.returncode == 0 else None
 
 
 def hold_steps(job):
     """Every equality of derive --steps: counts of what `check` says of it."""
-    program, scene, formalism, limit = job
+    program, scene, formalism, limit, form = job
     name = f"{os.path.basename(scene)} by {formalism}"
     try:
-        text = steps_of(program, scene, formalism, limit)
+        text = steps_of(program, scene, formalism, limit, form)
         if text is None:
             return None
         with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "steps.tex")
+            file = os.path.join(folder, "steps.tex" if form == "latex" else "steps.txt")
             with open(file, "w", encoding="utf-8") as out:
                 out.write(text)
             result, seconds, errors = checked(program, scene, file, limit=limit)
@@ -212,7 +213,7 @@ def steps(program, options):
     pairs = [pair for pair in pairs if options.only in f"{os.path.basename(pair[0])} {pair[1]}"]
     counts, told, times, missing = collections.Counter(), [], [], set(FORMALISMS)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for pair, found in zip(pairs, pool.map(hold_steps, [(program, *pair, options.limit) for pair in pairs])):
+        for pair, found in zip(pairs, pool.map(hold_steps, [(program, *pair, options.limit, options.format) for pair in pairs])):
             if found is not None:
                 counts += found[0]
                 told += found[1]
@@ -570,6 +571,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("what", choices=["corpus", "steps", "made"])
     parser.add_argument("--only", default="", help="corpus, steps: files, or scenes and formalisms, with this in their name")
+    parser.add_argument("--format", choices=["latex", "text"], default="latex", help="steps: how they are printed")
     parser.add_argument("--all", action="store_true", help="steps: all scenes of the textbook and the gallery")
     parser.add_argument("--limit", type=float, default=600, help="steps: seconds for a scene by a formalism")
     parser.add_argument("--count", type=int, default=0)

@@ -214,7 +214,7 @@ def same(side, text):
 
 
 def is_expression(text):
-    return not re.search(r" of |^d\w+/d\(|^[QF]\*?\(|^gap|^w_|^\w+\*$|\bx\b.*\bx\b r", text)
+    return not re.search(r" of |^d\w+/d\(|^d/dt d|^[QF]\*?\(|^gap|^w_|^omega_|^\w+\*$|\bx\b.*\bx\b r", text)
 
 
 def run(program, *words):

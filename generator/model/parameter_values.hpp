@@ -14,12 +14,14 @@ namespace alembert {
 
 class ParameterValues {
 public:
-    explicit ParameterValues(const Mechanism& m) {
-        for (std::size_t round = 0; round <= m.parameters.size(); ++round)
-            for (const Mechanism::Parameter& p : m.parameters)
-                if (!known_.contains(p.symbol))
-                    if (const GiNaC::ex value = in_numbers(p.value); GiNaC::is_a<GiNaC::numeric>(value))
-                        known_[p.symbol] = value;
+    explicit ParameterValues(const Mechanism& m) { add_parameters(m); }
+
+    /// At other values of the independent parameters, which come in the order of Program.
+    ParameterValues(const Mechanism& m, const std::vector<double>& independent) {
+        std::size_t k = 0;
+        for (const Mechanism::Parameter& p : m.parameters)
+            if (p.independent) known_[p.symbol] = GiNaC::numeric(independent.at(k++));
+        add_parameters(m);
     }
 
     /// Adds the state at the start, and what intermediate symbols are there; expressions in these are numbers
@@ -42,6 +44,12 @@ public:
     }
 
 private:
+    void add_parameters(const Mechanism& m) {
+        for (std::size_t round = 0; round <= m.parameters.size(); ++round)
+            for (const Mechanism::Parameter& p : m.parameters)
+                if (!known_.contains(p.symbol)) add(p.symbol, p.value);
+    }
+
     void add(const GiNaC::symbol& symbol, const GiNaC::ex& e) {
         if (const GiNaC::ex value = in_numbers(e); GiNaC::is_a<GiNaC::numeric>(value)) known_[symbol] = value;
     }

@@ -42,9 +42,7 @@ std::vector<double> accelerations_at(const Derived& d, const Program& program, c
     std::vector<double> result = values_of(program, interpret(program, state), Group::acceleration);
     if ((!state.q.empty() && massless_combination(program, state)) ||
         !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
-        throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", state.t,
-                                   failure_at(d, state).value_or(say("the numbers overflow"))),
-                               state.t, state.q);
+        throw IntegrationError(no_accelerations_at(d, state), state.t, state.q);
     return result;
 }
 

@@ -40,10 +40,7 @@ void need_accelerations(const Derived& derived, const Program& program, State<do
         if (!massless_combination(program, first)) return false;
         return pose == FirstPose::must_be_regular || !is_regular_beside(program, first);
     };
-    if (has_none())
-        throw IntegrationError(say("there are no finite accelerations at t = {:.6g}: {}", first.t,
-                                   failure_at(derived, first).value_or(say("the mass matrix is singular"))),
-                               first.t, first.q);
+    if (has_none()) throw IntegrationError(no_accelerations_at(derived, first), first.t, first.q);
 }
 
 }  // namespace alembert

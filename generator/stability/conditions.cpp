@@ -150,7 +150,7 @@ SymbolicPolynomial characteristic(const GiNaC::matrix& M, const GiNaC::matrix& D
         for (unsigned j = 0; j < M.cols(); ++j) sum(i, j) = M(i, j) * s * s + D(i, j) * s + P(i, j);
     const ex determinant = sum.determinant().expand();
     SymbolicPolynomial result;
-    for (int k = 2 * static_cast<int>(M.rows()); k >= zeros; --k) result.push_back(determinant.coeff(s, k));
+    for (int k = determinant.degree(s); k >= zeros; --k) result.push_back(determinant.coeff(s, k));
     return result;
 }
 

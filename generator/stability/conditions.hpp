@@ -41,7 +41,7 @@ std::vector<GiNaC::ex> hurwitz_conditions(const SymbolicPolynomial& polynomial,
 std::vector<GiNaC::ex> real_frequency_conditions(const SymbolicPolynomial& polynomial,
                                                  const std::vector<GiNaC::ex>& positive = {});
 
-/// det(M s² + D s + P), highest power first, without the zero roots of the last `zeros` powers.
+/// det(M s² + D s + P), highest power that occurs first, without the zero roots of the last `zeros` powers.
 SymbolicPolynomial characteristic(const GiNaC::matrix& M, const GiNaC::matrix& D, const GiNaC::matrix& P,
                                   int zeros);
 

@@ -9,6 +9,8 @@
 #include <map>
 #include <numbers>
 
+#include "model/parameter_values.hpp"
+
 namespace alembert {
 
 namespace {
@@ -20,9 +22,9 @@ constexpr double same_ratio = 1e-12;  // of frequencies, relative
 
 class Frequencies {
 public:
-    Frequencies(const Derived& d, const Start& start) : m_(d.mechanism), e_(d.equations) {
-        for (std::size_t k = 0; k < m_.parameters.size(); ++k)
-            values_[m_.parameters[k].symbol] = start.parameters[k];
+    Frequencies(const Derived& d, const Start& start)
+        : m_(d.mechanism), e_(d.equations), values_(d.mechanism, start.parameters) {
+        for (const Mechanism::Parameter& p : m_.parameters) parameters_.insert(p.symbol);
         phases_[m_.t] = 1;
     }
 
@@ -43,7 +45,7 @@ public:
 private:
     bool is_steady(const ex& e) const {
         for (GiNaC::const_preorder_iterator i = e.preorder_begin(); i != e.preorder_end(); ++i)
-            if (GiNaC::is_a<GiNaC::symbol>(*i) && !values_.contains(*i)) return false;
+            if (GiNaC::is_a<GiNaC::symbol>(*i) && !parameters_.contains(*i)) return false;
         return true;
     }
 
@@ -60,9 +62,8 @@ private:
             const std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
             const ex rate = e.nops() == 1 && (name == "sin" || name == "cos") ? rate_of(e.op(0)) : ex(0);
             if (!rate.is_zero() && is_steady(rate)) {
-                const ex number = rate.subs(values_).evalf();
-                if (GiNaC::is_a<GiNaC::numeric>(number)) {
-                    found_.push_back(std::abs(GiNaC::ex_to<GiNaC::numeric>(number).to_double()));
+                if (const double number = values_.number(rate); std::isfinite(number)) {
+                    found_.push_back(std::abs(number));
                     return 1;
                 }
             }
@@ -91,7 +92,8 @@ private:
 
     const Mechanism& m_;
     const Equations& e_;
-    GiNaC::exmap values_;
+    const ParameterValues values_;
+    GiNaC::exset parameters_;
     std::map<ex, ex, GiNaC::ex_is_less> phases_;  ///< t, and what is linear in it, with its rate
     std::vector<double> found_;
     bool periodic_ = true;

@@ -11,6 +11,8 @@
 #include "algebra/notation/text.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/routh.hpp"
+#include "model/parameter_values.hpp"
 #include "program/lower/lower.hpp"
 #include "stability/conditions.hpp"
 #include "stability/linear/linearize_symbolic.hpp"
@@ -107,6 +109,29 @@ double terms_of_determinant(const SymbolicPolynomial& p) {
     return std::pow(static_cast<double>(most), static_cast<double>(p.size()) - 2);
 }
 
+/// By the equations if these are in the rates, else by Routh's.
+std::optional<SymbolicPencil> pencil_of(const Mechanism& m, const Equations& equations, const std::vector<ex>& q0,
+                                        const std::vector<ex>& u0) {
+    if (equations.speeds_are_rates()) return symbolic_pencil(m, equations, q0, u0);
+    if (obstacle_to_routh(m)) return {};
+    const Equations in_rates = routh(m);
+    Mechanism own = m;
+    own.z = in_rates.z;
+    return symbolic_pencil(own, in_rates, q0, u0);
+}
+
+/// Negates the polynomial if its first coefficient is negative at the values of the parameters. False if its sign
+/// there is not found.
+bool make_first_positive(SymbolicPolynomial& p, const Local& local) {
+    std::vector<double> parameters;
+    for (const Certain& p : local.point.parameters) parameters.push_back(p.number());
+    const double first = ParameterValues(local.mechanism, parameters).number(p.front());
+    if (!std::isfinite(first) || first == 0) return false;
+    if (first < 0)
+        for (ex& coefficient : p) coefficient = -coefficient;
+    return true;
+}
+
 }  // namespace
 
 void add_conditions(Stability& result, const Local& local, const ExactOverrides& exact_at) {
@@ -117,27 +142,23 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
             if (name == m.q[i].get_name()) q0[i] = exact_number(number);
             if (name == m.q[i].get_name() + "'") u0[i] = exact_number(number);
         }
-    // Is the state in use that of the scene?
-    for (int i = 0; i < m.size(); ++i)
-        if (m.q_is_guess[i] || m.qdot_is_guess[i]) return;
-    const auto found = symbolic_matrices(m, local.equations, q0, u0);
+    // Is the state in use that of the scene? With constraints it is if the scene's obeys them.
+    if (m.constraints.empty())
+        for (int i = 0; i < m.size(); ++i)
+            if (m.q_is_guess[i] || m.qdot_is_guess[i]) return;
+    const auto found = pencil_of(m, local.equations, q0, u0);
     // A state that is steady for these values of the parameters alone has no conditions in the parameters.
     if (!found || !found->stays) return;
-    const unsigned n = found->M.rows();
-    GiNaC::matrix D(n, n), P(n, n);
-    for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < n; ++j) {
-            D(i, j) = found->C(i, j) + found->G(i, j);
-            P(i, j) = found->K(i, j) + found->N(i, j);
-        }
     const int zeros =
         static_cast<int>(local.split.q.size() - local.essential.size() + local.cyclic_momenta.size());
-    const SymbolicPolynomial p = characteristic(found->M, D, P, zeros);
+    const auto degree = static_cast<std::size_t>(local.split.q.size() + local.split.u.size());
+    SymbolicPolynomial p = characteristic(found->S2, found->S1, found->S0, zeros);
+    if (p.size() < 2 || p.size() - 1 + static_cast<std::size_t>(zeros) != degree) return;
+    if (terms_of_determinant(p) > most_terms || !make_first_positive(p, local)) return;
     std::vector<ex> positive;
     for (const MassElement& body : m.masses)
         if (GiNaC::is_a<GiNaC::symbol>(body.mass)) positive.push_back(body.mass);
     positive.push_back(p.front());
-    if (p.size() < 2 || terms_of_determinant(p) > most_terms) return;
     bool odd_vanish = true;
     for (std::size_t k = 1; k < p.size(); k += 2) odd_vanish = odd_vanish && p[k].normal().is_zero();
     result.conditions =

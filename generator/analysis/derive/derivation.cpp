@@ -58,6 +58,7 @@ public:
         if (names_.any()) keep_names_where_shorter();
         if (!energies()) return with_definitions();
         tell(0.7);
+        motion();
         angular_velocities();
         forces();
         tell(0.85);
@@ -184,6 +185,46 @@ private:
         return true;
     }
 
+    /// Adds the position of each mass as far as it is no coordinate, its velocity and v², and ω in the plane.
+    void motion() {
+        for (const MassElement& mass : m_.masses) {
+            const std::string& name = mass.origin.name;
+            if (name.empty() || is_name_of_scene(name)) continue;
+            const auto state = [&](const char* letter, const ex& value) {
+                return add(result_.motion, {Statement::Kind::motion, letter, name, {}, {}}, value);
+            };
+            if (mass.rotation && mass.rotation->w_NB_B[0].is_zero() && mass.rotation->w_NB_B[1].is_zero() &&
+                !is_rate(mass.rotation->w_NB_B[2]) && !mass.rotation->w_NB_B[2].is_zero())
+                state("omega", mass.rotation->w_NB_B[2]);
+            std::vector<int> moving;
+            for (int k = 0; k < 3; ++k)
+                if (!mass.velocity[k].is_zero()) moving.push_back(k);
+            if (std::all_of(moving.begin(), moving.end(), [&](int k) { return is_rate(mass.velocity[k]); }))
+                continue;
+            static constexpr std::array<const char*, 3> along{"x", "y", "z"}, rates{"x'", "y'", "z'"};
+            for (const int k : moving) state(along[k], mass.position[k]);
+            for (const int k : moving) state(rates[k], mass.velocity[k]);
+            GiNaC::exvector squares;
+            for (const int k : moving) squares.push_back(mass.velocity[k] * mass.velocity[k]);
+            state("v^2", m_.z->name(GiNaC::add(std::move(squares))));
+        }
+    }
+
+    bool is_rate(const ex& value) const {
+        return std::any_of(m_.qdot.begin(), m_.qdot.end(),
+                           [&](const GiNaC::symbol& rate) { return value.is_equal(rate); });
+    }
+
+    /// Whether one of the letters that a body's motion would have, x_A … omega_A, is a name of the scene.
+    bool is_name_of_scene(const std::string& body) const {
+        static constexpr std::array<const char*, 5> letters{"x_", "y_", "z_", "v_", "omega_"};
+        const std::vector<GiNaC::symbol>& all = m_.symbols->all();
+        return std::any_of(all.begin(), all.end(), [&](const GiNaC::symbol& s) {
+            return std::any_of(letters.begin(), letters.end(),
+                               [&](const char* letter) { return s.get_name() == letter + body; });
+        });
+    }
+
     /// Adds ω along the axes of each body that turns in space.
     void angular_velocities() {
         for (const MassElement& body : m_.masses) {
@@ -191,7 +232,7 @@ private:
                 continue;
             for (int k = 0; k < 3; ++k)
                 add(result_.angular,
-                    {Statement::Kind::energy, std::string("w_") + "xyz" [k], shown_label(body.origin), {}, {}},
+                    {Statement::Kind::energy, std::string("omega_") + "xyz" [k], shown_label(body.origin), {}, {}},
                     body.rotation->w_NB_B[k]);
         }
     }
@@ -237,7 +278,7 @@ private:
             add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, total[i]);
     }
 
-    /// Adds ∂T/∂q' and ∂T/∂q, or those of L if the scene gives it.
+    /// Adds ∂T/∂q', its rate and ∂T/∂q, or those of L if the scene gives it.
     void derivatives() {
         using Kind = Statement::Kind;
         const std::string letter = m_.given_lagrangian ? "L" : "T";
@@ -245,9 +286,12 @@ private:
         state.insert(state.end(), m_.qdot.begin(), m_.qdot.end());
         const ex energy = m_.given_lagrangian ? m_.lagrangian() : m_.kinetic_energy();
         const std::vector<ex> gradient = m_.z->pull_back({{energy, 1}}, state);
+        const std::vector<ex> rates = m_.time_derivative({gradient.begin() + m_.size(), gradient.end()});
         for (int i = 0; i < m_.size(); ++i) {
-            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.qdot[i]), {}},
-                gradient[m_.size() + i]);
+            const Phrase rate = symbol_of(m_.qdot[i]);
+            add(result_.derivatives, {Kind::partial, letter, "", rate, {}}, gradient[m_.size() + i]);
+            if (!rates[i].is_zero())
+                add(result_.derivatives, {Kind::partial_rate, letter, "", rate, {}}, rates[i]);
             add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.q[i]), {}}, gradient[i]);
         }
     }

@@ -27,12 +27,13 @@ struct Derivation {
     std::vector<Phrase> coordinates;
     std::vector<std::pair<Phrase, Phrase>>
         definitions;                  ///< intermediate symbols; empty for equations of readable size
+    std::vector<Statement> motion;    ///< positions of masses along the axes of N, velocities, squares of speeds
     std::vector<Statement> angular;   ///< angular velocities along the axes of bodies that turn in space
     std::vector<Statement> energies;  ///< T and V of each body and spring
     Phrase kinetic, potential;
     std::optional<Phrase> lagrangian;  ///< the Lagrangian, if the scene gives it
     std::vector<Statement> forces;     ///< generalized forces of each part of V and of each load, then their sums
-    std::vector<Statement> derivatives;  ///< ∂T/∂q', ∂T/∂q, or those of L
+    std::vector<Statement> derivatives;  ///< ∂T/∂q', its rate and ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
     std::vector<std::pair<Phrase, Phrase>> abbreviations;  ///< definitions of the scene that stay names in these
     std::vector<Phrase> rows;                           ///< the coordinate or speed to which each equation belongs

@@ -173,16 +173,44 @@ std::optional<Differentiated> derivatives_of(const Derived& d, const Program& pr
     return differentiated(program, wishes);
 }
 
-std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
-    if (auto lock = gimbal_lock(d.scene, d.mechanism, state)) return lock;
+namespace {
+
+struct Failure {
+    std::string reason;
+    bool is_massless = false;
+};
+
+std::optional<Failure> found_failure(const Derived& d, const State<double>& state) {
+    const auto other = [](std::optional<std::string> reason) -> std::optional<Failure> {
+        if (!reason) return std::nullopt;
+        return Failure{std::move(*reason)};
+    };
+    if (auto lock = gimbal_lock(d.scene, d.mechanism, state)) return other(lock);
     LowerOptions options{.admissible = [&d] { return admissible_start(d.mechanism); }};
     if (d.equations.M.rows() == 0) options.recursion = RecursionForm{.solve = RecursionForm::Solve::articulated};
     const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism), options);
     if (const auto combination = massless_combination(program, state))
-        return say("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
-                   *combination);
-    if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return lost;
-    return not_finite(program, state, program.singular ? Group::forcing : Group::acceleration);
+        return Failure{say("nothing has inertia along {}; give it a mass, or remove a coordinate", *combination),
+                       true};
+    if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return other(lost);
+    return other(not_finite(program, state, program.singular ? Group::forcing : Group::acceleration));
+}
+
+}  // namespace
+
+std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
+    auto failure = found_failure(d, state);
+    if (!failure) return std::nullopt;
+    if (failure->is_massless) return say("the mass matrix is singular: {}", failure->reason);
+    return std::move(failure->reason);
+}
+
+std::string no_accelerations_at(const Derived& d, const State<double>& state) {
+    const auto failure = found_failure(d, state);
+    if (!failure) return say("there are no finite accelerations at t = {:.6g}: the numbers overflow", state.t);
+    return failure->is_massless
+               ? say("the mass matrix is singular at t = {:.6g}: {}", state.t, failure->reason)
+               : say("there are no finite accelerations at t = {:.6g}: {}", state.t, failure->reason);
 }
 
 }  // namespace alembert

@@ -69,4 +69,7 @@ std::optional<Differentiated> derivatives_of(const Derived& derived, const Progr
 /// merged.)
 std::optional<std::string> failure_at(const Derived& derived, const State<double>& state);
 
+/// The message of a state without finite accelerations, with its time and the reason.
+std::string no_accelerations_at(const Derived& derived, const State<double>& state);
+
 }  // namespace alembert

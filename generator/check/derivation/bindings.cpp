@@ -61,8 +61,12 @@ std::vector<Place3> points_for(const std::string& index, const Scene& scene) {
     return result;
 }
 
-/// "x" of an index "x" or "1x": the component that it speaks of, and the rest of it.
-std::pair<int, std::string> component_in(const std::string& index) {
+/// "x" of an index "x" or "1x": the component that it speaks of, and the rest of it. No component where the whole
+/// index is the name of one of the things: "cylinder".
+std::pair<int, std::string> component_in(const std::string& index, const std::vector<std::string>& things) {
+    if (std::any_of(things.begin(), things.end(),
+                    [&](const std::string& thing) { return plain_word(thing) == plain_word(index); }))
+        return {-1, index};
     std::string rest = index;
     for (int axis = 0; axis < 3; ++axis) {
         const std::size_t at = rest.find("xyz"[axis]);
@@ -83,18 +87,33 @@ void add_component(std::vector<Binding>& to, const Place3& point, const char* ve
     to.push_back({.text = "-" + text, .named = point.named, .reversed = true});
 }
 
+/// ω_x^{body A}, the component along an axis of the body.
+std::vector<Binding> angular_velocity_named(const Letter& letter, const Scene& scene) {
+    const std::size_t axis =
+        letter.index.size() == 1 ? std::string("xyz").find(letter.index[0]) : std::string::npos;
+    if (letter.base != "omega" || axis == std::string::npos) return {};
+    const std::string word = plain_word(letter.raised);
+    for (const Body& body : scene.bodies)
+        if (word == plain_word(body.name.text) || word == plain_word("body " + body.name.text))
+            return {{.text = fmt::format("dot(omega({0}),{1}({0}))", body.name.text, axis_names[axis]),
+                     .named = true}};
+    return {};
+}
+
 }  // namespace
 
 std::vector<Binding> bindings_of(const Letter& letter, const Scene& scene) {
+    if (!letter.raised.empty()) return angular_velocity_named(letter, scene);
     std::vector<Binding> result;
-    if (!letter.raised.empty()) return result;
     const std::string& base = letter.base;
     const std::size_t axis = base.size() == 1 ? std::string("xyz").find(base[0]) : std::string::npos;
     const std::size_t capital = base.size() == 1 ? std::string("XYZ").find(base[0]) : std::string::npos;
     if (axis != std::string::npos || capital != std::string::npos)
         for (const Place3& point : points_for(letter.index, scene))
             add_component(result, point, "pos", static_cast<int>(axis != std::string::npos ? axis : capital));
-    const auto [component, rest] = component_in(letter.index);
+    std::vector<std::string> things = masses_of(scene);
+    for (const Point& p : scene.points) things.push_back(p.name.text);
+    const auto [component, rest] = component_in(letter.index, things);
     if (base == "v" || base == "a" || base == "r")
         for (const Place3& point : points_for(component < 0 ? letter.index : rest, scene)) {
             const char* const vector = base == "v" ? "vel" : base == "a" ? "acc" : "pos";

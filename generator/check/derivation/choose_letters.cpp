@@ -102,9 +102,19 @@ std::vector<Assignment> assignments(const std::vector<Letter>& letters, const st
     return result;
 }
 
-/// Letters of mechanics that stand in an equation of motion as forces do: the tension T in m y'' = T − m g.
+/// Letters of which partial derivatives are taken: T of ∂T/∂q'.
+void collect_differentiated(const Math& math, std::set<Letter>& letters) {
+    if (math.kind == Math::Kind::partial && math.args[0]->kind == Math::Kind::letter)
+        letters.insert(math.args[0]->letter);
+    for (const MathPtr& part : math.args) collect_differentiated(*part, letters);
+}
+
+/// Letters of mechanics that stand in an equation of motion as forces do: the tension T in m y'' = T − m g. One of
+/// which partial derivatives are taken is none.
 std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) {
-    std::set<Letter> result;
+    std::set<Letter> result, differentiated;
+    for (const WrittenStatement& statement : written.statements)
+        for (const MathPtr& side : statement.sides) collect_differentiated(*side, differentiated);
     for (const WrittenStatement& statement : written.statements) {
         if (std::none_of(statement.sides.begin(), statement.sides.end(),
                          [](const MathPtr& side) { return is_accelerated(*side); }))
@@ -113,7 +123,7 @@ std::set<Letter> perhaps_forces(const Written& written, const Letters& letters) 
         for (const MathPtr& side : statement.sides) collect_letters(*side, here);
         for (const auto& [letter, dots] : here)
             if (const auto name = letters.name_of(letter);
-                name && quantity_of(letter) && !letters.is_of_scene(*name))
+                name && quantity_of(letter) && !letters.is_of_scene(*name) && !differentiated.contains(letter))
                 result.insert(letter);
     }
     return result;

@@ -104,6 +104,17 @@ bool MathParser::end_of_letter_inside(std::size_t i) const {
     return kind(i + 1) == Kind::letter && (partner_[i] == i + 2 || kind(i + 2) == Kind::index);
 }
 
+/// The letter after d or ∂ in a denominator, which may stand in parentheses: theta1', (theta1'). Its range, and
+/// where what follows begins.
+std::optional<std::pair<MathParser::Range, std::size_t>> MathParser::differential_letter(std::size_t i) const {
+    if (kind(i) == Kind::open && partner_[i] != no_partner && partner_[i] < end_ &&
+        end_of_letter(i + 1) == partner_[i])
+        return std::pair(Range{i + 1, partner_[i]}, partner_[i] + 1);
+    const std::size_t end = end_of_letter(i);
+    if (end == no_partner) return {};
+    return std::pair(Range{i, end}, end);
+}
+
 /// The variables of a denominator that is nothing but dt, ∂q ∂q̇, dx² …: each as often as its order says.
 std::optional<std::vector<MathParser::Range>> MathParser::variables(std::size_t begin, std::size_t end,
                                                                     bool is_partial) const {
@@ -112,10 +123,9 @@ std::optional<std::vector<MathParser::Range>> MathParser::variables(std::size_t 
         if (i > begin && kind(i) == Kind::times) ++i;
         const auto what = differential(i);
         if (!what || what->is_partial != is_partial || what->order != 1) return {};
-        const std::size_t letter = what->after;
-        std::size_t after = end_of_letter(letter);
-        if (after == no_partner || after > end) return {};
-        const Range range{letter, after};
+        const auto letter = differential_letter(what->after);
+        if (!letter || letter->second > end) return {};
+        auto [range, after] = *letter;
         int order = 1;
         if (kind(after) == Kind::power && after < end) {
             std::size_t k = after + 1;
@@ -235,8 +245,9 @@ MathPtr MathParser::slanted_derivative() {
         while (true) {
             const auto one = differential(i);
             if (!one || one->is_partial != what->is_partial) break;
-            std::size_t k = end_of_letter(one->after);
-            if (k == no_partner) break;
+            const auto letter = differential_letter(one->after);
+            if (!letter) break;
+            std::size_t k = letter->second;
             if (kind(k) == Kind::power && kind(k + 1) == Kind::number)
                 k += 2;
             else if (kind(k) == Kind::power && kind(k + 1) == Kind::begin_group && kind(k + 2) == Kind::number)

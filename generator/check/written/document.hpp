@@ -71,6 +71,7 @@ private:
     bool bare_parentheses();
     std::vector<WrittenToken> latex_tokens(std::size_t begin, std::size_t end);
     std::vector<WrittenToken> plain_tokens(std::size_t begin, std::size_t end);
+    std::vector<WrittenToken> labelled_tokens(std::size_t begin, std::size_t end);
     static void add_word(std::vector<WrittenToken>& tokens, const std::string& word, std::size_t offset);
 };
 

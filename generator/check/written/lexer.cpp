@@ -362,7 +362,9 @@ bool WrittenLexer::plain_word(std::size_t begin, const std::string& word) {
         return true;
     }
     if (word == "sqr" && has_bracket) return false;
-    if (word.size() > 1 && word[0] == 'd' && (byte(next) == '/' || (begin > 0 && text_[begin - 1] == '/'))) {
+    std::size_t sign = next;  // after primes: dL'/d(q')
+    while (byte(sign) == '\'') ++sign;
+    if (word.size() > 1 && word[0] == 'd' && (byte(sign) == '/' || (begin > 0 && text_[begin - 1] == '/'))) {
         const std::string rest = word.substr(1);
         const auto [letter, dots] = letter_of_word(rest);
         const bool is_variable = letter.base.size() == 1 || command_named(letter.base) != nullptr || rest == "t";

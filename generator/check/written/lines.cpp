@@ -375,6 +375,49 @@ std::vector<WrittenToken> DocumentReader::plain_tokens(std::size_t begin, std::s
     return joined;
 }
 
+/// "T of particle M1 = …", "Q(x) of gravity on particle M1 = …", "F*(x') = …", as `derive --steps` prints them:
+/// the words stand above the letter, and below it, what is in parentheses. Empty for a line that begins otherwise.
+std::vector<WrittenToken> DocumentReader::labelled_tokens(std::size_t begin, std::size_t end) {
+    constexpr std::string_view of = " of ", indexed = "QFEB";
+    const std::string_view line = slice(begin, end), before = line.substr(0, line.find(" = "));
+    const std::size_t word = std::min(before.find(of), before.size());
+    if (before.size() == line.size() || before.substr(0, word).find(' ') != std::string_view::npos) return {};
+    std::string_view label = before.substr(std::min(word + of.size(), before.size()));
+    if (label.starts_with("the ")) label.remove_prefix(4);
+    if (label.find_first_of("=+*/^") != std::string_view::npos) return {};
+    std::vector<WrittenToken> tokens = plain_tokens(begin, begin + word);
+    if (tokens.empty() || tokens[0].kind != LineKind::letter) return {};
+    const auto open = std::find_if(tokens.begin(), tokens.end(),
+                                   [](const WrittenToken& token) { return token.kind == LineKind::open; });
+    const bool has_index = indexed.find(before[0]) != std::string_view::npos && tokens.end() - open >= 3 &&
+                           tokens.back().kind == LineKind::close && open[1].kind == LineKind::letter &&
+                           open[1].letter.base != "t";
+    const bool is_labelled = word < before.size() && label != "system" && label != "whole system";
+    if (!has_index && (tokens.size() > 1 || word == before.size())) return {};
+    const WrittenToken first = tokens[0];
+    const auto mark = [&](LineKind kind, std::string_view text = "") {
+        WrittenToken token = first;
+        token.kind = kind;
+        token.text = text;
+        return token;
+    };
+    if (has_index) {
+        if (open[2].kind == LineKind::primes) {
+            open[1].dots += open[2].dots;
+            tokens.erase(open + 2);
+        }
+        open->kind = LineKind::begin_group;
+        tokens.back().kind = LineKind::end_group;
+        tokens.insert(open, mark(LineKind::index));
+    }
+    if (is_labelled)
+        for (const WrittenToken& token : {mark(LineKind::power), mark(LineKind::begin_group),
+                                          mark(LineKind::text, label), mark(LineKind::end_group)})
+            tokens.push_back(token);
+    for (WrittenToken& token : plain_tokens(begin + before.size(), end)) tokens.push_back(std::move(token));
+    return tokens;
+}
+
 /// A line with a sign such as =, and the lines that go on with it. False if it holds no statement.
 bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
     const std::size_t from = begin + marker_length(slice(begin, end));
@@ -395,8 +438,9 @@ bool DocumentReader::plain_line(std::size_t begin, std::size_t end) {
     std::size_t stop = end_of_formula(slice(from, after)) + from;
     if (stop - from > 4 && text_.compare(stop - 2, 2, "**") == 0) stop -= 2;
     const bool is_latex = has_command(slice(from, stop));
-    std::vector<WrittenStatement> found =
-        statements_of(is_latex ? latex_tokens(from, stop) : plain_tokens(from, stop), false);
+    std::vector<WrittenToken> tokens = is_latex ? latex_tokens(from, stop) : labelled_tokens(from, stop);
+    if (tokens.empty()) tokens = plain_tokens(from, stop);
+    std::vector<WrittenStatement> found = statements_of(std::move(tokens), false);
     bool has_statement = false, has_failure = false;
     for (const WrittenStatement& one : found) {
         has_statement |= one.sides.size() > 1;

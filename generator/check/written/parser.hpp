@@ -121,6 +121,7 @@ private:
     // derivatives.cpp
     std::optional<Differential> differential(std::size_t i) const;
     std::size_t end_of_letter(std::size_t i) const;
+    std::optional<std::pair<Range, std::size_t>> differential_letter(std::size_t i) const;
     bool end_of_letter_inside(std::size_t i) const;
     std::optional<std::vector<Range>> variables(std::size_t begin, std::size_t end, bool is_partial) const;
     MathPtr derivative(const Differential& what, const MathPtr& operand, const std::vector<Range>& of,

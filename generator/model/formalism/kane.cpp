@@ -156,7 +156,7 @@ OwnSteps steps_of_kane(const Mechanism& m, const Equations& e) {
             for (int k = 0; k < 3; ++k) {
                 write.partial(section, std::string("v_") + "xyz"[k], e.u[r], body.velocity[r][k]);
                 if (!body.angular.empty())
-                    write.partial(section, std::string("w_") + "xyz"[k], e.u[r], body.angular[r][k]);
+                    write.partial(section, std::string("omega_") + "xyz"[k], e.u[r], body.angular[r][k]);
             }
         result.sections.push_back(std::move(section));
     }

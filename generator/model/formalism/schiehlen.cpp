@@ -123,7 +123,7 @@ OwnSteps steps_of_schiehlen(const Mechanism& m, const Equations&) {
                 for (int k = 0; k < 3; ++k) write.partial(section, letter + "_" + "xyz"[k], by[j], J[j][k]);
         };
         add_rows("r", m.q, motions[b].J_T);
-        if (m.masses[b].rotation) add_rows("w", m.qdot, motions[b].J_R);
+        if (m.masses[b].rotation) add_rows("omega", m.qdot, motions[b].J_R);
         for (int k = 0; k < 3; ++k)
             if (const auto f = write.normal(motions[b].a_bar[k]); f && f->size() > 0)
                 section.statements.push_back(

@@ -17,11 +17,13 @@
 
 namespace alembert {
 
-/// `letter` (of `of`) = value: "T of particle M1", "dL/dtheta1'", "Q of theta1".
+/// `letter` (of `of`) = value: "T of particle M1", "dL/dtheta1'", "Q of theta1"; in `motion` a position, a
+/// velocity, a speed's square or an angular velocity of a body, "x_M1", "x_M1'", "v_M1^2"; in `partial_rate` the
+/// rate of a partial derivative, "d/dt dT/d(theta1')".
 struct Statement {
-    enum class Kind { energy, partial, force, work, definition };
+    enum class Kind { energy, partial, partial_rate, force, work, definition, motion };
     Kind kind = Kind::energy;
-    std::string letter;        ///< T, V, L, Q, δW
+    std::string letter;        ///< T, V, L, Q, δW; x, x', v^2, omega
     std::string of;            ///< a body, a load; may be empty
     std::optional<Phrase> by;  ///< the variable of a partial derivative, the coordinate of a force
     Phrase value;

@@ -37,6 +37,9 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
              freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
          {}}};
 
+    if (!shown.motion.empty())
+        blocks.push_back(
+            block_of(say("Positions of the mass centres along the axes of N, and velocities:"), shown.motion));
     if (!shown.angular.empty())
         blocks.push_back(block_of(say("Angular velocities along the axes of the bodies:"), shown.angular));
     std::vector<Statement> energies = shown.energies;

@@ -103,8 +103,20 @@ constexpr std::array<Spelled, 32> spelled{{
      "\\mathrm{gap} \\ge 0,\\ \\lambda \\ge 0,\\ \\lambda \\, \\mathrm{gap} = 0"},
 }};
 
+/// What stands after the letter of a motion: "x'" is x and ', "v^2" is v and ^2.
+std::pair<std::string, std::string> stem_and_mark(const std::string& letter) {
+    const std::size_t mark = letter.find_first_of("'^");
+    return {letter.substr(0, mark), mark == std::string::npos ? "" : letter.substr(mark)};
+}
+
 std::string text_left(const Statement& s) {
     switch (s.kind) {
+        case Statement::Kind::motion: {
+            const auto [stem, mark] = stem_and_mark(s.letter);
+            return stem + "_" + s.of + mark;
+        }
+        case Statement::Kind::partial_rate:
+            return fmt::format("d/dt d{}/d({})", s.letter, text(*s.by));
         case Statement::Kind::partial:
             return fmt::format("d{}/d({})", s.letter, text(*s.by));
         case Statement::Kind::force:
@@ -148,11 +160,31 @@ std::string mathml_letter(const std::string& letter) {
                            : "<msub><mi>" + c.mathml + "</mi><mi>" + c.index + "</mi></msub>";
 }
 
+/// A position, a velocity, a square of a speed or an angular velocity, with its body below.
+std::string mathml_motion(const std::string& letter, const std::string& of) {
+    const auto [stem, mark] = stem_and_mark(letter);
+    const std::string base = mathml_letter(stem);
+    if (mark == "^2") return "<msubsup>" + base + of + "<mn>2</mn></msubsup>";
+    const std::string accented = "<mover accent=\"true\">" + base + "<mo>˙</mo></mover>";
+    return "<msub>" + (mark == "'" ? accented : base) + of + "</msub>";
+}
+
 std::string latex_left(const Statement& s) {
     const std::string of = s.of.empty() ? "" : fmt::format("^{{\\text{{{}}}}}", escaped(s.of, false));
+    const auto partial = [&] {
+        return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", latex_letter(s.letter), latex(*s.by));
+    };
     switch (s.kind) {
+        case Statement::Kind::motion: {
+            const auto [stem, mark] = stem_and_mark(s.letter);
+            const std::string letter = mark == "'" ? "\\dot{" + stem + "}" : latex_letter(stem);
+            const std::string index = "_{\\text{" + escaped(s.of, false) + "}}";
+            return letter + index + (mark == "^2" ? "^{2}" : "");
+        }
         case Statement::Kind::partial:
-            return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", latex_letter(s.letter), latex(*s.by));
+            return partial();
+        case Statement::Kind::partial_rate:
+            return "\\frac{d}{dt} " + partial();
         case Statement::Kind::force:
         case Statement::Kind::work:
             return fmt::format("{}_{{{}}}{}", latex_letter(s.letter), latex(*s.by), of);
@@ -164,10 +196,17 @@ std::string latex_left(const Statement& s) {
 std::string mathml_left(const Statement& s) {
     const std::string letter = mathml_letter(s.letter);
     const std::string of = "<mtext>" + escaped(s.of, true) + "</mtext>";
+    const auto partial = [&] {
+        return "<mfrac><mrow><mo>∂</mo>" + letter + "</mrow><mrow><mo>∂</mo>" + mathml_row(*s.by) +
+               "</mrow></mfrac>";
+    };
     switch (s.kind) {
+        case Statement::Kind::motion:
+            return mathml_motion(s.letter, of);
         case Statement::Kind::partial:
-            return "<mfrac><mrow><mo>∂</mo>" + letter + "</mrow><mrow><mo>∂</mo>" + mathml_row(*s.by) +
-                   "</mrow></mfrac>";
+            return partial();
+        case Statement::Kind::partial_rate:
+            return "<mfrac><mi>d</mi><mrow><mi>d</mi><mi>t</mi></mrow></mfrac>" + partial();
         case Statement::Kind::force:
             return "<msub>" + letter + "<mrow>" + mathml_row(*s.by) + "</mrow></msub>";
         case Statement::Kind::work:

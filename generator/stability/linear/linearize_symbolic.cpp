@@ -2,6 +2,7 @@
 #include "stability/linear/linearize_symbolic.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "algebra/notation/readable.hpp"
 #include "algebra/symbolic/fourier.hpp"
@@ -71,6 +72,133 @@ std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e,
     return result;
 }
 
+/// The pencil of a scene with constraints. GiNaC's expressions are all in q, q' and parameters.
+class ConstrainedPencil {
+public:
+    ConstrainedPencil(const Mechanism& m, const Equations& e, const std::vector<ex>& q0, const std::vector<ex>& u0)
+        : m_(m), e_(e), n_(m.size()), rows_(static_cast<int>(m.constraints.size())) {
+        for (int i = 0; i < n_; ++i) {
+            there_[m.q[i]] = m.z->expand(q0[i]);
+            there_[m.qdot[i]] = m.z->expand(u0[i]);
+        }
+    }
+
+    std::optional<SymbolicPencil> find() {
+        if (!m_.unilateral.empty() || n_ + rows_ > most_rows || !expand_forces()) return {};
+        if (!holds_at_start()) return SymbolicPencil{};
+        if (!find_reactions()) return {};
+        const auto size = static_cast<unsigned>(n_ + rows_);
+        SymbolicPencil result{.S2 = {size, size}, .S1 = {size, size}, .S0 = {size, size}, .stays = true};
+        bool short_enough = true;
+        const auto put = [&](GiNaC::matrix& to, int i, int j, const ex& value) {
+            const auto there = readable_there(value);
+            if (!there) return void(short_enough = false);
+            to(static_cast<unsigned>(i), static_cast<unsigned>(j)) = *there;
+        };
+        for (int i = 0; i < n_; ++i)
+            for (int j = 0; j < n_ && short_enough; ++j) {
+                put(result.S2, i, j, m_.z->expand(e_.M(i, j)));
+                put(result.S1, i, j, -force_[i].diff(m_.qdot[j]));
+                put(result.S0, i, j, -loaded_[i].diff(m_.q[j]));
+            }
+        for (int k = 0; k < rows_; ++k)
+            for (int j = 0; j < n_ && short_enough; ++j) {
+                put(result.S0, j, n_ + k, -row_[k][j]);
+                if (m_.constraints[k].position) {
+                    put(result.S0, n_ + k, j, row_[k][j]);
+                } else {
+                    put(result.S1, n_ + k, j, row_[k][j]);
+                    put(result.S0, n_ + k, j, speed_[k].diff(m_.q[j]));
+                }
+            }
+        if (!short_enough) return {};
+        return result;
+    }
+
+private:
+    static constexpr int most_rows = 8;
+
+    bool expand_forces() {
+        for (int i = 0; i < n_; ++i) {
+            if (m_.z->tree_size(e_.forcing(i)) > largest_tree) return false;
+            force_.push_back(m_.z->expand(e_.forcing(i)));
+        }
+        for (const Mechanism::Constraint& c : m_.constraints) {
+            std::vector<ex> row;
+            ex speed = m_.z->expand(c.drift);
+            for (int i = 0; i < n_; ++i) {
+                row.push_back(m_.z->expand(c.row[i]));
+                speed += row.back() * m_.qdot[i];
+            }
+            row_.push_back(std::move(row));
+            speed_.push_back(std::move(speed));
+        }
+        return std::none_of(speed_.begin(), speed_.end(), [&](const ex& e) { return e.has(m_.t); });
+    }
+
+    bool vanishes(const ex& e) const {
+        const auto value = fourier(e.subs(there_), *m_.symbols, 400);
+        return value && is_zero(*value);
+    }
+
+    /// Do positions, rates and accelerations q'' = 0 obey the constraints?
+    bool holds_at_start() const {
+        for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
+            const Mechanism::Constraint& c = m_.constraints[k];
+            if (c.position && !vanishes(m_.z->expand(*c.position))) return false;
+            if (!vanishes(speed_[k]) || !vanishes(m_.z->expand(c.acceleration))) return false;
+        }
+        return true;
+    }
+
+    /// λ of f + Aᵀ λ = 0 from A Aᵀ λ = −A f, and whether all of f is then in balance.
+    bool find_reactions() {
+        const auto size = static_cast<unsigned>(rows_);
+        GiNaC::matrix square(size, size), right(size, 1), unknown(size, 1);
+        for (unsigned k = 0; k < size; ++k) {
+            unknown(k, 0) = m_.constraints[k].multiplier;
+            for (int i = 0; i < n_; ++i) {
+                right(k, 0) -= (row_[k][i] * force_[i]).subs(there_);
+                for (unsigned l = 0; l < size; ++l) square(k, l) += (row_[k][i] * row_[l][i]).subs(there_);
+            }
+        }
+        GiNaC::matrix reaction(size, 1);
+        try {
+            reaction = square.solve(unknown, right);
+        } catch (const std::runtime_error&) {
+            return false;  // the rows depend on each other there
+        }
+        for (int i = 0; i < n_; ++i) {
+            ex sum = force_[i], balance = force_[i].subs(there_);
+            for (unsigned k = 0; k < size; ++k) {
+                const ex value = reaction(k, 0).normal();
+                if (value.has(unknown(k, 0))) return false;
+                sum += row_[k][i] * value;
+                balance += row_[k][i].subs(there_) * value;
+            }
+            loaded_.push_back(sum);
+            if (!balance.normal().is_zero() && !vanishes(balance)) return false;
+        }
+        return true;
+    }
+
+    std::optional<ex> readable_there(const ex& e) const {
+        const ex value = e.subs(there_);
+        if (has_unknown_derivative(value)) return {};
+        const ex short_value = value.normal();
+        const auto f = fourier(short_value, *m_.symbols, 400);
+        if (!f || f->size() > most_terms) return {};
+        return expression(readable(*f));
+    }
+
+    const Mechanism& m_;
+    const Equations& e_;
+    const int n_, rows_;
+    GiNaC::exmap there_;
+    std::vector<ex> force_, loaded_, speed_;  ///< f, f + Aᵀ λ, A q' + b
+    std::vector<std::vector<ex>> row_;
+};
+
 }  // namespace
 
 std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equations& e,
@@ -78,6 +206,23 @@ std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equa
     try {
         return matrices(m, e, q0, u0);
     } catch (const GiNaC::pole_error&) {  // 0·∞, as of sqrt(x^2)^3 at 0
+        return {};
+    }
+}
+
+std::optional<SymbolicPencil> symbolic_pencil(const Mechanism& m, const Equations& e, const std::vector<ex>& q0,
+                                              const std::vector<ex>& u0) {
+    if (m.constraints.empty()) {
+        const auto found = symbolic_matrices(m, e, q0, u0);
+        if (!found) return {};
+        SymbolicPencil result{.S2 = found->M, .S1 = found->C.add(found->G), .S0 = found->K.add(found->N)};
+        result.stays = found->stays;
+        return result;
+    }
+    if (!e.speeds_are_rates()) return {};
+    try {
+        return ConstrainedPencil(m, e, q0, u0).find();
+    } catch (const GiNaC::pole_error&) {
         return {};
     }
 }

@@ -29,4 +29,18 @@ std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& mechanism, co
                                                   const std::vector<GiNaC::ex>& q0,
                                                   const std::vector<GiNaC::ex>& u0);
 
+/// S2 s² + S1 s + S0, whose determinant is the characteristic polynomial, in the parameters. With constraints they
+/// have a row for each, φ_q δq = 0 or (A s + ∂ν/∂q) δq = 0 of ν = A q' + b, and a column for each multiplier; P
+/// has the change of the reactions Aᵀ λ too.
+struct SymbolicPencil {
+    GiNaC::matrix S2, S1, S0;
+    bool stays = false;  ///< proved for all values of the parameters: forces and reactions are in balance, and the
+                         ///< constraints hold
+};
+
+/// As `symbolic_matrices`, with constraints too; nothing with unilateral ones, or if more than eight rows come of
+/// them.
+std::optional<SymbolicPencil> symbolic_pencil(const Mechanism& mechanism, const Equations& equations,
+                                              const std::vector<GiNaC::ex>& q0, const std::vector<GiNaC::ex>& u0);
+
 }  // namespace alembert
