@@ -95,7 +95,10 @@ std::string steps_as_claims(const Derivation& shown) {
     }
     for (const Statement& s : shown.forces)
         add("Q_" + text(*s.by) + (s.kind == Statement::Kind::work ? part(s) : ""), s.value);
-    for (const Statement& s : shown.derivatives) add("diff(" + s.letter + ", " + text(*s.by) + ")", s.value);
+    for (const Statement& s : shown.derivatives) {
+        const std::string slope = "diff(" + s.letter + ", " + text(*s.by) + ")";
+        add(s.kind == Statement::Kind::partial_rate ? "(" + slope + ")'" : slope, s.value);
+    }
     return claims;
 }
 
