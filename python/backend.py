@@ -70,10 +70,11 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     tag = f"{abi}-{abi}-{platform}"
     info = f"alembert-{_version()}.dist-info"
     package = _build()
+    without = (config_settings or {}).get("without", "").split()  # files of the package: pip wheel --config-settings without=alembert-hdf5.so
     contents = {}
     for name in sorted(os.listdir(package)):
         path = os.path.join(package, name)
-        if os.path.isfile(path):
+        if os.path.isfile(path) and name not in without:
             with open(path, "rb") as file:
                 contents[f"alembert/{name}"] = file.read()
     contents[f"{info}/METADATA"] = _metadata().encode()
