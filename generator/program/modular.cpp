@@ -326,7 +326,7 @@ private:
             const cln::cl_I residue = cln::mod(whole, cln::cl_I(Prime::modulus - 1));
             const Prime e = point_.random(203, leaf(monomial).bits());
             if (e.is_zero()) return std::nullopt;
-            result *= (e * e).power(cln::cl_I_to_UQ(residue));
+            result *= (e * e).power(uint64_of(residue));
             degree += 2 * std::abs(cln::double_approx(exponent));
         }
         return result;

@@ -20,6 +20,16 @@
 
 namespace alembert {
 
+/// A whole number from 0 to 2⁶⁴ − 1. Where CLN's digits have 32 bits, its own function (of 1.3.6) gives the lowest
+/// digit alone.
+inline std::uint64_t uint64_of(const cln::cl_I& n) {
+    if constexpr (sizeof(long) == sizeof(std::uint64_t)) return cln::cl_I_to_UQ(n);
+    const auto half = [&](int from) -> std::uint64_t {
+        return cln::cl_I_to_UL(cln::ldb(n, cln::cl_byte(32, from)));
+    };
+    return (half(32) << 32) | half(0);
+}
+
 class Prime {
 public:
     static constexpr std::uint64_t modulus = (std::uint64_t{1} << 61) - 1;
@@ -41,7 +51,7 @@ public:
     /// Nothing if the modulus divides the denominator.
     static std::optional<Prime> from(const Rational& r) {
         const auto residue = [](const cln::cl_I& n) {
-            return from_bits(cln::cl_I_to_UQ(cln::mod(n, cln::cl_I(modulus))));
+            return from_bits(uint64_of(cln::mod(n, cln::cl_I(modulus))));
         };
         const Prime below = residue(cln::denominator(r));
         if (below.is_zero()) return std::nullopt;

@@ -31,7 +31,7 @@ struct PrimeTurn {
     }
     /// c as an exponent, modulo the order of the group; nothing if its denominator is even.
     static std::optional<std::uint64_t> exponent(const Rational& c) {
-        const auto low = [](const cln::cl_I& n) { return cln::cl_I_to_UQ(cln::ldb(n, cln::cl_byte(61, 0))); };
+        const auto low = [](const cln::cl_I& n) { return uint64_of(cln::ldb(n, cln::cl_byte(61, 0))); };
         if (cln::evenp(cln::denominator(c))) return std::nullopt;
         const std::uint64_t d = low(cln::denominator(c));
         std::uint64_t inverse = d;  // Newton's iteration for 1/d

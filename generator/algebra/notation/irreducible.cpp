@@ -25,7 +25,7 @@ std::uint64_t power_mod(std::uint64_t base, std::uint64_t exponent) {
 }
 
 std::uint64_t residue(const cln::cl_I& n) {
-    return cln::cl_I_to_UQ(cln::mod(n, cln::cl_I(p)));
+    return cln::cl_I_to_UL(cln::mod(n, cln::cl_I(p)));
 }
 
 /// Nothing if p divides the denominator.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "program/prime.hpp"
 #include "program/reduce_rows.hpp"
 
 namespace alembert {
@@ -17,7 +18,9 @@ constexpr std::size_t most_symbols = 6;  // parameters in which coefficients are
 std::string text_of(const Rational& r) {
     const cln::cl_I above = cln::numerator(r), below = cln::denominator(r);
     if (below > 999) return fmt::format("{:.10g}", cln::double_approx(r));
-    const auto digits = [](const cln::cl_I& n) { return std::to_string(cln::cl_I_to_Q(n)); };
+    const auto digits = [](const cln::cl_I& n) {
+        return (cln::minusp(n) ? "-" : "") + std::to_string(uint64_of(cln::abs(n)));
+    };
     return cln::equal(below, 1) ? digits(above) : fmt::format("{}/{}", digits(above), digits(below));
 }
 
