@@ -198,15 +198,35 @@ using bits8 = long long __attribute__((vector_size(64)));
 template <typename Real> struct pair { Real s, c; };
 template <typename Real, unsigned count> struct sines { Real sine[count], cosine[count]; };
 
+/// Stands where a sum has to be made as it is written, also for a compiler that may make it in another order.
 #if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
-constexpr bool is_reducible = false;  // the reduction does not survive sums in another order
+template <typename Real> [[gnu::always_inline]] inline Real as_written(Real x) {
+#if defined(__AVX512F__)
+    constexpr unsigned widest = 64;
+#elif defined(__AVX__)
+    constexpr unsigned widest = 32;
 #else
-constexpr bool is_reducible = true;
+    constexpr unsigned widest = 16;
+#endif
+    if constexpr (sizeof(Real) > widest)
+        __asm__("" : "+m"(x));
+    else
+#if defined(__x86_64__)
+        __asm__("" : "+v"(x));
+#elif defined(__aarch64__)
+        __asm__("" : "+w"(x));
+#else
+        __asm__("" : "+m"(x));
+#endif
+    return x;
+}
+#else
+template <typename Real> [[gnu::always_inline]] inline const Real& as_written(const Real& x) { return x; }
 #endif
 constexpr double farthest = 1e8;
-[[gnu::always_inline]] inline bool is_near(double x) { return is_reducible && __builtin_fabs(x) <= farthest; }
+[[gnu::always_inline]] inline bool is_near(double x) { return __builtin_fabs(x) <= farthest; }
 /// Are all angles near whose squares make this sum? (If not, some may be.)
-[[gnu::always_inline]] inline bool is_near_all(double squares) { return is_reducible && squares <= farthest * farthest; }
+[[gnu::always_inline]] inline bool is_near_all(double squares) { return squares <= farthest * farthest; }
 [[gnu::always_inline]] inline double sum_of(const real2& x) { return x[0] + x[1]; }
 [[gnu::always_inline]] inline double sum_of(const real4& x) { return sum_of(__builtin_shufflevector(x, x, 0, 1) + __builtin_shufflevector(x, x, 2, 3)); }
 [[gnu::always_inline]] inline double sum_of(const real8& x) { return sum_of(__builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7)); }
@@ -227,14 +247,14 @@ template <typename Real> constexpr bool fuses = requires(const Real& x) { fused(
 template <typename Bits, typename Real>
 [[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
     constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
-    const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
+    const Real shifted = as_written(x * 0x1.45f306dc9c883p-1 + shift), turns = as_written(shifted - shift);
     const Bits k = __builtin_bit_cast(Bits, shifted);
     Real hi, lo;
     if constexpr (fuses<Real>) {
-        hi = fused(turns, -0x1.1a62633145c06p-54, fused(turns, -0x1.921fb54442d18p0, x));
-        hi = fused(turns, -0x1.c1cd129024e09p-107, hi);
+        hi = fused(turns, -0x1.1a62633145c06p-54, as_written(fused(turns, -0x1.921fb54442d18p0, x)));
+        hi = fused(turns, -0x1.c1cd129024e09p-107, as_written(hi));
     } else {
-        hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+        hi = as_written(as_written(x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
         lo = turns * 0x1.8a2e03707344ap-81;
     }
     const Real z = hi * hi, zz = z * z;
@@ -244,9 +264,9 @@ template <typename Bits, typename Real>
                    zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
     Real s;
     if constexpr (fuses<Real>)
-        s = hi * (1 - z * P);
+        s = hi * as_written(1 - z * P);
     else
-        s = hi - (hi * z * P + lo);
+        s = hi - as_written(hi * z * P + lo);
     const Real c = (1 - 0.5 * z) + zz * Q;
     constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
     const Bits s_sign = (k << 62) & top, odd = k & 1;
