@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -16,17 +15,15 @@
 #include <limits>
 
 #include "collected_motion.hpp"
+#include "sundials_context.hpp"
 
 namespace alembert {
 
 namespace {
 
-void quiet(int, const char*, const char*, char*, void*) {}
-
 /// Vectors, a matrix and a solver of one size, freed at the end.
 struct Workspace {
     explicit Workspace(std::size_t size) {
-        SUNContext_Create(nullptr, &context);
         const auto n = static_cast<sunindextype>(size);
         for (N_Vector* v : {&y, &slope, &between}) *v = N_VNew_Serial(n, context);
         N_VConst(0, slope);
@@ -42,7 +39,7 @@ struct Workspace {
     Workspace(const Workspace&) = delete;
     Workspace& operator=(const Workspace&) = delete;
 
-    SUNContext context = nullptr;
+    SUNContext context = quiet_context();
     N_Vector y = nullptr, slope = nullptr, between = nullptr;
     SUNMatrix matrix = nullptr;
     SUNLinearSolver solver = nullptr;
@@ -70,11 +67,11 @@ Trajectory by_cvode(const System& given, const std::vector<double>& initial, con
     void* memory = CVodeCreate(CV_BDF, w.context);
     CVodeInit(
         memory,
-        [](realtype t, N_Vector y, N_Vector out, void* s) {
+        [](sunrealtype t, N_Vector y, N_Vector out, void* s) {
             return static_cast<CountedSystem*>(s)->rate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(out));
         },
         options.start, w.y);
-    CVodeSetErrHandlerFn(memory, quiet, nullptr);
+    ALEMBERT_QUIET(CVode, memory);
     CVodeSetUserData(memory, &system);
     CVodeWFtolerances(memory, [](N_Vector y, N_Vector weights, void* s) {
         weigh(*static_cast<CountedSystem*>(s), N_VGetArrayPointer(y), N_VGetArrayPointer(weights));
@@ -83,14 +80,14 @@ Trajectory by_cvode(const System& given, const std::vector<double>& initial, con
     CVodeSetLinearSolver(memory, w.solver, w.matrix);
     if (given.rhs.jacobian != nullptr)
         CVodeSetJacFn(
-            memory, [](realtype t, N_Vector y, N_Vector, SUNMatrix J, void* s, N_Vector, N_Vector, N_Vector) {
+            memory, [](sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* s, N_Vector, N_Vector, N_Vector) {
                 auto& own = *static_cast<CountedSystem*>(s);
                 own.rhs.jacobian(own.rhs.context.get(), t, N_VGetArrayPointer(y), SUNDenseMatrix_Data(J));
                 ++own.evaluations;
                 return is_finite(SUNDenseMatrix_Data(J), own.size() * own.size()) ? 0 : recoverable;
             });
     if (given.project) {
-        CVodeSetProjFn(memory, [](realtype t, N_Vector y, N_Vector change, realtype, N_Vector, void* s) {
+        CVodeSetProjFn(memory, [](sunrealtype t, N_Vector y, N_Vector change, sunrealtype, N_Vector, void* s) {
             auto& own = *static_cast<CountedSystem*>(s);
             const double* const from = N_VGetArrayPointer(y);
             own.moved.assign(from, from + own.size());
@@ -238,12 +235,12 @@ Trajectory by_ida(const EmittedCode& code, const System& given, const std::vecto
     void* memory = IDACreate(w.context);
     IDAInit(
         memory,
-        [](realtype t, N_Vector at, N_Vector with, N_Vector out, void* s) {
+        [](sunrealtype t, N_Vector at, N_Vector with, N_Vector out, void* s) {
             return static_cast<Implicit*>(s)->residual(t, N_VGetArrayPointer(at), N_VGetArrayPointer(with),
                                                        N_VGetArrayPointer(out));
         },
         options.start, w.y, w.slope);
-    IDASetErrHandlerFn(memory, quiet, nullptr);
+    ALEMBERT_QUIET(IDA, memory);
     IDASetUserData(memory, &f);
     // Multipliers are controlled neither in the error test nor in Newton's iteration.
     IDAWFtolerances(memory, [](N_Vector at, N_Vector weights, void* s) {
@@ -260,7 +257,7 @@ Trajectory by_ida(const EmittedCode& code, const System& given, const std::vecto
         IDASetSuppressAlg(memory, 1);
     }
     IDASetLinearSolver(memory, w.solver, w.matrix);
-    IDASetJacFn(memory, [](realtype t, realtype c, N_Vector at, N_Vector with, N_Vector value, SUNMatrix J,
+    IDASetJacFn(memory, [](sunrealtype t, sunrealtype c, N_Vector at, N_Vector with, N_Vector value, SUNMatrix J,
                            void* s, N_Vector, N_Vector, N_Vector) {
         return static_cast<Implicit*>(s)->jacobian(t, c, N_VGetArrayPointer(at), N_VGetArrayPointer(with),
                                                    N_VGetArrayPointer(value), SUNDenseMatrix_Data(J));

@@ -6,7 +6,6 @@
 #include <cvode/cvode.h>
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
@@ -15,6 +14,7 @@
 #include <cstdio>
 
 #include "peers.hpp"
+#include "plugins/sundials_context.hpp"
 
 namespace alembert::peers {
 
@@ -25,14 +25,14 @@ struct Calls {
     long count = 0, budget;
 };
 
-int rate(realtype t, N_Vector y, N_Vector out, void* data) {
+int rate(sunrealtype t, N_Vector y, N_Vector out, void* data) {
     auto& calls = *static_cast<Calls*>(data);
     if (++calls.count > calls.budget) return -1;
     (*calls.rhs)(t, N_VGetArrayPointer(y), N_VGetArrayPointer(out));
     return 0;
 }
 
-int residual(realtype t, N_Vector y, N_Vector slope, N_Vector out, void* data) {
+int residual(sunrealtype t, N_Vector y, N_Vector slope, N_Vector out, void* data) {
     if (const int failed = rate(t, y, out, data)) return failed;
     N_VLinearSum(1.0, slope, -1.0, out, out);
     return 0;
@@ -41,7 +41,6 @@ int residual(realtype t, N_Vector y, N_Vector slope, N_Vector out, void* data) {
 /// The data that all of them need, freed at the end.
 struct Common {
     explicit Common(const Task& task) : calls{&task.rhs, 0, task.budget} {
-        SUNContext_Create(nullptr, &context);
         const auto n = static_cast<sunindextype>(task.initial.size());
         y = N_VNew_Serial(n, context);
         std::copy(task.initial.begin(), task.initial.end(), N_VGetArrayPointer(y));
@@ -66,19 +65,17 @@ struct Common {
     }
 
     Calls calls;
-    SUNContext context = nullptr;
+    SUNContext context = quiet_context();
     N_Vector y = nullptr;
     SUNMatrix matrix = nullptr;
     SUNLinearSolver solver = nullptr;
 };
 
-void quiet(int, const char*, const char*, char*, void*) {}
-
 Answer cvode(const Task& task, int family) {
     Common common(task);
     void* memory = CVodeCreate(family, common.context);
     CVodeInit(memory, rate, task.start, common.y);
-    CVodeSetErrHandlerFn(memory, quiet, nullptr);
+    ALEMBERT_QUIET(CVode, memory);
     CVodeSStolerances(memory, task.tolerance, task.tolerance);
     CVodeSetUserData(memory, &common.calls);
     CVodeSetMaxNumSteps(memory, task.budget);
@@ -90,7 +87,7 @@ Answer cvode(const Task& task, int family) {
     } else {
         CVodeSetLinearSolver(memory, common.solver, common.matrix);
     }
-    realtype reached = 0;
+    sunrealtype reached = 0;
     const int flag = CVode(memory, task.end, common.y, &reached, CV_NORMAL);
     long steps = 0;
     CVodeGetNumSteps(memory, &steps);
@@ -103,13 +100,13 @@ Answer cvode(const Task& task, int family) {
 Answer arkode(const Task& task) {
     Common common(task);
     void* memory = ERKStepCreate(rate, task.start, common.y, common.context);
-    ERKStepSetErrHandlerFn(memory, quiet, nullptr);
+    ALEMBERT_QUIET(ERKStep, memory);
     ERKStepSetOrder(memory, 8);
     ERKStepSStolerances(memory, task.tolerance, task.tolerance);
     ERKStepSetUserData(memory, &common.calls);
     ERKStepSetMaxNumSteps(memory, task.budget);
     ERKStepSetStopTime(memory, task.end);
-    realtype reached = 0;
+    sunrealtype reached = 0;
     const int flag = ERKStepEvolve(memory, task.end, common.y, &reached, ARK_NORMAL);
     long steps = 0;
     ERKStepGetNumSteps(memory, &steps);
@@ -124,13 +121,13 @@ Answer ida(const Task& task) {
     rate(task.start, common.y, slope, &common.calls);
     void* memory = IDACreate(common.context);
     IDAInit(memory, residual, task.start, common.y, slope);
-    IDASetErrHandlerFn(memory, quiet, nullptr);
+    ALEMBERT_QUIET(IDA, memory);
     IDASStolerances(memory, task.tolerance, task.tolerance);
     IDASetUserData(memory, &common.calls);
     IDASetMaxNumSteps(memory, task.budget);
     IDASetStopTime(memory, task.end);
     IDASetLinearSolver(memory, common.solver, common.matrix);
-    realtype reached = 0;
+    sunrealtype reached = 0;
     const int flag = IDASolve(memory, task.end, &reached, common.y, slope, IDA_NORMAL);
     long steps = 0;
     IDAGetNumSteps(memory, &steps);
