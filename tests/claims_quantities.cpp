@@ -77,6 +77,12 @@ bool declares_a_letter(const Scene& scene) {
     });
 }
 
+/// dT/d(q') or, with a prime, its rate, in the language of claims.
+std::string slope_of(const Statement& s) {
+    const std::string slope = "diff(" + s.letter + ", " + text(*s.by) + ")";
+    return s.kind == Statement::Kind::partial_rate ? "(" + slope + ")'" : slope;
+}
+
 /// Every step of a derivation that gives a quantity, as a claim.
 std::string steps_as_claims(const Derivation& shown) {
     std::string claims;
@@ -95,10 +101,7 @@ std::string steps_as_claims(const Derivation& shown) {
     }
     for (const Statement& s : shown.forces)
         add("Q_" + text(*s.by) + (s.kind == Statement::Kind::work ? part(s) : ""), s.value);
-    for (const Statement& s : shown.derivatives) {
-        const std::string slope = "diff(" + s.letter + ", " + text(*s.by) + ")";
-        add(s.kind == Statement::Kind::partial_rate ? "(" + slope + ")'" : slope, s.value);
-    }
+    for (const Statement& s : shown.derivatives) add(slope_of(s), s.value);
     return claims;
 }
 
@@ -351,8 +354,7 @@ TEST_CASE("claims: partial derivatives of the letters agree with differences") {
 std::vector<std::pair<std::string, std::string>> quantities_of(const Derivation& shown) {
     std::vector<std::pair<std::string, std::string>> result;
     if (!shown.lagrangian) result = {{"T", text(shown.kinetic)}, {"V", text(shown.potential)}};
-    for (const Statement& s : shown.derivatives)
-        result.emplace_back("diff(" + s.letter + ", " + text(*s.by) + ")", text(s.value));
+    for (const Statement& s : shown.derivatives) result.emplace_back(slope_of(s), text(s.value));
     return result;
 }
 

@@ -338,11 +338,9 @@ private:
     std::vector<Block> blocks_;
 };
 
-constexpr std::size_t most_lines = 100, most_operations = 3000;  // two screens, or 20 kB
-constexpr std::size_t most_of_one = 800;                         // operations of one equality
+}  // namespace
 
-/// What is too long to be read is named with its size, as long as nobody asks for it.
-void leave_out_what_is_too_long(std::vector<Block>& blocks) {
+void leave_out_what_is_too_long(std::vector<Block>& blocks, const Readable& most) {
     std::size_t lines = 0, operations = 0;
     bool without_symbols = false;  // nobody can read the equations without them
     std::vector<Block> result;
@@ -350,8 +348,8 @@ void leave_out_what_is_too_long(std::vector<Block>& blocks) {
         const std::size_t own_lines = block.equalities.size(),
                           own = std::accumulate(block.operations.begin(), block.operations.end(), std::size_t{0});
         const bool longest = std::any_of(block.operations.begin(), block.operations.end(),
-                                         [](std::size_t one) { return one > most_of_one; });
-        const bool fits = !longest && lines + own_lines <= most_lines && operations + own <= most_operations;
+                                         [&](std::size_t one) { return one > most.of_one; });
+        const bool fits = !longest && lines + own_lines <= most.lines && operations + own <= most.operations;
         const bool kept = fits && !(block.with_symbols && without_symbols);
         without_symbols = without_symbols || (block.with_symbols && !kept);
         result.push_back(std::move(block));
@@ -369,8 +367,6 @@ void leave_out_what_is_too_long(std::vector<Block>& blocks) {
     }
     blocks = std::move(result);
 }
-
-}  // namespace
 
 std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with_steps) {
     return DerivationBlocks(d, n).run(with_steps);

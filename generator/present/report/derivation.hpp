@@ -20,6 +20,15 @@ struct PageOptions {
 /// The derivation as words and formulas in a notation; with `with_steps`, also everything before the equations.
 std::vector<Block> blocks_of(const DerivedScene& derived, const Notation& notation, bool with_steps);
 
+/// What people may read at once: lines, and operations in all and in one of them. The usual ones are two screens,
+/// or 20 kB.
+struct Readable {
+    std::size_t lines = 100, operations = 3000, of_one = 800;
+};
+
+/// What is too long to be read is named with its size in place of its equations.
+void leave_out_what_is_too_long(std::vector<Block>& blocks, const Readable& most = {});
+
 /// The whole derivation in one notation.
 std::string as_page(const DerivedScene& derived, const PageOptions& options = {});
 

@@ -98,6 +98,8 @@ void add_derivation(PageParts& page, const Overview& all) {
         if (block.kind == Block::Kind::step || block.kind == Block::Kind::remark)
             blocks.push_back(std::move(block));
     if (blocks.empty()) return;
+    constexpr Readable in_folds{.lines = 1000, .operations = 20000, .of_one = 4000};  // half a megabyte
+    leave_out_what_is_too_long(blocks, in_folds);
     page.section("derivation", say("Derivation"));
     for (const Block& block : blocks) add_block(page.body, block);
     page.end();
