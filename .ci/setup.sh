@@ -5,7 +5,7 @@
 
 # Without these it is not built.
 needed="g++ cmake ninja-build pkg-config libginac-dev libcln-dev libeigen3-dev libfmt-dev libtomlplusplus-dev
-    libcli11-dev libkainjow-mustache-dev nlohmann-json3-dev liburdfdom-dev libtinyxml2-dev doctest-dev gettext"
+    libcli11-dev libkainjow-mustache-dev nlohmann-json3-dev liburdfdom-dev libtinyxml-dev libtinyxml2-dev doctest-dev gettext"
 # Without these a part of it is not built, or not tested.
 wanted="libcpp-httplib-dev pybind11-dev python3-dev python3-numpy libhdf5-dev libopenmpi-dev libsundials-dev libgsl-dev
     libboost-dev"

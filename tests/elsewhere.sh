@@ -26,6 +26,8 @@ in_release() { # RELEASE
     cp -L /etc/resolv.conf /etc/hosts "$system/etc"
     mount -t proc proc "$system/proc"
     mount --bind /dev "$system/dev"
+    mount -t devpts -o newinstance,ptmxmode=0666,mode=620,gid=5 devpts "$system/dev/pts"
+    mount -t tmpfs tmpfs "$system/dev/shm"
     git clone -q --depth 1 "file://$PWD" "$system/root/alembert"
     chroot "$system" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 bash -ec "
         cd /root/alembert
@@ -39,7 +41,7 @@ if [ "${ALEMBERT_ELSEWHERE-}" = '' ] && [ "$(id -u)" -eq 0 ]; then
     ALEMBERT_ELSEWHERE=inside exec unshare --mount -- "$0" "$@"
 fi
 work=$(mktemp -d)
-trap 'umount "$work"/*/proc "$work"/*/dev 2>/dev/null; rm -rf --one-file-system "$work"' EXIT
+trap 'umount "$work"/*/dev/pts "$work"/*/dev/shm "$work"/*/proc "$work"/*/dev 2>/dev/null; rm -rf --one-file-system "$work"' EXIT
 for where in "$@"; do
     printf '== %s\n' "$where"
     case $where in
