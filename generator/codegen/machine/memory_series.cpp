@@ -5,9 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "alembert/native/executable.hpp"
 #include "codegen/emit/names.hpp"
-#include "codegen/machine/registers.hpp"
+#include "codegen/machine/memory_code.hpp"
 #include "codegen/machine/series_steps.hpp"
 
 namespace alembert {
@@ -49,7 +48,7 @@ struct Running {
     std::unique_ptr<Replacement> replacement;
     std::string scene;
     std::vector<double> values;
-    std::shared_ptr<const std::uint8_t> memory;
+    std::shared_ptr<const void> memory;
     alembert_series_table table{};
 };
 
@@ -76,16 +75,15 @@ public:
             order(steps_.at_order, nodes_of(steps_.next));
         table.prepare = running_->code.fix = [](double*) {};
         if (!zero_words_.constants().empty())
-            write(lines_of_constants(steps_.at_zero, zero_words_, zero), table.prepare);
+            code_.write(lines_of_constants(steps_.at_zero, zero_words_, zero), table.prepare);
         if (!order_words_.constants().empty())
-            write(lines_of_constants(steps_.at_order, order_words_, order), running_->code.fix);
-        write(lines_of(steps_.at_zero, zero_words_, zero, steps_.first), running_->code.first);
-        write(lines_of(steps_.at_order, order_words_, order, steps_.next), running_->code.next);
-        write_entry();
-        if (!is_possible_) return std::nullopt;
-        running_->memory = executable(code_.finished());
+            code_.write(lines_of_constants(steps_.at_order, order_words_, order), running_->code.fix);
+        code_.write(lines_of(steps_.at_zero, zero_words_, zero, steps_.first), running_->code.first);
+        code_.write(lines_of(steps_.at_order, order_words_, order, steps_.next), running_->code.next);
+        // The table's function: `expand` with one more argument after those of the table's.
+        code_.write_call(reinterpret_cast<const void*>(expand), running_.get(), table.series);
+        running_->memory = code_.placed();
         if (!running_->memory) return std::nullopt;
-        for (const auto& [begin, put] : functions_) put(running_->memory.get() + begin);
         return MemorySeries{.module = {running_, &running_->table},
                             .go_over = [running = running_](const SeriesModule& compiled) {
                                 running->replacement = std::make_unique<Replacement>(compiled);
@@ -116,33 +114,10 @@ private:
         t.parameter_values = r.values.data();
     }
 
-    template <typename Function>
-    void write(const Lines& lines, Function& place) {
-        begin(place);
-        is_possible_ = is_possible_ && write_function(code_, lines);
-    }
-    template <typename Function>
-    void begin(Function& place) {
-        code_.align();
-        functions_.emplace_back(code_.getSize(), [&place](const std::uint8_t* at) {
-            place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
-        });
-    }
-
-    /// The table's function: `expand` with one more argument, in the register after those of the table's.
-    void write_entry() {
-        begin(running_->table.series);
-        code_.mov(code_.r9, reinterpret_cast<std::uintptr_t>(running_.get()));
-        code_.mov(code_.rax, reinterpret_cast<std::uintptr_t>(expand));
-        code_.jmp(code_.rax);
-    }
-
     SeriesSteps steps_;
     Vocabulary zero_words_, order_words_;
     std::shared_ptr<Running> running_;
-    Encoder code_;
-    bool is_possible_ = true;
-    std::vector<std::pair<std::size_t, std::function<void(const std::uint8_t*)>>> functions_;
+    MemoryCode code_;
 };
 
 }  // namespace

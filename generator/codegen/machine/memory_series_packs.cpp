@@ -4,8 +4,7 @@
 #include <functional>
 #include <utility>
 
-#include "alembert/native/executable.hpp"
-#include "codegen/machine/registers.hpp"
+#include "codegen/machine/memory_code.hpp"
 #include "codegen/machine/series_steps.hpp"
 
 namespace alembert {
@@ -19,48 +18,11 @@ using namespace machine;
 /// systems of 4 to 36 components, whose series took within 20 % of this.
 constexpr double cost_of_component = 0.011, cost_of_operation = 0.0006, cost_of_product = 0.00107;
 
-/// Functions that are written one after the other, and their addresses once they are in memory.
-class Functions {
-public:
-    explicit Functions(int lanes) : code_(lanes) {}
-
-    template <typename Function>
-    void write(const Lines& lines, Function& place, std::size_t other = 0) {
-        code_.align();
-        places_.emplace_back(code_.getSize(), [&place](const std::uint8_t* at) {
-            place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
-        });
-        is_possible_ = is_possible_ && write_function(code_, lines, other);
-    }
-
-    /// The function that takes the place of another for large angles.
-    std::size_t write_other(const Lines& lines) {
-        code_.align();
-        const std::size_t begin = code_.getSize();
-        is_possible_ = is_possible_ && write_function(code_, lines);
-        return begin;
-    }
-
-    /// Null if it is not possible.
-    std::shared_ptr<const std::uint8_t> place() {
-        if (!is_possible_) return nullptr;
-        std::shared_ptr<const std::uint8_t> memory = executable(code_.finished());
-        if (memory)
-            for (const auto& [begin, put] : places_) put(memory.get() + begin);
-        return memory;
-    }
-
-private:
-    Encoder code_;
-    bool is_possible_ = true;
-    std::vector<std::pair<std::size_t, std::function<void(const std::uint8_t*)>>> places_;
-};
-
-void write_packed(Functions& functions, const Program& program, const Vocabulary& words, const Readiness& ready,
+void write_packed(MemoryCode& functions, const Program& program, const Vocabulary& words, const Readiness& ready,
                   const FunctionTask& task, auto& place) {
     const Lines inside = lines_of_packs(program, words, ready, task, Sines::inside);
     const std::size_t other =
-        inside.largest < 0 ? 0 : functions.write_other(lines_of_packs(program, words, ready, task, Sines::called));
+        inside.largest < 0 ? 0 : functions.write_aside(lines_of_packs(program, words, ready, task, Sines::called));
     functions.write(inside, place, other);
 }
 
@@ -88,7 +50,7 @@ std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, b
     const Readiness zero(steps.at_zero, nodes_of(steps.first)), order(steps.at_order, nodes_of(steps.next));
     const auto packs = std::make_shared<SeriesPacks>();
     describe(*packs, steps, zero_words.constants().size(), order_words.constants().size());
-    Functions alone(1), packed(lanes);
+    MemoryCode alone, packed(lanes);
     packs->prepare = packs->fix = [](double*) {};
     if (!zero_words.constants().empty())
         alone.write(lines_of_constants(steps.at_zero, zero_words, zero), packs->prepare);
@@ -96,9 +58,8 @@ std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, b
         packed.write(lines_of_constants_in_packs(steps.at_order, order_words, order), packs->fix);
     write_packed(packed, steps.at_zero, zero_words, zero, steps.first, packs->first);
     write_packed(packed, steps.at_order, order_words, order, steps.next, packs->next);
-    auto code =
-        std::make_shared<std::pair<std::shared_ptr<const std::uint8_t>, std::shared_ptr<const std::uint8_t>>>(
-            alone.place(), packed.place());
+    auto code = std::make_shared<std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>>(
+        alone.placed(), packed.placed());
     if (!code->first || !code->second) return nullptr;
     packs->code = std::move(code);
     return packs;

@@ -3,9 +3,8 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/batch/packs.hpp"
-#include "alembert/native/executable.hpp"
 #include "codegen/emit/solver_functions.hpp"
-#include "codegen/machine/registers.hpp"
+#include "codegen/machine/memory_code.hpp"
 
 namespace alembert {
 
@@ -45,7 +44,7 @@ struct Tables {
     std::string scene, formulation;
     NameList coordinates, speeds, parameters, outputs, events;
     std::vector<double> values;
-    std::shared_ptr<const std::uint8_t> code;
+    std::shared_ptr<const void> code;
     std::vector<int> rows, columns, parameter_rows, parameter_columns;
     alembert_solver_table solver{};
     alembert_derivative_table derivatives{};
@@ -73,7 +72,7 @@ public:
         s.outputs_at = s.events_at = [](double, const double*, const double*, const double*, double*) {};
         s.constraints_at = [](double, const double*, const double*, double*, double*, double*) {};
         s.multipliers_at = [](double, const double*, const double*, double*) {};
-        if (!words_.constants().empty()) write(lines_of_constants(p_, words_, ready_), s.prepare);
+        if (!words_.constants().empty()) code_.write(lines_of_constants(p_, words_, ready_), s.prepare);
         write(right_hand_side(p_, words_), s.rhs);
         write(mass_forcing(p_), s.mass_forcing);
         write(energy(p_), s.energy);
@@ -89,8 +88,7 @@ public:
         }
         const bool derives = !p_.nodes_of(Group::jacobian).empty();
         if (derives) write_derivatives(*tables);
-        if (!is_possible_) return std::nullopt;
-        tables->code = placed();
+        tables->code = code_.placed();
         if (!tables->code) return std::nullopt;
         return MemorySolver{.module = Module(std::shared_ptr<const alembert_solver_table>(tables, &tables->solver),
                                              derives ? &tables->derivatives : nullptr,
@@ -101,7 +99,7 @@ public:
     std::shared_ptr<const alembert_pack_table> packs() {
         struct Packs {
             alembert_pack_table table{};
-            std::shared_ptr<const std::uint8_t> code;
+            std::shared_ptr<const void> code;
         };
         const auto packs = std::make_shared<Packs>();
         alembert_pack_table& t = packs->table;
@@ -110,12 +108,12 @@ public:
         t.prepare = [](double*) {};
         t.energy = [](const double*, const double*, const double*, const double*, double*, double*) {};
         t.outputs_at = [](const double*, const double*, const double*, const double*, double*) {};
-        if (!words_.constants().empty()) write(lines_of_constants_in_packs(p_, words_, ready_), t.prepare);
+        if (!words_.constants().empty()) code_.write(lines_of_constants_in_packs(p_, words_, ready_), t.prepare);
         write_packed(right_hand_side(p_, words_), t.rhs);
         write_packed(mass_forcing(p_), t.mass_forcing);
         write_packed(energy(p_), t.energy);
         write_packed(outputs_at(p_), t.outputs_at);
-        if (!is_possible_ || !(packs->code = placed())) return nullptr;
+        if (!(packs->code = code_.placed())) return nullptr;
         return {packs, &packs->table};
     }
 
@@ -168,17 +166,9 @@ private:
         d.parameter_rows = tables.parameter_rows.data(), d.parameter_columns = tables.parameter_columns.data();
     }
 
-    /// The code in executable memory, with the addresses of its functions in the tables; null if there is none.
-    std::shared_ptr<const std::uint8_t> placed() {
-        std::shared_ptr<const std::uint8_t> code = executable(code_.finished());
-        if (code)
-            for (const auto& [begin, put] : functions_) put(code.get() + begin);
-        return code;
-    }
-
     template <typename Function>
     void write(const FunctionTask& task, Function& place) {
-        if (!task.results.empty() || !task.copies.empty()) write(lines_of(p_, words_, ready_, task), place);
+        if (!task.results.empty() || !task.copies.empty()) code_.write(lines_of(p_, words_, ready_, task), place);
     }
     /// The function, and before it, if it has sines, the one that takes its place for large angles.
     template <typename Function>
@@ -186,22 +176,9 @@ private:
         if (task.results.empty() && task.copies.empty()) return;
         const Lines inside = lines_of_packs(p_, words_, ready_, task, Sines::inside);
         std::size_t other = 0;
-        if (inside.largest >= 0) {
-            code_.align();
-            other = code_.getSize();
-            is_possible_ =
-                is_possible_ && write_function(code_, lines_of_packs(p_, words_, ready_, task, Sines::called));
-        }
-        write(inside, place, other);
-    }
-    template <typename Function>
-    void write(const Lines& lines, Function& place, std::size_t other = 0) {
-        code_.align();
-        const std::size_t begin = code_.getSize();
-        is_possible_ = is_possible_ && write_function(code_, lines, other);
-        functions_.emplace_back(begin, [&place](const std::uint8_t* at) {
-            place = reinterpret_cast<Function>(const_cast<std::uint8_t*>(at));
-        });
+        if (inside.largest >= 0)
+            other = code_.write_aside(lines_of_packs(p_, words_, ready_, task, Sines::called));
+        code_.write(inside, place, other);
     }
 
     static void take_over(Tables& tables, const Module& compiled) {
@@ -224,9 +201,7 @@ private:
     Vocabulary words_;
     Readiness ready_;
     int lanes_;
-    Encoder code_;
-    bool is_possible_ = true;
-    std::vector<std::pair<std::size_t, std::function<void(const std::uint8_t*)>>> functions_;
+    MemoryCode code_;
 };
 
 }  // namespace
