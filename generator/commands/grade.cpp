@@ -131,12 +131,18 @@ Gradebook grade(const Scene& scene, const std::vector<std::string>& files, const
         worker.rows.reset(std::tmpfile());
         if (!worker.rows) throw CompileError(say("a temporary file cannot be made"));
         worker.process = fork();
-        if (worker.process < 0) throw CompileError(say("a process cannot be started"));
+        if (worker.process < 0) return false;
         if (worker.process == 0) work(system, files, options, with_pages, {next, worker.rows.get()});
         workers.push_back(std::move(worker));
+        return true;
     };
     const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, files.size());
-    for (std::size_t k = 0; k < cores; ++k) begin();
+    for (std::size_t k = 0; k < cores && begin(); ++k) {
+    }
+    if (workers.empty()) {  // where there are no processes, this one does it all
+        for (std::size_t k = 0; k < files.size(); ++k) book.rows[k] = row_of(system, files[k], options, with_pages);
+        return book;
+    }
     Progress progress;
     for (std::size_t running = workers.size(); running > 0;) {
         progress.at(say("checking"), static_cast<double>(next.taken()) / static_cast<double>(files.size()));
@@ -149,7 +155,7 @@ Gradebook grade(const Scene& scene, const std::vector<std::string>& files, const
             --running;
             const bool died = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
             if (!died || next.taken() >= files.size()) continue;
-            begin();  // another takes its place
+            if (!begin()) throw CompileError(say("a process cannot be started"));  // another takes its place
             ++running;
         }
         if (!has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(5));

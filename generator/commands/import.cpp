@@ -74,7 +74,7 @@ int run(const ImportVerb& verb) {
     std::cout << say("{}\n{} bodies, {} coordinates: {}\n", verb.output, scene.bodies, scene.coordinates.size(),
                      fmt::join(scene.coordinates, ", "));
     if (!scene.loops.empty()) std::cout << say("loops closed by {}\n", fmt::join(scene.loops, ", "));
-    for (const std::string& sentence : scene.merged) fmt::print("{}\n", escaped(sentence, 300));
+    for (const std::string& sentence : scene.merged) std::cout << escaped(sentence, 300) << "\n";
     return 0;
 }
 

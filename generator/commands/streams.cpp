@@ -175,8 +175,10 @@ void guard_streams() {
     std::FILE *const output = guarded(out, isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF), *const errors =
                                                                                               guarded(err, _IONBF);
     if (output == nullptr || errors == nullptr) return;
+#ifdef __GLIBC__  // elsewhere these two are constants, and what is not written through std::cout passes as it is
     stdout = output;
     stderr = errors;
+#endif
     static OnFile &on_output = *new OnFile(output), &on_errors = *new OnFile(errors);
     std::cout.rdbuf(&on_output);
     std::cerr.rdbuf(&on_errors);

@@ -56,7 +56,7 @@ bool add_attribute(hid_t to, const char* name, const std::vector<std::string>& l
 bool add_column(hid_t file, const StoredColumn& column) {
     const hsize_t count = std::visit([](const auto& list) { return list.size(); }, column.values);
     const auto* numbers = std::get_if<std::vector<double>>(&column.values);
-    const auto* counts = std::get_if<std::vector<long>>(&column.values);
+    const auto* counts = std::get_if<std::vector<std::int64_t>>(&column.values);
     const Texts texts(numbers == nullptr && counts == nullptr ? std::get<std::vector<std::string>>(column.values)
                                                               : std::vector<std::string>{});
     const Handle of_texts(texts.type(), H5Tclose), space(H5Screate_simple(1, &count, nullptr), H5Sclose),

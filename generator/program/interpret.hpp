@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -49,8 +50,12 @@ inline long double real_of<long double>(const Rational& r) {
                static_cast<long double>(cln::double_approx(below));
     const cln::cl_F value = cln::cl_float(r, cln::float_format(40));
     const double high = cln::double_approx(value);
-    return static_cast<long double>(high) +
-           static_cast<long double>(cln::double_approx(r - cln::rational(cln::cl_DF(high))));
+    const Rational rest = r - cln::rational(cln::cl_DF(high));
+    const double middle = cln::double_approx(rest);
+    long double low = 0;
+    if constexpr (std::numeric_limits<long double>::digits > 2 * exact)
+        low = static_cast<long double>(cln::double_approx(rest - cln::rational(cln::cl_DF(middle))));
+    return static_cast<long double>(high) + (static_cast<long double>(middle) + low);
 }
 
 /// sum += factor·x, without an intermediate value where Real has one of its own.

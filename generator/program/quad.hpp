@@ -2,7 +2,7 @@
 #pragma once
 
 /// Numbers with 34 digits: IEEE binary128, with the compiler's arithmetic and glibc's functions (2.26 or later,
-/// x86-64).
+/// x86-64). On processors whose `long double` is such a number, these are its functions.
 ///
 ///     const Quad x = quad_of(Rational(1)/10);
 ///     text(sin(x), 30);
@@ -13,10 +13,14 @@
 #include <cln/rational.h>
 #include <cln/real.h>
 
+#include <cmath>
+#include <cstdio>
+#include <limits>
 #include <string>
 
 namespace alembert {
 
+#ifdef __SIZEOF_FLOAT128__
 __extension__ typedef __float128 Quad;
 
 #define ALEMBERT_QUAD(name) Quad name(Quad) __asm__(#name "f128")
@@ -41,6 +45,17 @@ int format(char*, std::size_t, const char*, Quad) __asm__("strfromf128");
 inline Quad abs(Quad x) {
     return x < 0 ? -x : x;
 }
+#else
+using Quad = long double;
+static_assert(std::numeric_limits<Quad>::digits == 113);
+using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log, std::pow,
+    std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+inline int format(char* to, std::size_t size, const char* form, Quad x) {
+    std::string wide = form;
+    return std::snprintf(to, size, wide.insert(wide.size() - 1, "L").c_str(), x);
+}
+#endif
+
 inline bool is_finite(Quad x) {
     return x - x == 0;
 }

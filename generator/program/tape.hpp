@@ -19,10 +19,12 @@
 
 namespace alembert {
 
+#ifdef __SIZEOF_FLOAT128__
 template <>
 inline Quad real_of<Quad>(const Rational& r) {
     return quad_of(r);
 }
+#endif
 
 template <typename Real>
 class Tape {

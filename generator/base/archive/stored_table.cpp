@@ -100,7 +100,7 @@ std::string as_npz(const StoredTable& table) {
         units.push_back(column.unit);
         if (const auto* numbers = std::get_if<std::vector<double>>(&column.values))
             add(column.name, npy_numbers("f8", *numbers));
-        else if (const auto* counts = std::get_if<std::vector<long>>(&column.values))
+        else if (const auto* counts = std::get_if<std::vector<std::int64_t>>(&column.values))
             add(column.name, npy_numbers("i8", *counts));
         else
             add(column.name, npy_texts(std::get<std::vector<std::string>>(column.values)));

@@ -9,6 +9,7 @@
 /// Besides an array for each column the file has `columns` (the names in their order), `units` (of each, empty
 /// where none is known) and the texts. Where a column has one of these names, they end in `_`.
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
@@ -19,7 +20,7 @@ namespace alembert {
 struct StoredColumn {
     std::string name, unit;
     /// All columns of a table are equally long.
-    std::variant<std::vector<double>, std::vector<long>, std::vector<std::string>> values;
+    std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>> values;
 };
 
 struct StoredTable {

@@ -70,7 +70,7 @@ StoredTable stored(const Sweep& s, const MotionsOf& rows) {
         table.columns.push_back(
             {name, unit_of_varied(s.mechanism, name.substr(name.find('_') + 1)), std::vector<double>()});
     for (const char* const name : {"steps", "rejected", "evaluations"})
-        table.columns.push_back({name, "", std::vector<long>()});
+        table.columns.push_back({name, "", std::vector<std::int64_t>()});
     table.columns.push_back({"status", "", std::vector<std::string>()});
     rows([&](const std::vector<SweptMotion>& motions) {
         for (const SweptMotion& m : motions) {
@@ -78,7 +78,7 @@ StoredTable stored(const Sweep& s, const MotionsOf& rows) {
             for (const std::vector<double>& part : {m.varied, end_values(m), m.along})
                 for (const double x : part) std::get<std::vector<double>>((column++)->values).push_back(x);
             for (const long count : {m.steps, m.rejected, m.evaluations})
-                std::get<std::vector<long>>((column++)->values).push_back(count);
+                std::get<std::vector<std::int64_t>>((column++)->values).push_back(count);
             std::get<std::vector<std::string>>(column->values).push_back(m.status);
         }
     });
@@ -103,13 +103,13 @@ std::string table_file(const Sweep& sweep, const SweepReduction& reduction, cons
     const Form form = form_of(path);
     if (form == Form::csv) return as_csv(reduction);
     StoredTable table{
-        .columns = {{"quantity", "", std::vector<std::string>()}, {"motions", "", std::vector<long>()}},
+        .columns = {{"quantity", "", std::vector<std::string>()}, {"motions", "", std::vector<std::int64_t>()}},
         .texts = texts_of(sweep.scene)};
     for (const Statistic& statistic : reduction.statistics())
         table.columns.push_back({statistic.name, "", std::vector<double>()});
     for (const ReducedQuantity& quantity : reduction.rows()) {
         std::get<std::vector<std::string>>(table.columns[0].values).push_back(quantity.name);
-        std::get<std::vector<long>>(table.columns[1].values).push_back(quantity.motions);
+        std::get<std::vector<std::int64_t>>(table.columns[1].values).push_back(quantity.motions);
         for (std::size_t k = 0; k < quantity.values.size(); ++k)
             std::get<std::vector<double>>(table.columns[k + 2].values).push_back(quantity.values[k]);
     }

@@ -44,7 +44,8 @@ void remove_now(const char* path) noexcept {
     const int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (folder < 0) return;
     alignas(dirent64) std::array<char, 4096> block;
-    for (ssize_t size = 0; (size = getdents64(folder, block.data(), block.size())) > 0;)
+    auto* const entries = reinterpret_cast<dirent64*>(block.data());
+    for (ssize_t size = 0; (size = getdents64(folder, entries, block.size())) > 0;)
         for (ssize_t at = 0; at < size;) {
             const auto* const entry = reinterpret_cast<const dirent64*>(block.data() + at);
             unlinkat(folder, entry->d_name, 0);

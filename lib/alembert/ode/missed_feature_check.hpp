@@ -31,7 +31,7 @@ inline constexpr double next_to_none = 0.01;  ///< an estimated error that says 
 template <typename Change>
 bool is_steady(const Rhs& rhs, const double* state, double allowed, const Change& change) {
     if (!rhs.needed_state) return false;
-    return std::ranges::all_of(*rhs.needed_state, [&](int i) {
+    return std::all_of(rhs.needed_state->begin(), rhs.needed_state->end(), [&](int i) {
         return i >= 0 && change(i) <= allowed * std::max(1.0, std::abs(state[i]));
     });
 }

@@ -1,0 +1,107 @@
+// The program as a function. Every run is a process of its own: a new instance of the module, which is compiled once.
+
+let program = null;
+
+/// Loads and compiles alembert.wasm, which stands beside this file. `run` does it where nobody has.
+export function load(bytes) {
+    program ??= compiled(bytes);
+    return program;
+}
+
+async function compiled(bytes) {
+    if (bytes instanceof WebAssembly.Module) return bytes;
+    if (bytes) return WebAssembly.compile(bytes);
+    const place = new URL("alembert.wasm", import.meta.url);
+    if (place.protocol === "file:") {
+        const { readFile } = await import("node:fs/promises");
+        return WebAssembly.compile(await readFile(place));
+    }
+    const answer = await fetch(place);
+    if (!answer.ok) throw new Error(`${place}: ${answer.status} ${answer.statusText}`);
+    if (answer.headers.get("content-type") === "application/wasm")
+        return WebAssembly.compileStreaming(answer);
+    return WebAssembly.compile(await answer.arrayBuffer());
+}
+
+/// Collects the bytes of a stream.
+function collector() {
+    let bytes = new Uint8Array(1 << 12), size = 0;
+    return {
+        put(byte) {
+            if (size === bytes.length) {
+                const more = new Uint8Array(2 * size);
+                more.set(bytes);
+                bytes = more;
+            }
+            bytes[size++] = byte;
+        },
+        text: () => new TextDecoder().decode(bytes.subarray(0, size)),
+    };
+}
+
+function write_files(FS, files) {
+    for (const [name, content] of Object.entries(files)) {
+        const folder = name.split("/").slice(0, -1).join("/");
+        if (folder) FS.mkdirTree(folder.startsWith("/") ? folder : "/work/" + folder);
+        FS.writeFile(name, content);
+    }
+}
+
+/// All files below a folder, by their names from there, with their bytes.
+function files_below(FS, folder, before = "") {
+    const found = {};
+    for (const name of FS.readdir(folder)) {
+        if (name === "." || name === "..") continue;
+        const path = `${folder}/${name}`, { mode } = FS.stat(path);
+        if (FS.isDir(mode)) Object.assign(found, files_below(FS, path, `${before}${name}/`));
+        else found[before + name] = FS.readFile(path);
+    }
+    return found;
+}
+
+function as_text(bytes) {
+    try {
+        return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+    } catch {
+        return bytes; // an archive, for instance
+    }
+}
+
+/// The program with these arguments, as on a command line, in a folder that holds `files`: text (or bytes) by name.
+/// Gives the exit code, the two streams, and the files that it has written or changed: text, or bytes where they are
+/// none.
+///
+///     const { code, stdout } = await run(["derive", "scene.toml", "--json"], { "scene.toml": text });
+export async function run(words, files = {}) {
+    const module = await load();
+    const out = collector(), err = collector();
+    const before = new Map();
+    const instance = await started({
+        instantiateWasm(imports, done) {
+            WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
+            return {};
+        },
+        preRun(own) {
+            own.FS.init(() => null, (byte) => out.put(byte), (byte) => err.put(byte));
+        },
+    });
+    const { FS } = instance;
+    FS.mkdir("/work");
+    FS.chdir("/work");
+    write_files(FS, files);
+    for (const [name, bytes] of Object.entries(files_below(FS, "/work"))) before.set(name, bytes);
+    let code = 5;
+    try {
+        code = instance.callMain([...words]);
+    } catch (end) {
+        if (end?.name === "ExitStatus") code = end.status;
+        else for (const byte of new TextEncoder().encode(`alembert: ${end?.message ?? end}\n`)) err.put(byte);
+    }
+    const changed = {};
+    for (const [name, bytes] of Object.entries(files_below(FS, "/work"))) {
+        const old = before.get(name);
+        if (!old || old.length !== bytes.length || old.some((byte, k) => byte !== bytes[k]))
+            changed[name] = as_text(bytes);
+    }
+    return { code, stdout: out.text(), stderr: err.text(), files: changed };
+}
