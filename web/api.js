@@ -39,24 +39,30 @@ function collector() {
     };
 }
 
-function write_files(FS, files) {
+function write_files(FS, here, files) {
     for (const [name, content] of Object.entries(files)) {
-        const folder = name.split("/").slice(0, -1).join("/");
-        if (folder) FS.mkdirTree(folder.startsWith("/") ? folder : "/work/" + folder);
-        FS.writeFile(name, content);
+        const path = name.startsWith("/") ? name : `${here}/${name}`;
+        FS.mkdirTree(path.slice(0, path.lastIndexOf("/")) || "/");
+        FS.writeFile(path, content);
     }
 }
 
-/// All files below a folder, by their names from there, with their bytes.
-function files_below(FS, folder, before = "") {
-    const found = {};
-    for (const name of FS.readdir(folder)) {
-        if (name === "." || name === "..") continue;
-        const path = `${folder}/${name}`, { mode } = FS.stat(path);
-        if (FS.isDir(mode)) Object.assign(found, files_below(FS, path, `${before}${name}/`));
-        else found[before + name] = FS.readFile(path);
+/// All files below a folder with their bytes, by their names from `here`, or by their paths if they are elsewhere.
+function files_below(FS, folder, here, found = new Map()) {
+    for (const name of FS.readdir(folder || "/")) {
+        const path = `${folder}/${name}`;
+        if (name === "." || name === ".." || path === "/dev" || path === "/proc") continue;
+        if (FS.isDir(FS.stat(path).mode)) files_below(FS, path, here, found);
+        else found.set(path.startsWith(`${here}/`) ? path.slice(here.length + 1) : path, FS.readFile(path));
     }
     return found;
+}
+
+/// Gives the bytes of a text one after the other, and then null.
+function reader(input) {
+    const bytes = typeof input === "string" ? new TextEncoder().encode(input) : input ?? [];
+    let next = 0;
+    return () => (next < bytes.length ? bytes[next++] : null);
 }
 
 function as_text(bytes) {
@@ -72,24 +78,26 @@ function as_text(bytes) {
 /// none.
 ///
 ///     const { code, stdout } = await run(["derive", "scene.toml", "--json"], { "scene.toml": text });
-export async function run(words, files = {}) {
+///
+/// `folder` is the path of the command's folder, from which the names in `words` count, `folders` are others that are
+/// there too, and `stdin` is a text (or bytes). Files that are written outside of the folder are given by their paths.
+export async function run(words, files = {}, { folder = "/work", folders = [], stdin = null } = {}) {
     const module = await load();
     const out = collector(), err = collector();
-    const before = new Map();
     const instance = await started({
         instantiateWasm(imports, done) {
             WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
             return {};
         },
         preRun(own) {
-            own.FS.init(() => null, (byte) => out.put(byte), (byte) => err.put(byte));
+            own.FS.init(reader(stdin), (byte) => out.put(byte), (byte) => err.put(byte));
         },
     });
     const { FS } = instance;
-    FS.mkdir("/work");
-    FS.chdir("/work");
-    write_files(FS, files);
-    for (const [name, bytes] of Object.entries(files_below(FS, "/work"))) before.set(name, bytes);
+    for (const path of [folder, ...folders]) FS.mkdirTree(path);
+    FS.chdir(folder);
+    write_files(FS, folder, files);
+    const before = files_below(FS, "", folder);
     let code = 5;
     try {
         code = instance.callMain([...words]);
@@ -98,7 +106,7 @@ export async function run(words, files = {}) {
         else for (const byte of new TextEncoder().encode(`alembert: ${end?.message ?? end}\n`)) err.put(byte);
     }
     const changed = {};
-    for (const [name, bytes] of Object.entries(files_below(FS, "/work"))) {
+    for (const [name, bytes] of files_below(FS, "", folder)) {
         const old = before.get(name);
         if (!old || old.length !== bytes.length || old.some((byte, k) => byte !== bytes[k]))
             changed[name] = as_text(bytes);

@@ -140,7 +140,8 @@ Gradebook grade(const Scene& scene, const std::vector<std::string>& files, const
     for (std::size_t k = 0; k < cores && begin(); ++k) {
     }
     if (workers.empty()) {  // where there are no processes, this one does it all
-        for (std::size_t k = 0; k < files.size(); ++k) book.rows[k] = row_of(system, files[k], options, with_pages);
+        for (std::size_t k = 0; k < files.size(); ++k)
+            book.rows[k] = row_of(system, files[k], options, with_pages);
         return book;
     }
     Progress progress;

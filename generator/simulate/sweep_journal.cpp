@@ -103,7 +103,8 @@ void SweepJournal::read_records() {
         if (head.size > size - place) break;
         const std::optional<std::string> bytes = read_at(file_, place, head.size);
         if (!bytes || checksum_of(head, *bytes) != head.checksum) break;
-        records_.push_back({{static_cast<std::size_t>(head.first), static_cast<std::size_t>(head.count)}, place, head.size});
+        records_.push_back(
+            {{static_cast<std::size_t>(head.first), static_cast<std::size_t>(head.count)}, place, head.size});
         end_ = place + head.size;
     }
     if (ftruncate(file_, static_cast<off_t>(end_)) != 0) fail();

@@ -31,9 +31,8 @@ inline constexpr double next_to_none = 0.01;  ///< an estimated error that says 
 template <typename Change>
 bool is_steady(const Rhs& rhs, const double* state, double allowed, const Change& change) {
     if (!rhs.needed_state) return false;
-    return std::all_of(rhs.needed_state->begin(), rhs.needed_state->end(), [&](int i) {
-        return i >= 0 && change(i) <= allowed * std::max(1.0, std::abs(state[i]));
-    });
+    return std::all_of(rhs.needed_state->begin(), rhs.needed_state->end(),
+                       [&](int i) { return i >= 0 && change(i) <= allowed * std::max(1.0, std::abs(state[i])); });
 }
 
 /// Into how many parts a step is divided by the places at which it is looked at: 1 for short ones. Methods with an
