@@ -15,4 +15,7 @@ for file in "$program" "$root/build/web/alembert.wasm"; do
 done
 node "$root/web/small.mjs" "$root/build/web"
 [ $# -gt 0 ] || set -- --chromium
-exec node "$root/web/compare.mjs" "$program" "$root/build/web" "$@"
+node "$root/web/compare.mjs" "$program" "$root/build/web" "$@"
+# The playground and the package, where they have been made (web/playground.sh, web/package.sh).
+[ ! -d "$root/build/web/playground" ] || python3 "$root/web/test_playground.py"
+[ ! -e "$root"/build/web/alembert-*.tgz ] || "$root/web/test_package.sh"
