@@ -81,7 +81,7 @@ function as_text(bytes) {
 ///
 /// `folder` is the path of the command's folder, from which the names in `words` count, `folders` are others that are
 /// there too, and `stdin` is a text (or bytes). Files that are written outside of the folder are given by their paths.
-export async function run(words, files = {}, { folder = "/work", folders = [], stdin = null } = {}) {
+export async function run(words, files = {}, { folder = "/scene", folders = [], stdin = null } = {}) {
     const module = await load();
     const out = collector(), err = collector();
     const instance = await started({
