@@ -3,7 +3,7 @@
 # Builds HEAD and runs its tests where the compiler and the libraries are others: in a bare Debian 13 (g++ 14, GiNaC 1.8.8,
 # toml++ 3.4, SUNDIALS 7), made by debootstrap, and with clang on this machine.
 #   elsewhere.sh [trixie] [clang]      default: both
-# Needs root, debootstrap and a mirror of Debian for the first; clang++ for the second. Each takes half an hour on two cores.
+# Needs root, debootstrap and a mirror of Debian for the first; clang++ for the second.
 # The tests that compare bytes with those of g++ 12 are not among those that run there.
 set -euo pipefail
 cd -- "$(dirname -- "$0")/.."
