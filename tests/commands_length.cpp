@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "files.hpp"
 #include "json.hpp"
@@ -65,6 +67,39 @@ TEST_CASE("derive: equations whose few terms are pages long are not composed, an
         const std::size_t at = derived.out.find(std::string("While '") + foot + "' sticks");
         REQUIRE(at != std::string::npos);
         CHECK(derived.out.find(" operations even with intermediate symbols", at) != std::string::npos);
+    }
+}
+
+TEST_CASE("long lists keep their first entries and the last one, and say how much is missing") {
+    const std::string scene = chain(60);
+    for (const std::vector<std::string>& question :
+         {std::vector<std::string>{"eval"}, {"eval", "--kinematics"}, {"eval", "--inverse"}, {"eval", "--matrices"}}) {
+        CAPTURE(question.back());
+        std::vector<std::string> words = question;
+        words.insert(words.begin() + 1, scene);
+        const std::string page = run(words).out;
+        words.emplace_back("--full");
+        const std::string full = run(words).out;
+        const bool is_long = lines_of(full) > 100;
+        CHECK(is_long == (question.back() != "--inverse"));
+        CHECK(lines_of(page) <= 105);
+        CHECK((page.find("--full prints everything") != std::string::npos) == is_long);
+        CHECK((page == full) != is_long);
+        // Every line that is shown is one of the whole, in the same order, but those that tell what is missing: all others.
+        std::istringstream shown(page), whole(full);
+        std::size_t told = 0, passed = 0;
+        for (std::string line, other; std::getline(shown, line);) {
+            if (line.empty() || line.find("--full prints everything") != std::string::npos) continue;
+            const std::size_t at = line.find("... (");
+            if (at != std::string::npos && line.ends_with("more)")) {
+                told += std::stoul(line.substr(at + 5));
+                continue;
+            }
+            while (std::getline(whole, other) && other != line)
+                if (!other.empty()) ++passed;
+            CHECK(other == line);
+        }
+        CHECK(told == passed);
     }
 }
 

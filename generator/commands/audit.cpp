@@ -16,7 +16,7 @@ int run_audit(const SceneOptions& options) {
     if (options.json)
         show(as_json(audited));
     else
-        show_formulas(as_text(audited));
+        show_page(as_text(audited), options.full);
     const Audit& result = audited.audit;
     if (result.problem.empty()) return 0;
     if (result.wrong) throw ModelError(result.problem);
@@ -30,7 +30,7 @@ void add_audit(CLI::App& app, Chosen& chosen) {
                                  {.name = "audit",
                                   .about = say("examines the constraints: kinds, rank, redundancy"),
                                   .example = "alembert audit scenes/textbook/sled.toml"},
-                                 run_audit);
+                                 run_audit, [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
 }
 
 }  // namespace alembert

@@ -19,20 +19,22 @@ struct DeriveVerb : SceneOptions {
 };
 
 int run(const DeriveVerb& options) {
+    PageOptions page = options.page;
+    page.full = options.full;
     check_output(options.draw, FileForm::picture, {options.scene});
     Progress progress;
     const DerivedScene d = derive(scene_of(options.scene),
                                   {.by = options.by,
                                    .reactions = options.reactions,
-                                   .full = options.page.full || options.json,
+                                   .full = options.full || options.json,
                                    .done = [&progress](double part) { progress.at(say("deriving"), part); }});
     progress.wipe();
     warn(d.warnings);
     if (!options.draw.empty()) write_file(options.draw, figure_of(d.scene), {options.scene});
     if (options.json)
-        show(as_json(d, options.page.dimensions));
+        show(as_json(d, page.dimensions));
     else
-        options.page.format == "text" ? show_formulas(as_page(d, options.page)) : show(as_page(d, options.page));
+        page.format == "text" ? show_formulas(as_page(d, page)) : show(as_page(d, page));
     return 0;
 }
 
@@ -48,8 +50,7 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                                    verb.take("--format", options.page.format);
                                    verb.add_flag("--steps", options.page.steps,
                                                  say("also coordinates, T, V, generalized forces, own steps"));
-                                   verb.add_flag("--full", options.page.full,
-                                                 say("also what exceeds two screens"));
+                                   verb.take("--full", options.full);
                                    verb.add_flag("--dimensions", options.page.dimensions,
                                                  say("also the dimension of each coordinate and multiplier"));
                                    verb.take("--svg", options.draw, say("SVG figure of the system"));

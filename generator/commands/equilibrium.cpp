@@ -41,7 +41,7 @@ int follow(const EquilibriumVerb& verb) {
     if (verb.json)
         show(as_json(found));
     else
-        show(as_text(found));
+        show_page(as_text(found), verb.full);
     if (!found.branches.empty()) return 0;
     std::cout.flush();
     warn(
@@ -67,7 +67,7 @@ int run(const EquilibriumVerb& verb) {
     if (verb.json)
         show(as_json(found));
     else
-        show(as_text(found));
+        show_page(as_text(found), verb.full);
     if (!found.list.empty()) return 0;
     std::cout.flush();
     warn({fmt::format("{}: {}\n", verb.scene, found.nothing)});
@@ -91,6 +91,7 @@ void add_equilibrium(CLI::App& app, Chosen& chosen) {
                 .between(1, 1000000);
             verb.take("--output", options.output, say("CSV file of the branches"));
             verb.take("--svg", options.svg, say("picture of the branches"));
+            verb.take("--full", options.full);
         });
 }
 

@@ -23,7 +23,7 @@ int run(const EvalOptions& options) {
     if (options.json)
         show(as_json(e, options.reactions));
     else
-        show(as_text(e));
+        show_page(as_text(e), options.full);
     return 0;
 }
 
@@ -38,6 +38,7 @@ void add_eval(CLI::App& app, Chosen& chosen) {
                                     verb.take("--at", options.at);
                                     verb.take("--by", options.by);
                                     verb.take("--reactions", options.reactions);
+                                    verb.take("--full", options.full);
                                     verb.add_flag("--matrices", options.matrices,
                                                   say("M(q) and C(q, q') of M q'' + C q' + g = Q"));
                                 });

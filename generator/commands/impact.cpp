@@ -15,7 +15,7 @@ int run_impact(const SceneOptions& options) {
     if (options.json)
         show(as_json(struck));
     else
-        show_formulas(as_text(struck));
+        show_page(as_text(struck), options.full);
     return 0;
 }
 
@@ -26,7 +26,7 @@ void add_impact(CLI::App& app, Chosen& chosen) {
                                  {.name = "impact",
                                   .about = say("calculates rates after impulses, sudden constraints"),
                                   .example = "alembert eval scenes/textbook/struck_rods.toml --impact"},
-                                 run_impact);
+                                 run_impact, [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
 }
 
 }  // namespace alembert

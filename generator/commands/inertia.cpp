@@ -24,7 +24,7 @@ int run(const InertiaVerb& verb) {
     if (verb.json)
         show(as_json(found));
     else
-        show(as_text(found));
+        show_page(as_text(found), verb.full);
     return 0;
 }
 
@@ -41,6 +41,7 @@ void add_inertia(CLI::App& app, Chosen& chosen) {
             verb.add_option("--about", options.about, say("a point, particle or body; default: the mass centre"))
                 .type_name(values::point);
             verb.take("--at", options.at);
+            verb.take("--full", options.full);
         });
 }
 

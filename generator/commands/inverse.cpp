@@ -20,7 +20,7 @@ int run(const InverseVerb& options) {
     if (options.json)
         show(as_json(needed));
     else
-        show(as_text(needed));
+        show_page(as_text(needed), options.full);
     return 0;
 }
 
@@ -35,6 +35,7 @@ void add_inverse(CLI::App& app, Chosen& chosen) {
         run, [](Verb& verb, InverseVerb& options) {
             verb.take("--at", options.at);
             verb.take("--by", options.by);
+            verb.take("--full", options.full);
         });
 }
 

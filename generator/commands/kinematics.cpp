@@ -25,10 +25,9 @@ int run(const KinematicsVerb& verb) {
     warn(found.warnings);
     if (verb.json)
         show(as_json(found, verb.steps));
-    else if (verb.format == "text") {
-        show_formulas(as_page(found, verb.format, verb.steps));
-        show(jacobian_page(found));
-    } else
+    else if (verb.format == "text")
+        show_page(as_page(found, verb.format, verb.steps) + jacobian_page(found), verb.full);
+    else
         show(as_page(found, verb.format, verb.steps));
     return 0;
 }
@@ -45,6 +44,7 @@ void add_kinematics(CLI::App& app, Chosen& chosen) {
             verb.take("--of", options.of);
             verb.take("--at", options.at);
             verb.take("--format", options.format);
+            verb.take("--full", options.full);
             verb.add_flag("--jacobian", options.jacobian,
                           say("also the Jacobians of points and of the mass centre, as numbers"));
             verb.add_flag("--steps", options.steps, say("also how velocities and accelerations are composed"));

@@ -29,7 +29,7 @@ int run(const LinearizeVerb& verb) {
     if (verb.json)
         show(as_json(near));
     else
-        show(as_text(near, verb.modes));
+        show_page(as_text(near, verb.modes), verb.full);
     return 0;
 }
 
@@ -45,6 +45,7 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
             verb.take("--at", options.at);
             verb.take("--by", options.by);
             verb.take("--modes", options.modes);
+            verb.take("--full", options.full);
             verb.add_flag("--affine", options.affine, say("about any state: x' = A dx + B du + c"));
             verb.add_flag("--along", options.along, say("the same along the motion from the state"));
             verb.take("--duration", options.motion.duration).needs("--along");

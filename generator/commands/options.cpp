@@ -24,6 +24,7 @@ std::vector<SharedOption> all_options() {
         {"--vary,--over,--follow", values::interval, {}},
         {"--of", values::names, say("frames, bodies and points, as in A,P; default: all")},
         {"--format", values::format, say("text (default), latex or mathml")},
+        {"--full", nullptr, say("also what exceeds two screens")},
         {"--modes", nullptr, say("eigenvectors too")},
         {"--reactions", nullptr, say("what constraints exert along coordinates, and joints")},
         {"-o,--output,--csv", values::file, say("table as CSV, or NAME.npz (NumPy), NAME.h5 (HDF5)")},

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "commands/terminal.hpp"
+#include "present/report/fold.hpp"
 #include "present/report/wrap.hpp"
 
 namespace alembert {
@@ -59,6 +60,10 @@ Scene scene_of(const std::string& file) {
 void show_formulas(const std::string& text) {
     const std::optional<int> columns = columns_of(STDOUT_FILENO);
     show(columns ? wrapped(text, *columns) : text);
+}
+
+void show_page(const std::string& text, bool full) {
+    show_formulas(full ? text : folded(text));
 }
 
 void warn(const std::vector<std::string>& warnings) {

@@ -18,6 +18,9 @@ void show(const std::string& text);
 /// Prints text with formulas; on a terminal its lines are wrapped to the width (wrap.hpp).
 void show_formulas(const std::string& text);
 
+/// The same, shortened to two screens unless the whole is asked for (fold.hpp).
+void show_page(const std::string& text, bool full);
+
 /// Reads a scene. Its warnings, and those of everything computed from it, are printed to standard error as soon as
 /// they are found; with --strict the first is a mistake of the scene. Throws like read_scene.
 Scene scene_of(const std::string& file);

@@ -60,7 +60,7 @@ void hand_over(const StabilityVerb& verb, const Found& found) {
     if (verb.json)
         show(as_json(found));
     else
-        show(as_text(found));
+        show_page(as_text(found), verb.full);
 }
 
 int draw_over(const StabilityVerb& verb) {
@@ -118,7 +118,7 @@ int run(const StabilityVerb& verb) {
     if (verb.json)
         show(as_json(result));
     else
-        show(as_text(result, verb.modes));
+        show_page(as_text(result, verb.modes), verb.full);
     switch (result.verdict) {
         case StabilityVerdict::asymptotically_stable:
         case StabilityVerdict::stable:
@@ -159,6 +159,7 @@ void add_stability(CLI::App& app, Chosen& chosen) {
                 .positive();
             verb.take("--output", options.output, say("CSV file of a chart, locus or exponents"));
             verb.take("--svg", options.svg, say("picture of a chart or locus"));
+            verb.take("--full", options.full);
         });
 }
 

@@ -36,11 +36,12 @@ struct Chosen {
     std::function<int()> action;  ///< does the work and returns the exit code
 };
 
-/// The options that every verb takes.
+/// The options that every verb takes, and those that many take.
 struct SceneOptions {
     std::string scene;
     bool json = false;
-    std::string by;  ///< a formalism; if empty, the program chooses
+    bool full = false;  ///< whether a page may exceed two screens
+    std::string by;     ///< a formalism; if empty, the program chooses
 };
 
 void add_agree(CLI::App& app, Chosen& chosen);
