@@ -70,10 +70,22 @@ TEST_CASE("derive: equations whose few terms are pages long are not composed, an
     }
 }
 
+TEST_CASE("derive: equations of a large tree are counted as the program that emit would write") {
+    const std::string scene = chain(60);
+    const std::string page = run({"derive", scene}).out;
+    CHECK(page.size() < 2000);
+    const Json emitted = Json::parse(run({"emit", scene, "--json", "-o", temporary_folder("long_chain")}).out);
+    const std::string operations = std::to_string(emitted["operations"].get<int>());
+    CHECK(page.find("(60 lines, left out because of the length; as a program they take " + operations +
+                    " operations") != std::string::npos);
+}
+
 TEST_CASE("long lists keep their first entries and the last one, and say how much is missing") {
     const std::string scene = chain(60);
-    for (const std::vector<std::string>& question :
-         {std::vector<std::string>{"eval"}, {"eval", "--kinematics"}, {"eval", "--inverse"}, {"eval", "--matrices"}}) {
+    for (const std::vector<std::string>& question : {std::vector<std::string>{"eval"},
+                                                     {"eval", "--kinematics"},
+                                                     {"eval", "--inverse"},
+                                                     {"eval", "--matrices"}}) {
         CAPTURE(question.back());
         std::vector<std::string> words = question;
         words.insert(words.begin() + 1, scene);
@@ -85,7 +97,8 @@ TEST_CASE("long lists keep their first entries and the last one, and say how muc
         CHECK(lines_of(page) <= 105);
         CHECK((page.find("--full prints everything") != std::string::npos) == is_long);
         CHECK((page == full) != is_long);
-        // Every line that is shown is one of the whole, in the same order, but those that tell what is missing: all others.
+        // Every line that is shown is one of the whole, in the same order, but those that tell what is missing:
+        // all others.
         std::istringstream shown(page), whole(full);
         std::size_t told = 0, passed = 0;
         for (std::string line, other; std::getline(shown, line);) {

@@ -30,7 +30,8 @@ void add_audit(CLI::App& app, Chosen& chosen) {
                                  {.name = "audit",
                                   .about = say("examines the constraints: kinds, rank, redundancy"),
                                   .example = "alembert audit scenes/textbook/sled.toml"},
-                                 run_audit, [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
+                                 run_audit,
+                                 [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
 }
 
 }  // namespace alembert

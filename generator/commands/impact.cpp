@@ -26,7 +26,8 @@ void add_impact(CLI::App& app, Chosen& chosen) {
                                  {.name = "impact",
                                   .about = say("calculates rates after impulses, sudden constraints"),
                                   .example = "alembert eval scenes/textbook/struck_rods.toml --impact"},
-                                 run_impact, [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
+                                 run_impact,
+                                 [](Verb& verb, SceneOptions& options) { verb.take("--full", options.full); });
 }
 
 }  // namespace alembert

@@ -156,6 +156,14 @@ int Composer::cost(const Polynomial& polynomial) {
     return symbols;
 }
 
+void Composer::begin() {
+    if (is_exhausted()) {
+        memo_.clear();
+        unfolded_.clear();
+    }
+    effort_ = 0;
+}
+
 bool Composer::is_exhausted() const {
     return effort_ > most_effort_;
 }

@@ -36,6 +36,9 @@ public:
     /// The same for a normal form; multiple angles are written as products where that is shorter.
     Phrase formula(const Polynomial& normal_form);
 
+    /// Begins another formula, with effort of its own. What is composed is kept, unless the effort was used up.
+    void begin();
+
     /// Whether so much has been composed that shorter forms are no longer searched for and further polynomials
     /// stay as they are.
     bool is_exhausted() const;

@@ -86,7 +86,7 @@ bool has_decimals(const Fourier& f) {
 
 class Writer {
 public:
-    explicit Writer(bool decimals, std::size_t effort = Composer::usual_effort) : compose_(decimals, effort) {}
+    explicit Writer(Composer& compose) : compose_(compose) {}
 
     Lines lines(const Fourier& f) {
         std::vector<Term> accelerated, others;
@@ -126,8 +126,6 @@ public:
         for (const Polynomial& line : lines) terms.push_back(compose_(line));
         return phrases::sum(std::move(terms));
     }
-
-    Composer& composer() { return compose_; }
 
 private:
     template <typename Predicate>
@@ -300,7 +298,7 @@ private:
         return any([](const AtomNode& atom) { return !atom.steady; }) ? 4 : 5;
     }
 
-    Composer compose_;
+    Composer& compose_;
 };
 
 /// The number that makes the coefficients coprime integers, or 1 where they would not stay small.
@@ -326,14 +324,23 @@ Phrase readable(const Fourier& f) {
 }
 
 Phrase readable(const Fourier& f, std::size_t effort) {
-    Writer writer(has_decimals(f), effort);
+    Composer compose(has_decimals(f), effort);
+    Writer writer(compose);
+    return writer.write(writer.energy_lines(f));
+}
+
+Phrase ReadableWriter::operator()(const Fourier& f) {
+    Composer& compose = has_decimals(f) ? in_decimals_ : in_fractions_;
+    compose.begin();
+    Writer writer(compose);
     return writer.write(writer.energy_lines(f));
 }
 
 ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs, const std::optional<SymbolInfo>& own) {
     const bool decimals = has_decimals(lhs) || has_decimals(rhs);
-    Writer writer(decimals);
-    Factorizer& factorizer = writer.composer().factorizer();
+    Composer compose(decimals);
+    Writer writer(compose);
+    Factorizer& factorizer = compose.factorizer();
     const CommonFactor common = common_factor(lhs, rhs, factorizer);
     Fourier first_side = divide(lhs, common, factorizer), second_side = divide(rhs, common, factorizer);
     const Polynomial positive = divide_by_positive(first_side, second_side, factorizer);
@@ -345,14 +352,13 @@ ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs, const
         return own && !acceleration.empty() && acceleration[0].atom->info.rank == own->rank;
     };
     const auto leading = std::find_if(shown.begin(), shown.end(), is_own);
-    if (!shown.empty() &&
-        writer.composer()(leading != shown.end() ? *leading : shown[0]).kind == Phrase::Kind::negative)
+    if (!shown.empty() && compose(leading != shown.end() ? *leading : shown[0]).kind == Phrase::Kind::negative)
         scale = -scale;
     for (Lines* side : {&left, &right})
         for (Polynomial& line : *side) line = (1 / scale) * line;
     ReadableEquation result{writer.write(left), writer.write(right), {}};
     const Polynomial divisor = scale * polynomial(common) * positive;
-    if (!divisor.is_one()) result.divided_by = writer.composer()(divisor);
+    if (!divisor.is_one()) result.divided_by = compose(divisor);
     return result;
 }
 

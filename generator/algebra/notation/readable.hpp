@@ -16,7 +16,7 @@
 
 #include <optional>
 
-#include "algebra/notation/phrase.hpp"
+#include "algebra/notation/compose.hpp"
 #include "algebra/symbolic/fourier.hpp"
 
 namespace alembert {
@@ -25,6 +25,15 @@ namespace alembert {
 /// polynomials that are tried (usual_effort of the composer).
 Phrase readable(const Fourier& f, std::size_t effort);
 Phrase readable(const Fourier& f);
+
+/// Writes one normal form after the other like `readable`, but what several have in common is composed once.
+class ReadableWriter {
+public:
+    Phrase operator()(const Fourier& f);
+
+private:
+    Composer in_fractions_{false}, in_decimals_{true};
+};
 
 struct ReadableEquation {
     Phrase lhs, rhs;

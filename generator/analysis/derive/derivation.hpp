@@ -60,6 +60,9 @@ struct Derivation {
         std::size_t operations = 0;            ///< of these equations, if they are too long to be shown
     };
     std::vector<Rubs> frictions;
+    /// Of a program for the equations, where these are too long to be made for a reader; they are missing then. 0
+    /// otherwise.
+    int program_operations = 0;
     bool has_unit_quaternions = false;  ///< whether e·e = 1 of quaternions has been used in all terms
 };
 

@@ -73,6 +73,19 @@ void add_sticking(Derivation::Rubs& friction, const Scene& scene, const Friction
     }
 }
 
+/// Coordinates, and the operations of a program for the equations of a large tree.
+DerivedScene told_by_size(Derived derived) {
+    DerivedScene d{std::move(derived)};
+    const Mechanism& m = d.mechanism;
+    const Formalism& by = formalism_in_rates(m);
+    d.shown.formalism = by.name;
+    d.shown.title = translated(by.title);
+    d.shown.degrees_of_freedom = m.size() - static_cast<int>(m.constraints.size());
+    for (const GiNaC::symbol& q : m.q) d.shown.coordinates.push_back(phrases::symbol(q, m.symbols->info(q)));
+    d.shown.program_operations = lowered(d).cost.operations;
+    return d;
+}
+
 }  // namespace
 
 DerivedScene explained(Derived derived, const PartDone& done) {
@@ -92,9 +105,12 @@ DerivedScene derive(Scene scene, const ShowOptions& options) {
         if (options.done) options.done(part);
     };
     tell(0);
-    Derived equations =
-        derived(std::move(scene), {.by = options.by, .on_sheets = true, .coordinates = Coordinates::optional});
+    DeriveOptions wishes{.by = options.by, .on_sheets = true, .coordinates = Coordinates::optional};
+    if (!options.full && !options.reactions) wishes.use = Use::shown_or_counted;
+    Derived equations = derived(std::move(scene), wishes);
     tell(0.3);
+    if (wishes.use == Use::shown_or_counted && wishes.by.empty() && equations.equations.tree)
+        return told_by_size(std::move(equations));
     DerivedScene d = explained(std::move(equations), [&](double part) { tell(0.3 + 0.4 * part); });
     if (d.sheets)
         for (const GiNaC::ex& positive : d.sheets->positive())

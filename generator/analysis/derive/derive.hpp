@@ -15,7 +15,8 @@ struct ShowOptions {
     std::string by = {};  ///< a formalism; if empty, the one that a teacher would choose
     /// Whether to give the reaction of each constraint along each coordinate, and those of joints.
     bool reactions = false;
-    /// Whether equations that exceed a page are made too: those of a contact that sticks.
+    /// Whether equations that exceed a page are made too: those of a contact that sticks, and those of large trees
+    /// of joints.
     bool full = true;
     PartDone done = {};
 };

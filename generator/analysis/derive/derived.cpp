@@ -39,6 +39,8 @@ Equations equations_by(const std::string& name, const Mechanism& mechanism) {
 }
 
 constexpr int many_pairs = 128;  // pairs of a body and one it is carried by: a chain of 16 has as many
+// Coordinates, and pairs, with more of which nobody reads the equations, in which both of a pair appear.
+constexpr int most_lines = 100, pairs_too_long = 1600;
 // Joints; with more, most of the derivation, emission and compilation would be for M.
 constexpr int most_with_matrix = 80;
 
@@ -59,7 +61,8 @@ std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) 
         pairs += depth.back();
     }
     if (pairs < many_pairs) return {};
-    if (use == Use::run && static_cast<int>(depth.size()) > most_with_matrix) return recursive_without_matrix(m);
+    if (use == Use::shown_or_counted && m.size() <= most_lines && pairs < pairs_too_long) return {};
+    if (use != Use::asked && static_cast<int>(depth.size()) > most_with_matrix) return recursive_without_matrix(m);
     return recursive(m);
 }
 
@@ -131,7 +134,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
                 "others at every pose, and numbers lose accuracy near such poses; give the scene generalized "
                 "speeds, "
                 "[speeds]\n"));
-    if (options.use == Use::shown) {
+    if (options.use == Use::shown || (options.use == Use::shown_or_counted && !at_once)) {
         d.warn(warnings_of_unresisted(d.scene, d.mechanism, d.equations));
         d.warn(warnings_of_start(d.mechanism, options.at));
     }

@@ -14,9 +14,9 @@
 
 namespace alembert {
 
-/// The purpose of equations: to be read (if no formalism is named, by the one that a teacher would choose), to be
-/// run, or to be evaluated at a state, including M.
-enum class Use { shown, run, asked };
+/// The purpose of equations: to be read (if no formalism is named, by the one that a teacher would choose); to be
+/// read, or counted where nobody would read them; to be run; or to be evaluated at a state, including M.
+enum class Use { shown, shown_or_counted, run, asked };
 
 struct DeriveOptions {
     std::string by = {};  ///< the name of a formalism; if empty, the program chooses
@@ -42,9 +42,9 @@ struct Derived : Prepared {
     std::vector<ReactionOutput> reaction_outputs = {};  ///< set if they were requested
 };
 
-/// Builds the mechanism and derives its equations. If they are to be run, a large tree of joints gets the
-/// recursive equations at once, because these are the fastest there. Throws what the stages throw; ModelError for
-/// a formalism that does not exist or does not apply.
+/// Builds the mechanism and derives its equations. If they are to be run or counted, a large tree of joints gets
+/// the recursive equations at once, because these are the fastest there. Throws what the stages throw; ModelError
+/// for a formalism that does not exist or does not apply.
 Derived derived(Scene scene, const DeriveOptions& options = {});
 
 /// The same scene with another mechanism (constraints added); by the formalism of that name, or the one that a

@@ -242,7 +242,7 @@ private:
                 begin(section.words, Kind::step);
                 add(section.statements);
             }
-        } else if (with_steps) {
+        } else if (with_steps && shown_.program_operations == 0) {
             blocks_ = steps(shown_, n_);
             return;
         }
@@ -252,6 +252,12 @@ private:
 
     void add_equations() {
         begin(words_before_equations(d_), Kind::equation);
+        if (shown_.program_operations > 0)
+            begin(say("({} lines, left out because of the length; as a program they take {} operations. 'derive "
+                      "--full' "
+                      "prints everything, --json has it, and 'emit' writes that program.)",
+                      shown_.coordinates.size(), shown_.program_operations),
+                  Kind::remark);
         add(shown_.equations);
         blocks_.back().with_symbols = !shown_.definitions.empty();
         if (!shown_.abbreviations.empty()) {

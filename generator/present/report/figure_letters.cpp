@@ -3,6 +3,7 @@
 /// that has no room is left out, and of a coordinate the whole mark: the important ones are placed first.
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -17,7 +18,8 @@ namespace {
 using Eigen::Vector2d;
 using Kind = FigureShape::Kind;
 
-constexpr double step = 3;  // between points of a stroke, in units of the screen
+constexpr double step = 3;           // between points of a stroke, in units of the screen
+constexpr double half_letter = 5.2;  // half the width of one, in the wide letters of DejaVu Serif, italic
 
 struct Box {
     Vector2d low, high;
@@ -29,7 +31,15 @@ struct Box {
     }
 };
 
-/// The number of letters that are seen of a text in SVG, an index as two thirds of a letter.
+/// Whether a letter, by the first byte and the one after it, is a capital or as wide as one.
+bool is_wide(char first, char next) {
+    constexpr char greek_capitals = '\xce';  // U+0391 to U+03A9 follow it with up to A9
+    return std::isupper(static_cast<unsigned char>(first)) != 0 || first == 'm' || first == 'w' ||
+           (first == greek_capitals && static_cast<unsigned char>(next) <= 0xa9);
+}
+
+/// The number of letters that are seen of a text in SVG, an index as two thirds of a letter, a capital as more
+/// than one.
 double letters_in(const std::string& expression) {
     const std::string svg = svg_letters(expression);
     double count = 0;
@@ -41,7 +51,7 @@ double letters_in(const std::string& expression) {
         } else if (svg[k] == '>') {
             is_tag = false;
         } else if (!is_tag && (static_cast<unsigned char>(svg[k]) & 0xc0) != 0x80) {
-            count += is_index ? 0.67 : 1;
+            count += (is_index ? 0.67 : 1) * (is_wide(svg[k], k + 1 < svg.size() ? svg[k + 1] : ' ') ? 1.35 : 1);
         }
     }
     return count;
@@ -158,7 +168,7 @@ private:
     void place(FigureShape& shape) {
         const Vector2d middle = screen_.middle_of_text(shape);
         if (!middle.allFinite()) return;
-        const Vector2d half(4.2 * letters_in(shape.text), 7);
+        const Vector2d half(half_letter * letters_in(shape.text), 7);
         const auto box_at = [&](const Vector2d& nudge) {
             return Box{middle + nudge - half, middle + nudge + half};
         };

@@ -84,9 +84,8 @@ std::vector<Paragraph> first_of(std::vector<Paragraph> all) {
     while (kept + 1 < all.size() && (kept == 0 || rows + rows_of(all[kept]) + 1 <= most_rows))
         rows += rows_of(all[kept++]) + 1;
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(kept), end = all.end() - 1;
-    const std::size_t lines = std::accumulate(begin, end, std::size_t{0}, [](std::size_t sum, const Paragraph& one) {
-        return sum + one.size();
-    });
+    const std::size_t lines = std::accumulate(
+        begin, end, std::size_t{0}, [](std::size_t sum, const Paragraph& one) { return sum + one.size(); });
     if (lines == 0) return all;
     *begin = {line_of(say("... ({} lines in {} paragraphs more)", lines, end - begin))};
     all.erase(begin + 1, end);

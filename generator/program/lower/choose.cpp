@@ -29,10 +29,17 @@ constexpr double least_after = 0.85;
 constexpr std::size_t many_joints = 6;  // with more joints, turning axes never win if there are parallel ones
 constexpr double largest_tree = 50000;  // the most nodes; for more, expanding costs more than it can gain
 
+std::optional<ex> form_in(ReadableWriter& write, const ex& e, const Mechanism& m, std::size_t budget = 400) {
+    if (m.z->tree_size(e) > largest_tree) return std::nullopt;
+    const std::optional<Fourier> normal = fourier(m.z->expand(e), *m.symbols, budget);
+    if (!normal) return std::nullopt;
+    return expression(write(*normal));
+}
+
 /// Writes all of `values` in readable form, or none of them.
-bool make_readable(std::vector<ex*> values, const Mechanism& m) {
+bool make_readable(std::vector<ex*> values, const Mechanism& m, ReadableWriter& write) {
     for (ex* value : values) {
-        const std::optional<ex> readable = readable_form(*value, m);
+        const std::optional<ex> readable = form_in(write, *value, m);
         if (!readable) return false;
         *value = *readable;
     }
@@ -66,7 +73,7 @@ bool loses_digits(const Mechanism& m, const Equations& e) {
                        [&](const auto& row) { return std::any_of(row.begin(), row.end(), holds); });
 }
 
-std::optional<Equations> textbook_equations(const Mechanism& m, Equations equations) {
+std::optional<Equations> textbook_equations(const Mechanism& m, Equations equations, ReadableWriter& write) {
     double size = 0;
     for (int i = 0; i < equations.size(); ++i) {
         for (int j = 0; j <= i; ++j) size += m.z->tree_size(equations.M(i, j));
@@ -75,22 +82,22 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
     if (size > largest_tree || loses_digits(m, equations)) return std::nullopt;
     for (int i = 0; i < equations.size(); ++i) {
         for (int j = 0; j <= i; ++j) {
-            if (!make_readable({&equations.M(i, j)}, m)) return std::nullopt;
+            if (!make_readable({&equations.M(i, j)}, m, write)) return std::nullopt;
             equations.M(j, i) = equations.M(i, j);
         }
         // One sum, so that terms of different parts cancel.
         equations.own[i] = equations.forcing(i);
         equations.applied[i] = equations.dissipative[i] = 0;
-        if (!make_readable({&equations.own[i]}, m)) return std::nullopt;
+        if (!make_readable({&equations.own[i]}, m, write)) return std::nullopt;
         equations.row_sources.push_back(equations.speeds_are_rates() ? sources_of_row(m, i)
                                                                      : m.z->source_labels());
     }
     for (ex& rate : equations.h)
-        if (!make_readable({&rate}, m)) return std::nullopt;
+        if (!make_readable({&rate}, m, write)) return std::nullopt;
     for (std::size_t k = 0; k < equations.A.size(); ++k) {
         for (ex& entry : equations.A[k])
-            if (!make_readable({&entry}, m)) return std::nullopt;
-        if (!make_readable({&equations.gamma[k]}, m)) return std::nullopt;
+            if (!make_readable({&entry}, m, write)) return std::nullopt;
+        if (!make_readable({&equations.gamma[k]}, m, write)) return std::nullopt;
     }
     equations.formalism += std::string(", ") + to_say("textbook form");
     return equations;
@@ -131,14 +138,15 @@ std::optional<ex> potential_of_differences(const Mechanism& m) {
     return result;
 }
 
-Energy readable_energy(const Mechanism& m, const Energy& energy) {
+Energy readable_energy(const Mechanism& m, const Energy& energy, ReadableWriter& write) {
     Energy result = energy;
     const bool same = !m.given_lagrangian && is_identically_zero(energy.energy - energy.jacobi, m);
     const std::optional<ex> kept = potential_of_differences(m);
     if (!kept) return energy;
     result.potential -= *kept;
     result.jacobi -= *kept;
-    if (!make_readable({&result.kinetic, &result.potential, &result.jacobi, &result.power}, m)) return energy;
+    if (!make_readable({&result.kinetic, &result.potential, &result.jacobi, &result.power}, m, write))
+        return energy;
     result.potential += *kept;
     result.jacobi += *kept;
     if (!m.given_lagrangian) result.energy = result.kinetic + result.potential;
@@ -150,10 +158,8 @@ Energy readable_energy(const Mechanism& m, const Energy& energy) {
 }  // namespace
 
 std::optional<ex> readable_form(const ex& e, const Mechanism& m, std::size_t budget) {
-    if (m.z->tree_size(e) > largest_tree) return std::nullopt;
-    const std::optional<Fourier> normal = fourier(m.z->expand(e), *m.symbols, budget);
-    if (!normal) return std::nullopt;
-    return expression(readable(*normal));
+    ReadableWriter write;
+    return form_in(write, e, m, budget);
 }
 
 namespace {
@@ -166,7 +172,7 @@ struct Candidate {
 
 /// Lowers each form that these equations can take.
 void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, const Equations& equations,
-               const Energy& energy, const LowerOptions& options) {
+               const Energy& energy, const LowerOptions& options, ReadableWriter& write) {
     const Mechanism m = in_terms_of(equations, mechanism);
     const std::size_t before = programs.size();
     const bool is_free = equations.tree && norms_alone(*equations.tree, m);
@@ -180,10 +186,11 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
     const bool is_readable =
         has_matrix && std::none_of(m.frictions.begin(), m.frictions.end(),
                                    [](const Mechanism::Friction& f) { return f.across.has_value(); });
-    if (const std::optional<Equations> textbook = is_readable ? textbook_equations(m, equations) : std::nullopt) {
+    if (const std::optional<Equations> textbook =
+            is_readable ? textbook_equations(m, equations, write) : std::nullopt) {
         LowerOptions as_in_book = options;
         as_in_book.is_textbook = true;
-        programs.push_back({lower(m, *textbook, readable_energy(m, energy), as_in_book)});
+        programs.push_back({lower(m, *textbook, readable_energy(m, energy, write), as_in_book)});
     }
     if (!equations.tree) return;
     const bool parallel = has_parallel_axes(*equations.tree);
@@ -244,7 +251,8 @@ Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equation
     const Energy energy = energy_of(in_terms_of(equations.at(0), mechanism));  // in the names that they have
     const Mechanism m = in_terms_of(energy, mechanism);
     std::vector<Candidate> candidates;
-    for (const Equations& e : equations) add_forms(candidates, m, e, energy, options);
+    ReadableWriter write;
+    for (const Equations& e : equations) add_forms(candidates, m, e, energy, options, write);
     std::vector<Candidate> programs = contenders(std::move(candidates));
     std::vector<Cost> costs;
     for (const Candidate& candidate : programs) costs.push_back(cost_of(candidate.program));
