@@ -78,15 +78,15 @@ Paragraph shortened(const Paragraph& whole, std::size_t most) {
     return result;
 }
 
-/// Without those that come before the last one and do not fit.
-std::vector<Paragraph> first_of(std::vector<Paragraph> all) {
+/// Without those that come before the last one and do not fit; `whole`: the same before they were shortened.
+std::vector<Paragraph> first_of(std::vector<Paragraph> all, const std::vector<Paragraph>& whole) {
     std::size_t rows = 2 + rows_of(all.back()), kept = 0;
     while (kept + 1 < all.size() && (kept == 0 || rows + rows_of(all[kept]) + 1 <= most_rows))
         rows += rows_of(all[kept++]) + 1;
-    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(kept), end = all.end() - 1;
-    const std::size_t lines = std::accumulate(
-        begin, end, std::size_t{0}, [](std::size_t sum, const Paragraph& one) { return sum + one.size(); });
+    std::size_t lines = 0;
+    for (std::size_t k = kept; k + 1 < whole.size(); ++k) lines += whole[k].size();
     if (lines == 0) return all;
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(kept), end = all.end() - 1;
     *begin = {line_of(say("... ({} lines in {} paragraphs more)", lines, end - begin))};
     all.erase(begin + 1, end);
     return all;
@@ -105,7 +105,7 @@ std::string folded(std::string_view text) {
         std::transform(lines_cut.begin(), lines_cut.end(), shown.begin(),
                        [most](const Paragraph& one) { return shortened(one, most); });
     }
-    if (rows_of(shown) > most_rows) shown = first_of(std::move(shown));
+    if (rows_of(shown) > most_rows) shown = first_of(std::move(shown), whole);
     std::string result;
     for (const Paragraph& one : shown) {
         for (const FoldedLine& line : one) result += line.text + "\n";
