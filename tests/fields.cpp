@@ -104,4 +104,29 @@ TEST_CASE("fields: polynomials over primes and over fractions divide, interpolat
     CHECK(univariate::divisor(modulo, PrimePolynomial{-3, 1}) == PrimePolynomial{-3, 1});
 }
 
+TEST_CASE(
+    "modulo the prime: inverses multiply to one, and roots of quadratics are those of cubics that hold them") {
+    const ModularPoint point{.seed = 5};
+    CHECK(Prime(0).inverse() == Prime(0));
+    for (const std::int64_t n : {1L, 2L, -1L, -2L, 3L, 1234567890123456789L})
+        CHECK(Prime(n) * Prime(n).inverse() == Prime(1));
+    for (std::uint64_t k = 0; k < 50; ++k) {
+        const Prime a = point.random(1, k), b = point.random(2, k), c = point.random(3, k), d = a + b * Prime::i();
+        CHECK(a * a.inverse() == Prime(1));
+        CHECK(a.inverse() == a.power(Prime::modulus - 2));
+        CHECK(d * d.inverse() == Prime(1));
+        CHECK(roots({a * b * c, -(a + b) * c, c}, k) == std::vector<Prime>{std::min(a, b), std::max(a, b)});
+        CHECK(roots({a * a * c, -2 * a * c, c}, k) == std::vector<Prime>{a});
+        // Random coefficients: half of these polynomials have no root.
+        const Prime other = point.random(4, k);
+        const std::vector<Prime> two = roots({a, b, c}, k);
+        std::vector<Prime> three = roots({-a * other, a - b * other, b - c * other, c}, k);
+        std::erase(three, other);
+        CHECK(two == three);
+        for (const Prime root : two) CHECK(value_at(PrimePolynomial{a, b, c}, root).is_zero());
+        CHECK(two.empty() == !(b * b - 4 * a * c).is_square());
+    }
+    CHECK(roots({1, 0, 1}, 1).empty());  // i is not plain
+}
+
 }  // namespace fields

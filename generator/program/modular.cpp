@@ -10,41 +10,57 @@
 
 namespace alembert {
 
-namespace {
-
 class ModularEvaluation {
 public:
-    ModularEvaluation(const Program& program, const ModularPoint& point)
-        : program_(program), point_(point), pi_(point.random(300, 0)) {}
-
-    std::optional<ModularValues> run(std::span<const int> roots) {
-        result_.value.resize(program_.size());
-        result_.degree.resize(program_.size());
-        for (const int id : program_.needed(roots)) {
-            const std::optional<Prime> value = of(id);
-            if (!value) return std::nullopt;
-            result_.value[id] = *value;
-        }
-        // The random points stand for the angles divided by all their odd denominators.
-        for (double& degree : result_.degree) degree *= denominators_;
-        return std::move(result_);
+    ModularEvaluation(const Program& program, std::span<const int> roots)
+        : program_(program), order_(program.needed(roots)) {
+        values.value.resize(program_.size());
+        values.degree.resize(program_.size());
     }
 
+    /// Whether the point is usable.
+    bool run(const ModularPoint& point) {
+        begin(point);
+        for (const int id : order_) {
+            values.degree[id] = 0;
+            const std::optional<Prime> value = of(id);
+            if (!value) return false;
+            values.value[id] = *value;
+        }
+        // The random points stand for the angles divided by all their odd denominators.
+        for (const int id : order_) values.degree[id] *= denominators_;
+        return true;
+    }
+
+    ModularValues values;
+
 private:
-    Prime value(int id) const { return result_.value[id]; }
+    void begin(const ModularPoint& point) {
+        point_ = &point;
+        pi_ = point.random(300, 0);
+        values.conditions = 0;
+        values.exact = true;
+        values.rooted.clear();
+        rooted_rests_.clear();
+        sums_.clear();
+        known_denominators_ = 1;
+        denominators_ = 1;
+    }
+
+    Prime value(int id) const { return values.value[id]; }
 
     /// Of a number that is not zero.
     bool is_positive(Prime a) const {
         const bool is_turned =
-            std::any_of(point_.turned.begin(), point_.turned.end(), [&](Prime t) { return t == a || t == -a; });
+            std::any_of(point_->turned.begin(), point_->turned.end(), [&](Prime t) { return t == a || t == -a; });
         return a.is_square() != is_turned;
     }
 
     std::optional<Prime> of(int id) {
         const Node& node = program_[id];
-        double& degree = result_.degree[id];
+        double& degree = values.degree[id];
         const auto arg = [&](std::size_t k) { return value(node.args[k]); };
-        for (const int a : node.args) degree = std::max(degree, result_.degree[a]);
+        for (const int a : node.args) degree = std::max(degree, values.degree[a]);
         switch (node.op) {
             case Op::number:
                 return Prime::from(node.number);
@@ -53,7 +69,7 @@ private:
                 return pi_;
             case Op::variable:
                 degree = 1;
-                return point_.variable(node.variable);
+                return point_->variable(node.variable);
             case Op::sum:
                 return sum(node, degree);
             case Op::product:
@@ -65,10 +81,10 @@ private:
             case Op::sqrt:
                 return square_root(node.args[0]);
             case Op::abs:
-                result_.exact = result_.exact && arg(0).is_plain();
+                values.exact = values.exact && arg(0).is_plain();
                 return arg(0).is_plain() ? (is_positive(arg(0)) ? arg(0) : -arg(0)) : std::min(arg(0), -arg(0));
             case Op::sign:
-                result_.exact = result_.exact && arg(0).is_plain();
+                values.exact = values.exact && arg(0).is_plain();
                 return arg(0).is_zero() ? Prime(0) : Prime(is_positive(arg(0)) ? 1 : -1);
             case Op::exp:
                 return exponential(node.args[0], degree);
@@ -79,7 +95,7 @@ private:
             case Op::min:
             case Op::max: {
                 const Prime low = std::min(arg(0), arg(1)), high = std::max(arg(0), arg(1));
-                const bool first = (point_.random(400, low.bits(), high.bits()).bits() & 1U) != 0;
+                const bool first = (point_->random(400, low.bits(), high.bits()).bits() & 1U) != 0;
                 return first == (node.op == Op::min) ? low : high;
             }
             case Op::unspecified:
@@ -95,10 +111,10 @@ private:
             case Op::atan2:
                 break;
         }
-        result_.exact = false;
+        values.exact = false;
         degree += 1;
-        return point_.random(static_cast<std::uint64_t>(node.op), arg(0).bits(),
-                             node.args.size() > 1 ? arg(1).bits() : 0);
+        return point_->random(static_cast<std::uint64_t>(node.op), arg(0).bits(),
+                              node.args.size() > 1 ? arg(1).bits() : 0);
     }
 
     std::optional<Prime> sum(const Node& node, double& degree) {
@@ -121,7 +137,7 @@ private:
             const Prime factor = value(node.args[k]);
             if (e < 0 && factor.is_zero()) return std::nullopt;
             product *= (e < 0 ? factor.inverse() : factor).power(static_cast<std::uint64_t>(std::abs(e)));
-            degree += std::abs(e) * result_.degree[node.args[k]];
+            degree += std::abs(e) * values.degree[node.args[k]];
         }
         return product;
     }
@@ -151,8 +167,8 @@ private:
         std::uint64_t key = 0;
         for (const int a : node.args)
             for (const Prime part : {value(a), value(a) * Prime::i()})
-                key = point_.random(500, part.bits(), key).bits();
-        return point_.random(501, key);
+                key = point_->random(500, part.bits(), key).bits();
+        return point_->random(501, key);
     }
 
     /// Without denominators the degree of a sum is the largest one of its terms, with denominators the sum of all.
@@ -160,8 +176,8 @@ private:
         double largest = 0, together = 0;
         bool fractions = false;
         for (const int a : node.args) {
-            largest = std::max(largest, result_.degree[a]);
-            together += result_.degree[a];
+            largest = std::max(largest, values.degree[a]);
+            together += values.degree[a];
             fractions = fractions || has_denominator(a);
         }
         return fractions ? together : largest;
@@ -170,7 +186,7 @@ private:
     bool has_denominator(int id) {
         if (fraction_.empty()) {
             fraction_.resize(program_.size());
-            for (int i = 0; i < program_.size(); ++i) {
+            for (const int i : order_) {
                 const Node& node = program_[i];
                 bool any = node.is_reciprocal() || node.op == Op::tan || node.op == Op::tanh;
                 for (const int a : node.args) any = any || fraction_[a] != 0;
@@ -205,8 +221,8 @@ private:
             if (cln::zerop(node.number)) return Prime(0);
             if (!cln::plusp(node.number)) return std::nullopt;
             if (const auto root = root_of_number(node.number)) return root;
-            result_.exact = false;
-            return point_.random(static_cast<std::uint64_t>(Op::sqrt), value(arg).bits());
+            values.exact = false;
+            return point_->random(static_cast<std::uint64_t>(Op::sqrt), value(arg).bits());
         }
         // √(3a + 3b) = √3 √(a + b), even if 3 is no square
         const Rational content = node.op == Op::sum ? content_of(node) : Rational(1);
@@ -215,12 +231,12 @@ private:
         if (!factor || factor->is_zero()) return std::nullopt;
         const Prime a = value(arg) * factor->inverse();
         if (!a.is_square()) return std::nullopt;
-        result_.conditions += 1;
-        result_.exact = result_.exact && a.is_plain();
-        const bool is_negative = std::find(point_.negative_roots.begin(), point_.negative_roots.end(), a) !=
-                                 point_.negative_roots.end();
-        if (std::find(result_.rooted.begin(), result_.rooted.end(), a) == result_.rooted.end())
-            result_.rooted.push_back(a);
+        values.conditions += 1;
+        values.exact = values.exact && a.is_plain();
+        const bool is_negative = std::find(point_->negative_roots.begin(), point_->negative_roots.end(), a) !=
+                                 point_->negative_roots.end();
+        if (std::find(values.rooted.begin(), values.rooted.end(), a) == values.rooted.end())
+            values.rooted.push_back(a);
         const Prime root = is_negative ? -a.root() : a.root();
         return outer ? *outer * root : root;
     }
@@ -238,8 +254,8 @@ private:
     // Angles
 
     ModularAngle angle_or_leaf(int id) {
-        if (auto result = angle_at(program_, result_.value, pi_, id, sums_)) return *result;
-        result_.exact = false;
+        if (auto result = angle_at(program_, values.value, pi_, id, sums_)) return *result;
+        values.exact = false;
         return angle_of_value(value(id));
     }
 
@@ -264,7 +280,7 @@ private:
                 continue;
             }
             cln::cl_I numerator = cln::numerator(c), odd = cln::denominator(c);
-            const auto [parts, turn] = point_.part(leaf(monomial));
+            const auto [parts, turn] = point_->part(leaf(monomial));
             int halves = parts;
             for (; cln::evenp(odd) && halves > 0; --halves) odd = cln::exquo(odd, cln::cl_I(2));
             if (cln::evenp(odd)) return std::nullopt;
@@ -287,16 +303,16 @@ private:
         const std::optional<Prime> key = Prime::from(base);
         if (!key) return std::nullopt;
         degree += 2 * std::abs(cln::double_approx(multiple));
-        return PrimeTurn::rational(point_.random(204, key->bits())).power(*PrimeTurn::exponent(multiple));
+        return PrimeTurn::rational(point_->random(204, key->bits())).power(*PrimeTurn::exponent(multiple));
     }
 
     /// A multiple of π that is in the group, or else a random turn.
     std::optional<PrimeTurn> turned_by_pi(const Rational& c) {
         if (const auto turn = PrimeTurn::by_pi(c)) return turn;
-        result_.exact = false;
+        values.exact = false;
         const std::optional<Prime> key = Prime::from(c);
         if (!key) return std::nullopt;
-        return PrimeTurn::rational(point_.random(201, key->bits()));
+        return PrimeTurn::rational(point_->random(201, key->bits()));
     }
 
     void note_denominator(const cln::cl_I& odd) {
@@ -314,17 +330,17 @@ private:
         for (const auto& [monomial, c] : sum) {
             const Rational exponent = c * parts;
             if (cln::denominator(exponent) != 1) {
-                result_.exact = false;
+                values.exact = false;
                 degree += 1;
                 const std::optional<Prime> key = Prime::from(c);
                 if (!key) return std::nullopt;
-                const Prime e = point_.random(202, leaf(monomial).bits(), key->bits());
+                const Prime e = point_->random(202, leaf(monomial).bits(), key->bits());
                 result *= e * e;
                 continue;
             }
             const cln::cl_I whole = cln::numerator(exponent);
             const cln::cl_I residue = cln::mod(whole, cln::cl_I(Prime::modulus - 1));
-            const Prime e = point_.random(203, leaf(monomial).bits());
+            const Prime e = point_->random(203, leaf(monomial).bits());
             if (e.is_zero()) return std::nullopt;
             result *= (e * e).power(uint64_of(residue));
             degree += 2 * std::abs(cln::double_approx(exponent));
@@ -333,9 +349,9 @@ private:
     }
 
     const Program& program_;
-    const ModularPoint& point_;
+    const std::vector<int> order_;
+    const ModularPoint* point_ = nullptr;
     Prime pi_;
-    ModularValues result_;
     std::vector<cln::cl_I> rooted_rests_;  ///< large numbers of which roots were taken
     std::vector<char> fraction_;
     std::map<int, ModularAngle> sums_;
@@ -343,11 +359,23 @@ private:
     double denominators_ = 1;
 };
 
-}  // namespace
-
 std::optional<ModularValues> evaluate_mod(const Program& program, const ModularPoint& point,
                                           std::span<const int> roots) {
-    return ModularEvaluation(program, point).run(roots);
+    ModularEvaluation evaluation(program, roots);
+    if (!evaluation.run(point)) return std::nullopt;
+    return std::move(evaluation.values);
+}
+
+ModularFunction::ModularFunction(const Program& program, std::vector<int> roots)
+    : roots_(std::move(roots)), evaluation_(std::make_unique<ModularEvaluation>(program, roots_)) {}
+
+ModularFunction::~ModularFunction() = default;
+
+std::optional<std::vector<Prime>> ModularFunction::operator()(const ModularPoint& point) {
+    if (!evaluation_->run(point)) return std::nullopt;
+    std::vector<Prime> result;
+    for (const int root : roots_) result.push_back(evaluation_->values.value[root]);
+    return result;
 }
 
 }  // namespace alembert

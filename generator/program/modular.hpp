@@ -29,6 +29,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -97,5 +98,23 @@ struct ModularValues {
 /// no square, or an angle is divided by more than 2^halves.
 std::optional<ModularValues> evaluate_mod(const Program& program, const ModularPoint& point,
                                           std::span<const int> roots);
+
+class ModularEvaluation;
+
+/// The same values of a few roots at many points; what does not depend on the point is made once. The program must
+/// outlive it.
+class ModularFunction {
+public:
+    ModularFunction(const Program& program, std::vector<int> roots);
+    ~ModularFunction();
+    ModularFunction(const ModularFunction&) = delete;
+    ModularFunction& operator=(const ModularFunction&) = delete;
+    /// The values of the roots, in their order; nothing if the point is unusable.
+    std::optional<std::vector<Prime>> operator()(const ModularPoint& point);
+
+private:
+    std::vector<int> roots_;
+    std::unique_ptr<ModularEvaluation> evaluation_;
+};
 
 }  // namespace alembert

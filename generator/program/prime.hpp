@@ -51,11 +51,14 @@ public:
     /// Nothing if the modulus divides the denominator.
     static std::optional<Prime> from(const Rational& r) {
         const auto residue = [](const cln::cl_I& n) {
-            return from_bits(uint64_of(cln::mod(n, cln::cl_I(modulus))));
+            constexpr int small = 31;  // bits
+            return cln::integer_length(n) < small ? Prime(cln::cl_I_to_int(n))
+                                                  : from_bits(uint64_of(cln::mod(n, cln::cl_I(modulus))));
         };
-        const Prime below = residue(cln::denominator(r));
+        const Prime above = residue(cln::numerator(r)), below = residue(cln::denominator(r));
+        if (below == Prime(1)) return above;
         if (below.is_zero()) return std::nullopt;
-        return residue(cln::numerator(r)) * below.inverse();
+        return above * below.inverse();
     }
     /// √r = known · √rest of a positive number r, where rest is 1 or a whole number, no square, without small
     /// factors.
@@ -80,7 +83,7 @@ public:
         return {reduced(a.n_ + modulus - b.n_), reduced(a.i_ + modulus - b.i_)};
     }
     friend constexpr Prime operator-(Prime a) { return {negative(a.n_), negative(a.i_)}; }
-    friend constexpr Prime operator*(Prime a, Prime b) {
+    [[gnu::always_inline]] friend constexpr Prime operator*(Prime a, Prime b) {
         if ((a.i_ | b.i_) == 0) return {product(a.n_, b.n_), 0};
         return {reduced(product(a.n_, b.n_) + modulus - product(a.i_, b.i_)),
                 reduced(product(a.n_, b.i_) + product(a.i_, b.n_))};
@@ -97,7 +100,7 @@ public:
     }
     /// The inverse; that of zero is zero.
     constexpr Prime inverse() const {
-        if (is_plain()) return power(modulus - 2);
+        if (is_plain()) return n_ <= 1 ? *this : plain_inverse();
         const Prime over = norm().inverse();
         return {product(n_, over.n_), product(negative(i_), over.n_)};
     }
@@ -116,12 +119,27 @@ public:
 private:
     constexpr Prime(std::uint64_t n, std::uint64_t i) : n_(n), i_(i) {}
     constexpr Prime norm() const { return {reduced(product(n_, n_) + product(i_, i_)), 0}; }
+    /// a^(p−2) with p − 2 = 4·(2⁵⁹ − 1) + 1; from a^(2ᵏ − 1) follows a^(2ᵏ⁺ʲ − 1) in j squarings.
+    constexpr Prime plain_inverse() const {
+        const auto shifted = [](std::uint64_t a, int squarings) {
+            for (; squarings > 0; --squarings) a = product(a, a);
+            return a;
+        };
+        const std::uint64_t of_2 = product(shifted(n_, 1), n_), of_4 = product(shifted(of_2, 2), of_2),
+                            of_8 = product(shifted(of_4, 4), of_4), of_16 = product(shifted(of_8, 8), of_8),
+                            of_32 = product(shifted(of_16, 16), of_16);
+        std::uint64_t of_59 = product(shifted(of_32, 16), of_16);
+        of_59 = product(shifted(of_59, 8), of_8);
+        of_59 = product(shifted(of_59, 2), of_2);
+        of_59 = product(shifted(of_59, 1), n_);
+        return {product(shifted(of_59, 2), n_), 0};
+    }
     static constexpr std::uint64_t reduced(std::uint64_t n) {
         n = (n & modulus) + (n >> 61);
         return n >= modulus ? n - modulus : n;
     }
     static constexpr std::uint64_t negative(std::uint64_t n) { return n == 0 ? 0 : modulus - n; }
-    static constexpr std::uint64_t product(std::uint64_t a, std::uint64_t b) {
+    [[gnu::always_inline]] static constexpr std::uint64_t product(std::uint64_t a, std::uint64_t b) {
         __extension__ using Wide = unsigned __int128;
         const Wide wide = static_cast<Wide>(a) * b;
         return reduced((static_cast<std::uint64_t>(wide) & modulus) + static_cast<std::uint64_t>(wide >> 61));

@@ -10,6 +10,7 @@
 /// gcd with (x + a)^((q−1)/2) − 1 for random a (Cantor & Zassenhaus, Math. Comp. 36 (1981) 587).
 
 #include <algorithm>
+#include <bit>
 #include <vector>
 
 #include "program/modular.hpp"
@@ -36,14 +37,24 @@ inline PrimePolynomial product_modulo(const PrimePolynomial& f, const PrimePolyn
     return remainder(std::move(result), m);
 }
 
+/// From the highest bit of the exponent on, so that a short base stays short.
 inline PrimePolynomial power_modulo(PrimePolynomial base, std::uint64_t exponent, const PrimePolynomial& m) {
     PrimePolynomial result = remainder(PrimePolynomial{1}, m);
     base = remainder(std::move(base), m);
-    for (; exponent != 0; exponent >>= 1) {
-        if ((exponent & 1U) != 0) result = product_modulo(result, base, m);
-        base = product_modulo(base, base, m);
+    for (int bit = std::bit_width(exponent); bit-- > 0;) {
+        result = product_modulo(result, result, m);
+        if ((exponent >> bit & 1U) != 0) result = product_modulo(result, base, m);
     }
     return result;
+}
+
+/// The roots of f₂ x² + f₁ x + f₀.
+inline std::vector<Prime> roots_of_quadratic(const PrimePolynomial& f) {
+    const Prime square = f[1] * f[1] - 4 * f[0] * f[2], scale = (2 * f[2]).inverse();
+    if (square.is_zero()) return {-f[1] * scale};
+    if (!square.is_square()) return {};
+    const Prime root = square.root(), a = (root - f[1]) * scale, b = (-root - f[1]) * scale;
+    return {std::min(a, b), std::max(a, b)};
 }
 
 inline void split(const PrimePolynomial& f, bool plain, std::uint64_t seed, std::vector<Prime>& found) {
@@ -69,10 +80,12 @@ inline void split(const PrimePolynomial& f, bool plain, std::uint64_t seed, std:
 
 /// The roots in ascending order; if all coefficients are plain (program/prime.hpp), only the plain roots. For the
 /// zero polynomial the list is empty.
-inline std::vector<Prime> roots(const PrimePolynomial& f, std::uint64_t seed) {
+inline std::vector<Prime> roots(PrimePolynomial f, std::uint64_t seed) {
     using namespace prime_polynomial;
     std::vector<Prime> found;
     if (f.size() < 2) return found;
+    if (f.size() == 3) return roots_of_quadratic(f);
+    univariate::make_monic(f);
     const bool plain = std::all_of(f.begin(), f.end(), [](Prime c) { return c.is_plain(); });
     PrimePolynomial all = power_modulo({0, 1}, Prime::modulus, f);
     if (!plain) all = power_modulo(std::move(all), Prime::modulus, f);

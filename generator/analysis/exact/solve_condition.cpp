@@ -11,13 +11,6 @@ namespace alembert {
 
 namespace {
 
-std::optional<Prime> value_of(const Program& p, int node, const ExactState& state) {
-    const std::array<int, 1> root{node};
-    const auto at = evaluate_mod(p, state.point, root);
-    if (!at) return std::nullopt;
-    return at->value[node];
-}
-
 /// Whether roots are on the own branch.
 class IsOwn {
 public:
@@ -57,13 +50,13 @@ Solved solve_two(const Program& program, const SolvingStep& step, ExactState& st
         else
             state.point.given[{both[k].variable.kind, both[k].variable.index}] = x;
     };
+    ModularFunction conditions(program, {both[0].node, both[1].node});
     CommonZeros zeros = common_zeros(
         [&](Prime x, Prime y) -> std::optional<std::array<Prime, 2>> {
             put(0, x), put(1, y);
-            const std::array<int, 2> nodes{both[0].node, both[1].node};
-            const auto at = evaluate_mod(program, state.point, nodes);
+            const auto at = conditions(state.point);
             if (!at) return std::nullopt;
-            return std::array{at->value[nodes[0]], at->value[nodes[1]]};
+            return std::array{(*at)[0], (*at)[1]};
         },
         {.turned = {both[0].turned, both[1].turned}, .seed = state.point.seed});
     const IsOwn is_own(own, state);
@@ -93,15 +86,20 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
         else
             state.point.given[key] = x;
     };
+    ModularFunction condition(program, {step.node});
+    const auto value = [&]() -> std::optional<Prime> {
+        const auto at = condition(state.point);
+        return at ? std::optional(at->front()) : std::nullopt;
+    };
     // Polynomials of growing degree are tried until one passes through further points.
     for (const std::size_t degree : {2UL, 4UL, 8UL, 16UL, 24UL}) {
         std::vector<Prime> x, y;
         for (std::size_t k = 0; k < degree + 3; ++k) {
             x.push_back(state.point.random(600 + k, static_cast<std::uint64_t>(step.node)));
             put(x.back());
-            const std::optional<Prime> value = value_of(program, step.node, state);
-            if (!value) return {};
-            y.push_back(step.turned ? *value * (x.back() * x.back() + 1).power(degree / 2) : *value);
+            const std::optional<Prime> here = value();
+            if (!here) return {};
+            y.push_back(step.turned ? *here * (x.back() * x.back() + 1).power(degree / 2) : *here);
         }
         const PrimePolynomial f = interpolate(x, y);
         if (f.size() > degree + 1) continue;
@@ -121,7 +119,7 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
         if (!step.turned)
             if (const auto sum = angle_sum(program, step.node, step.variable)) set_angle(state.point, *sum, root);
         state.degree *= static_cast<double>(f.size() - 1);
-        return {value_of(program, step.node, state) == Prime(0), count};
+        return {value() == Prime(0), count};
     }
     return {};
 }
