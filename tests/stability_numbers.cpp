@@ -8,6 +8,7 @@
 #include <random>
 
 #include "stability/conditions.hpp"
+#include "stability/linear/dense_long.hpp"
 #include "stability/linear/modes.hpp"
 #include "stability/spectrum.hpp"
 
@@ -156,6 +157,34 @@ TEST_CASE("linearize: modes are eigenvectors, as many as there are, and those of
     CHECK(modes_of(two, {1, 1}).size() == 2);
     CHECK(modes_of(block, {1, 1}).size() == 1);
     CHECK(std::abs(modes_of(two, {1, 1})[0].vector.dot(modes_of(two, {1, 1})[1].vector)) < 1e-15);
+}
+
+TEST_CASE("least norm: regular systems are solved as by singular values, and the rank is that of these") {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    const auto filled = [&](Eigen::Index rows, Eigen::Index columns) -> LongMatrix {
+        return LongMatrix::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) { return normal(random); });
+    };
+    for (const Eigen::Index n : {7, 8, 20}) {
+        const LongMatrix left = singular_values(filled(n, n)).left, right = singular_values(filled(n, n)).right;
+        const LongColumn b = filled(n, 1);
+        for (const long double least : {1.0L, 1e-3L, 1e-9L, 1e-13L, 0.0L}) {
+            CAPTURE(n);
+            CAPTURE(static_cast<double>(least));
+            // U diag(1, ..., 1, least) V^T
+            LongColumn values = LongColumn::Ones(n);
+            values[n - 1] = least;
+            const LongMatrix A = left * values.asDiagonal() * right.transpose();
+            const LongLeastNorm found = least_norm(A, b, 1e-11L);
+            const bool counts = least > 1e-11L;
+            CHECK(found.rank == n - (counts ? 0 : 1));
+            LongColumn inverse = values.cwiseInverse();
+            if (!counts) inverse[n - 1] = 0;
+            const LongColumn x = right * inverse.asDiagonal() * (left.transpose() * b);
+            CHECK(static_cast<double>((found.x - x).norm() / x.norm()) <
+                  (counts ? 1e-16 / static_cast<double>(least) : 1e-15));
+        }
+    }
 }
 
 }  // namespace stability_numbers
