@@ -72,7 +72,8 @@ function types(all) {
     lines.push("", "export interface Verbs {");
     for (const [verb, { about }] of Object.entries(all)) {
         const result = `Promise<Result<${results[verb] ?? "Json"}>>`;
-        lines.push(`    ${comment(about)}`, verb === "new" ? `    new(options?: ${name_of(verb)}): ${result};` : `    ${verb}(scene: Scene, options?: ${name_of(verb)}): ${result};`);
+        // Without quotes, new() would be a constructor.
+        lines.push(`    ${comment(about)}`, verb === "new" ? `    "new"(options?: ${name_of(verb)}): ${result};` : `    ${verb}(scene: Scene, options?: ${name_of(verb)}): ${result};`);
     }
     for (const [name, [verb, option]] of Object.entries(ALIASES))
         lines.push(`    ${comment(all[verb].options[option].about)}`, `    ${name}(scene: Scene, options?: ${name_of(verb)}): Promise<Result<${results[name] ?? "Json"}>>;`);
