@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <random>
 
+#include "alembert/base/random.hpp"
 #include "program/interpret.hpp"
 #include "program/partials.hpp"
 #include "program/solve.hpp"
@@ -284,7 +284,7 @@ private:
         std::vector<int> by_matrix;
         for (int i = 0; i < s_; ++i) by_matrix.push_back(row_times(system, i, z));
         std::mt19937_64 random(1);
-        std::uniform_real_distribution<double> unit(0.1, 0.9);
+        const UniformReal<> unit(0.1, 0.9);
         for (int trial = 0; trial < 3; ++trial) {
             State<double> s{.parameters = {}, .t = unit(random), .q = {}, .qdot = {}, .qddot = {}};
             const auto fill = [&](std::vector<double>& list, int size) {

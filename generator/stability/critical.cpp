@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "alembert/base/dense.hpp"
+#include "alembert/base/random.hpp"
 #include "base/language/say.hpp"
 #include "stability/exact_field.hpp"
 #include "stability/field.hpp"
@@ -239,7 +239,7 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
     };
     const Eigen::MatrixXd across = V.leftCols(n - zeros);
     std::mt19937_64 random(15);
-    std::normal_distribution<double> normal;
+    NormalReal normal;
     for (int k = 0; k < (zeros == 1 ? 1 : 2 * zeros); ++k)
         for (const double step : {0.05, -0.03}) {
             Eigen::VectorXd direction(zeros);

@@ -6,10 +6,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "alembert/base/argument.hpp"
 #include "alembert/base/error.hpp"
+#include "alembert/base/random.hpp"
 #include "alembert/native/compile.hpp"
 #include "alembert/native/module.hpp"
 #include "alembert/ode/integrate.hpp"
@@ -122,7 +122,7 @@ public:
                     options.count, result_.size));
         columns_ = options.count > 0 ? options.count : result_.size;
         std::mt19937_64 random(8);
-        std::normal_distribution<double> normal;
+        NormalReal normal;
         Eigen::MatrixXd first(along.cols(), columns_);
         for (Index c = 0; c < columns_; ++c)
             for (Index i = 0; i < along.cols(); ++i) first(i, c) = normal(random);

@@ -6,10 +6,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
+#include "alembert/base/random.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
 #include "program/lower/lower.hpp"
@@ -106,7 +106,7 @@ std::string lyapunov_samples(const ex& V, const LinearizedScene& scene) {
     const SampledFunction function(V, scene);
     const std::vector<bool> moving = function.moving();
     std::mt19937_64 random(15);
-    std::normal_distribution<double> normal;
+    NormalReal normal;
     int V_signs[2] = {}, rate_signs[2] = {}, all = 0;
     for (const double radius : {0.1, 0.01, 0.001})
         for (int k = 0; k < 1000; ++k) {

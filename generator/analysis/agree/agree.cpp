@@ -8,8 +8,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <random>
 
+#include "alembert/base/random.hpp"
 #include "analysis/agree/system.hpp"
 #include "analysis/exact/square_points.hpp"
 #include "analysis/state/redundancy.hpp"
@@ -60,7 +60,7 @@ std::vector<std::vector<long double>> rows_at(const EquationSystem& s, State<lon
 /// the largest term. If the two have different unknowns, the difference of the unknowns that they share, divided
 /// by the largest. Nothing if that cannot be computed.
 std::optional<long double> residual(const EquationSystem& a, const EquationSystem& b, std::mt19937_64& random) {
-    std::uniform_real_distribution<long double> positive(0.5L, 2.0L), turn(-1.5L, 1.5L);
+    const UniformReal<long double> positive(0.5L, 2.0L), turn(-1.5L, 1.5L);
     State<long double> state;
     for (std::size_t i = 0; i < a.program.parameters.size(); ++i) state.parameters.push_back(positive(random));
     state.t = positive(random);

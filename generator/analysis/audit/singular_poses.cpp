@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "alembert/base/dense.hpp"
+#include "alembert/base/random.hpp"
 #include "alembert/base/tolerances.hpp"
 #include "program/lower/lower.hpp"
 
@@ -72,7 +72,7 @@ public:
         for (const int i : moving_) zero[i] = 0;
         add(zero, false);
         std::mt19937_64 random(1);
-        std::uniform_real_distribution<double> away(-std::numbers::pi, std::numbers::pi);
+        const UniformReal<> away(-std::numbers::pi, std::numbers::pi);
         for (int k = 0; k < starts && searchable_ && !moving_.empty(); ++k) {
             std::vector<double> q = state_.q;
             for (const int i : moving_) q[i] += away(random) * std::max(1.0, std::abs(q[i]) / 2);
@@ -175,7 +175,7 @@ private:
     }
 
     bool descend(std::vector<double>& q, std::mt19937_64& random) {
-        std::normal_distribution<double> normal;
+        NormalReal normal;
         Eigen::VectorXd v(usual_.size());
         for (double& c : v) c = normal(random);
         v.normalize();

@@ -27,11 +27,17 @@ class Numbers {
 public:
     explicit Numbers(unsigned seed)
         : random_(seed), spread_(3 + std::min(seed, 400U) / 20), below_(pick(3, 4 + spread_)) {}
-    numeric positive() { return numeric(pick(1, spread_)) / numeric(pick(1, 1 + spread_ / 4)); }
+    numeric positive() {
+        const int below = pick(1, 1 + spread_ / 4);  // drawn first: operands of one expression have no order
+        return numeric(pick(1, spread_)) / numeric(below);
+    }
     numeric any() { return pick(0, 1) != 0 ? positive() : -positive(); }
     /// Numbers within (−1, 1) with a common denominator. The components of a unit quaternion are of this kind, and
     /// otherwise one is rarely found.
-    numeric small() { return numeric(pick(1, below_ - 1)) / numeric(pick(0, 1) != 0 ? below_ : -below_); }
+    numeric small() {
+        const int below = pick(0, 1) != 0 ? below_ : -below_;
+        return numeric(pick(1, below_ - 1)) / numeric(below);
+    }
     /// Between −1 and 1, in hundredths.
     double share() { return static_cast<double>(pick(-100, 100)) / 100; }
     unsigned choice(unsigned count) { return static_cast<unsigned>(pick(0, static_cast<int>(count) - 1)); }

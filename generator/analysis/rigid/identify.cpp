@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <random>
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/error.hpp"
+#include "alembert/base/random.hpp"
 #include "analysis/rigid/coefficient_texts.hpp"
 #include "base/language/say.hpp"
 #include "program/interpret.hpp"
@@ -74,7 +74,7 @@ MatrixXd coefficients_in_doubles(const Regressor& y, const std::vector<std::size
                states = 3 * width / free + 4;
     MatrixXd W = MatrixXd::Zero(states * each, width);
     std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> any(-3, 3);
+    const UniformReal<> any(-3, 3);
     for (Index s = 0, tries = 0; s < states && tries < 20 * states; ++tries) {
         State<double> state = start;
         state.qddot.resize(state.q.size());

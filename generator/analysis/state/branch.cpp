@@ -8,11 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <random>
 #include <stdexcept>
 
 #include "alembert/base/dense.hpp"
+#include "alembert/base/random.hpp"
 #include "analysis/state/assemble.hpp"
+#include "program/lower/lower.hpp"
 
 namespace alembert {
 
@@ -73,14 +74,14 @@ public:
     }
 
     Start beside(Start start) {
-        std::uniform_real_distribution<double> away(-search_reach, search_reach);
+        const UniformReal<> away(-search_reach, search_reach);
         for (double& q : start.q) q += away(random_) * (1 + std::abs(q));
         return start;
     }
 
 private:
     Eigen::VectorXd by_chance(const Start& here) {
-        std::uniform_real_distribution<double> away(-step_length, step_length);
+        const UniformReal<> away(-step_length, step_length);
         Eigen::VectorXd result(n_);
         for (Eigen::Index i = 0; i < n_; ++i)
             result[i] = away(random_) * (1 + std::abs(here.q[static_cast<std::size_t>(i)]));

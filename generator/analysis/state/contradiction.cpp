@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "alembert/base/random.hpp"
 #include "analysis/state/assemble.hpp"
 #include "analysis/state/redundancy.hpp"
 #include "program/lower/lower.hpp"
@@ -20,7 +20,7 @@ std::vector<State<double>> states_that_obey(const Mechanism& mechanism, const St
     const Program program = lower_constraints(loose);
     const LeftOut left_out(loose);
     std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> away(-1, 1);
+    const UniformReal<> away(-1, 1);
     std::vector<State<double>> result;
     for (int k = 0; k < places_tried && static_cast<int>(result.size()) < wanted; ++k) {
         Start start = from;

@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "alembert/base/dense.hpp"
+#include "alembert/base/random.hpp"
 #include "alembert/base/tolerances.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
@@ -28,7 +28,7 @@ constexpr double looser = 1e3;   // what is kept may be off by a tolerance each,
 /// A state near this one, for numbers of any size: each coordinate changes by a part of itself, and one that is
 /// zero by as much as the smallest other.
 std::vector<double> changes(const std::vector<double>& q, std::mt19937_64& random) {
-    std::uniform_real_distribution<double> part(-reach, reach);
+    const UniformReal<> part(-reach, reach);
     double least = HUGE_VAL;
     for (const double x : q)
         if (x != 0) least = std::min(least, std::abs(x));

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <random>
 
+#include "alembert/base/random.hpp"
 #include "base/language/say.hpp"
 #include "program/lower/lower.hpp"
 
@@ -62,7 +62,7 @@ private:
     }
 
     State<double> random_state(std::mt19937_64& random) const {
-        std::uniform_real_distribution<double> near(-1, 1);
+        const UniformReal<> near(-1, 1);
         State<double> state = start_.state();
         state.t += near(random);
         for (double& q : state.q) q += 0.3 * near(random);

@@ -5,10 +5,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <random>
 #include <utility>
 
 #include "alembert/base/dense.hpp"
+#include "alembert/base/random.hpp"
 #include "alembert/base/tolerances.hpp"
 #include "analysis/state/assemble.hpp"
 #include "analysis/state/branch.hpp"
@@ -222,7 +222,7 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
     const Program program = lower_constraints(all), constraints = lower_constraints(others);
     const std::vector<int> velocity = program.nodes_of(Group::velocity);
     std::mt19937_64 random(2);
-    std::uniform_real_distribution<double> rate(-1, 1);
+    const UniformReal<> rate(-1, 1);
     // A position may follow from the others on one branch of their positions only, and that is where all hold. The
     // rates are those that the others allow.
     for (Start& start : places_on_branch(all, program, start_of(others), states, 2, false)) {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <random>
 
+#include "alembert/base/random.hpp"
 #include "alembert/base/tolerances.hpp"
 #include "base/language/say.hpp"
 #include "model/formalism/kinematics.hpp"
@@ -61,7 +61,7 @@ std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
     const auto size = static_cast<Eigen::Index>(n), speeds = static_cast<Eigen::Index>(count);
     std::optional<int> dependent;  // the last such row over all states
     std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> away(-0.7, 0.7);
+    const UniformReal<> away(-0.7, 0.7);
     for (int k = 0; k <= most_states; ++k) {
         Start start = start_of(m);
         for (double& q : start.q) q += k == 0 ? 0 : away(random) * (1 + std::abs(q));

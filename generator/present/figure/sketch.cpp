@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "alembert/base/random.hpp"
 #include "analysis/state/assemble.hpp"
 #include "program/lower/lower.hpp"
 
@@ -17,9 +17,12 @@ namespace {
 constexpr double near = 1e-7;  // relative to the scale; rounding is far smaller, and a change of shape far larger
 
 std::vector<double> moved(std::vector<double> values, std::mt19937_64& random, double floor) {
-    std::uniform_real_distribution<double> part(0.15, 0.45);
-    std::bernoulli_distribution sign;
-    for (double& v : values) v += (sign(random) ? 1 : -1) * part(random) * std::max(std::abs(v), floor);
+    const UniformReal<> part(0.15, 0.45);
+    const UniformReal<> unit(0, 1);
+    for (double& v : values) {
+        const double size = std::max(std::abs(v), floor), sign = unit(random) < 0.5 ? 1 : -1;
+        v += sign * part(random) * size;
+    }
     return values;
 }
 
