@@ -50,6 +50,34 @@ assert.match(compiled.stderr, /no C\+\+ compiler/);
 const motion = await run(["simulate", "scene.toml", "-o", "motions/first.csv"], { ...files, "motions/.keep": "" });
 assert.equal(motion.code, 0, motion.stderr);
 assert.match(motion.files["motions/first.csv"], /^t,theta/);
+// Where the engine refuses to compile beside a running program, the same lines are interpreted: every digit is the same.
+for (const method of ["taylor", "dop853"]) {
+    const words = ["simulate", "scene.toml", "--method", method, "-o", "motion.csv"];
+    const by_code = await run(words, files);
+    const { Module } = WebAssembly;
+    let refused = 0;
+    WebAssembly.Module = function () {
+        ++refused;
+        throw new RangeError("refused");
+    };
+    const interpreted = await run(words, files);
+    WebAssembly.Module = Module;
+    assert.ok(refused > 0);
+    assert.equal(interpreted.code, 0, interpreted.stderr);
+    assert.equal(interpreted.files["motion.csv"], by_code.files["motion.csv"]);
+}
+// Eight systems side by side, two in a vector: where each of them is alone, to ten times the tolerance.
+const swept = await run(["sweep", "scene.toml", "--vary", "theta=0.1:1.5:15", "--duration", "2", "--method", "dop853", "--tolerance", "1e-11",
+    "--json", "-o", "table.csv"], files);
+assert.equal(swept.code, 0, swept.stderr);
+assert.equal(JSON.parse(swept.stdout).side_by_side, 8);
+const rows = swept.files["table.csv"].trim().split("\n").map((row) => row.split(","));
+for (const k of [1, 15]) {
+    const alone = await run(["simulate", "scene.toml", "--at", `theta=${rows[k][rows[0].indexOf("theta")]}`, "--duration", "2", "--method", "dop853",
+        "--tolerance", "1e-11", "--json"], files);
+    const { theta } = JSON.parse(alone.stdout).final.coordinates;
+    assert.ok(Math.abs(theta - Number(rows[k][rows[0].indexOf("final_theta")])) < 1e-10);
+}
 const table = await run(["simulate", "scene.toml", "-o", "motion.npz"], files);
 assert.equal(table.code, 0, table.stderr);
 assert.ok(table.files["motion.npz"] instanceof Uint8Array);
