@@ -66,7 +66,7 @@ SeriesModule with_costs_of(const SeriesPacks& packs, const SeriesModule& own) {
 
 /// With the power series of the motions, alone and in packs; false where there is no such code.
 bool add_series(Ensemble& e, const std::string& scene) {
-    if (!machine::can_run() || !machine::can_run(lanes)) return false;
+    if (!machine::can_run()) return false;
     const Program program = program_of(scene);
     e.series_packs = memory_series_packs(program, e.work == Work::integrated);
     e.series = with_costs_of(*e.series_packs, memory_series(program, e.work == Work::integrated)->module);
@@ -169,7 +169,7 @@ TEST_CASE("ensemble: power series in packs take the steps of a single run, with 
 // The local errors of both are below 1e-10, and a motion of a second lets a difference grow some hundred times:
 // the stiffest spring, k/m = 20, may have either sign.
 TEST_CASE("ensemble: power series in packs end where verner98 does, in scenes at random") {
-    if (!machine::can_run() || !machine::can_run(lanes)) return;
+    if (!machine::can_run()) return;
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> value(-0.8, 0.8);
     int compared = 0;
@@ -205,7 +205,7 @@ TEST_CASE("ensemble: power series in packs end where verner98 does, in scenes at
 // The series knows nothing of a jump ahead: the rate at the end is not that of the polynomial, and the step is
 // repeated. In each lane that comes at another time.
 TEST_CASE("ensemble: power series in packs see steep changes of loads as a single run does, each lane its own") {
-    if (!machine::can_run() || !machine::can_run(lanes)) return;
+    if (!machine::can_run()) return;
     const Mechanism m = build(
         parse_scene("[parameters]\nwhen = 1\n[coordinates]\nx = 0.5\n[energy]\nkinetic = \"x'^2/2\"\npotential = "
                     "\"x^2/2\"\n[forces]\nx = \"0.3*tanh(400*(t - when))\"\n",

@@ -140,7 +140,7 @@ void agrees(const std::string& scene, const std::string& by, const std::vector<s
                         {.compiler = {}, .extra_flags = flags, .cache = {}})
                     .object));
     const auto memory = memory_solver(program, true);
-    REQUIRE(memory.has_value() == machine::can_run(lanes));
+    REQUIRE(memory.has_value() == machine::can_run());
     if (memory) agrees(mechanism, program, memory->module);
 }
 
@@ -243,7 +243,7 @@ TEST_CASE(
     }
     goes_lane_by_lane(load(compile(emit(program, {.batch = true}).text, "functions", {}).object), outputs.size());
     const auto memory = memory_solver(program, true);
-    REQUIRE(memory.has_value() == machine::can_run(lanes));
+    REQUIRE(memory.has_value() == machine::can_run());
     if (memory) goes_lane_by_lane(memory->module, outputs.size());
 }
 

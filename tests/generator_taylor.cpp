@@ -114,7 +114,7 @@ Emitted emitted(const Scene& scene, bool quad) {
     const std::optional<MemorySeries> memory = memory_series(program);
     REQUIRE(memory.has_value() == machine::can_run());
     std::shared_ptr<const SeriesPacks> packs = memory_series_packs(program);
-    REQUIRE((packs != nullptr) == (machine::can_run() && machine::can_run(lanes)));
+    REQUIRE((packs != nullptr) == machine::can_run());
     return {std::move(m), std::move(program), load_series(compiled.object),
             memory ? memory->module : SeriesModule(), std::move(packs)};
 }

@@ -77,15 +77,17 @@ int differences(const Program& p, const Module& module, const std::vector<State<
     return count;
 }
 
-/// With 16 registers and with all that this processor has.
+/// In two halves, and where this processor has AVX-512 as one, with 16 registers and with all that there are.
 int differences(const Program& p, const std::vector<State<double>>& states) {
     int count = 0;
-    for (const int registers : std::set{16, machine::registers_of_processor()}) {
-        CAPTURE(registers);
-        const auto solver = memory_solver(p, true, registers);
-        REQUIRE(solver.has_value() == machine::can_run(lanes));
-        if (solver) count += differences(p, solver->module, states);
-    }
+    for (const int width : {4, lanes})
+        for (const int registers : std::set{16, width == 4 ? 16 : machine::registers_of_processor()}) {
+            CAPTURE(width);
+            CAPTURE(registers);
+            const auto solver = memory_solver(p, true, registers, width);
+            REQUIRE(solver.has_value() == machine::can_run(width));
+            if (solver) count += differences(p, solver->module, states);
+        }
     return count;
 }
 

@@ -83,11 +83,11 @@ private:
         if (!is_packed() && has_projection(p_)) tasks_.insert(tasks_.end(), {project(p_), gamma_at(p_)});
         std::erase_if(tasks_, [](const FunctionTask& task) { return task.results.empty(); });
         if (!words_.constants().empty())
-            lines_.push_back(is_packed() ? machine::lines_of_constants_in_packs(p_, words_, ready_)
+            lines_.push_back(is_packed() ? machine::lines_of_constants_in_packs(p_, words_, ready_, lanes)
                                          : machine::lines_of_constants(p_, words_, ready_));
         for (const FunctionTask& task : tasks_)
             lines_.push_back(is_packed()
-                                 ? machine::lines_of_packs(p_, words_, ready_, task, machine::Sines::called)
+                                 ? machine::lines_of_packs(p_, words_, ready_, task, machine::Sines::called, lanes)
                                  : machine::lines_of(p_, words_, ready_, task));
         ModuleOfLines module({.block = 0, .sines = 0, .place_of = WebMachine::place_of});
         for (const machine::Lines& lines : lines_) {
@@ -195,7 +195,8 @@ TEST_CASE("machine: a module of WebAssembly refuses lines whose sines need fused
     const Program p = random_program({.seed = 3, .count = 60, .calls = true, .inputs = 4});
     const Vocabulary words(p);
     const FunctionTask task = right_hand_side(p, words);
-    const machine::Lines lines = machine::lines_of_packs(p, words, Readiness(p, {}), task, machine::Sines::inside);
+    const machine::Lines lines =
+        machine::lines_of_packs(p, words, Readiness(p, {}), task, machine::Sines::inside, lanes);
     REQUIRE(lines.largest >= 0);
     ModuleOfLines module({.block = 0, .sines = 0, .place_of = WebMachine::place_of});
     CHECK_THROWS_AS(module.add(lines), std::logic_error);

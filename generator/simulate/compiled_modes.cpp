@@ -70,20 +70,21 @@ bool CompiledModes::may_go_over(const CompiledMode& mode, Part part) const {
            (part == Part::series ? mode.series.go_over != nullptr : mode.code.go_over != nullptr);
 }
 
-void CompiledModes::go_over(const CompiledMode& asked, Part part) {
+void CompiledModes::go_over(const CompiledMode& asked, Part part, const TimedPlace& place) {
     CompiledMode& mode = own(asked);
     const double begin = own_seconds();
     try {
         if (part == Part::series) {
             const auto go_over = std::exchange(mode.series.go_over, {});
-            go_over(compiled_series(mode.run(), work_ == Work::integrated, wishes_));
+            const SeriesModule compiled = compiled_series(mode.run(), work_ == Work::integrated, wishes_);
+            if (is_faster(compiled, mode.series.module, place)) go_over(compiled), mode.kind = CodeKind::both;
         } else {
             const auto go_over = std::exchange(mode.code.go_over, {});
             const SolverCode compiled = compiled_code(mode.run(), mode.program.name, wishes_);
-            go_over(compiled.module);
             mode.code.from_cache = compiled.from_cache;
+            if (is_faster(compiled.module, mode.code.module, place))
+                go_over(compiled.module), mode.kind = CodeKind::both;
         }
-        mode.kind = CodeKind::both;
     } catch (const CompileError&) {
     }
     seconds_.compile += own_seconds() - begin;

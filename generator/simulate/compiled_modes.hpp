@@ -23,6 +23,7 @@
 #include "program/event_code.hpp"
 #include "program/quotient_signs.hpp"
 #include "program/switches.hpp"
+#include "simulate/faster_code.hpp"
 #include "simulate/method.hpp"
 #include "simulate/solver_code.hpp"
 
@@ -75,9 +76,9 @@ public:
     enum class Part { solver, series };
     /// Whether code in memory may be replaced by compiled code: not where several threads share it.
     bool may_go_over(const CompiledMode& mode, Part part) const;
-    /// Compiles that part of the mode's code, which takes the place of that in memory. Without a compiler, that
-    /// stays.
-    void go_over(const CompiledMode& mode, Part part);
+    /// Compiles that part of the mode's code, which takes the place of that in memory if it is the faster one at
+    /// that place. Without a compiler, the code in memory stays.
+    void go_over(const CompiledMode& mode, Part part, const TimedPlace& place);
 
     /// Uses a given program for the mode {}.
     void take_free(Program program);

@@ -125,7 +125,7 @@ Rhs LoadedModes::with_series(LoadedMode& mode) {
 }
 
 /// Goes over to compiled code where that is predicted to pay.
-void LoadedModes::count_step(LoadedMode& mode) {
+void LoadedModes::count_step(LoadedMode& mode, double t, std::span<const double> state) {
     using Part = CompiledModes::Part;
     const bool by_series = needs_series(mode.running) && mode.compiled.series.module;
     const Part part = by_series ? Part::series : Part::solver;
@@ -137,8 +137,10 @@ void LoadedModes::count_step(LoadedMode& mode) {
     effort += by_series ? taylor_effort(series->order_cost, series->product_cost, order,
                                         mode.contact.system.rhs.dimension)
                         : evaluations * effort_of_evaluation(mode.contact.system.rhs, uses_jacobian(mode.running));
-    if (by_series ? pays_to_compile(*series, effort) : pays_to_compile(mode.compiled.run(), effort))
-        compiled_.go_over(mode.compiled, part);
+    if (by_series ? pays_to_compile(*series, effort) : pays_to_compile(mode.compiled.run(), effort)) {
+        const std::vector<double> parameters(mode.par.begin(), mode.par.begin() + mode.module.table().parameters);
+        compiled_.go_over(mode.compiled, part, {t, state, parameters});
+    }
 }
 
 void LoadedMode::hold(const std::vector<double>& sigma) {
@@ -292,7 +294,7 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
             mode->contact.system.rhs = self->projection.guarded(std::move(mode->contact.system.rhs), values);
     }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
-        count_step(*self);
+        count_step(*self, t, state);
         on_step_(*self, t, state, rate);
     };
     return mode;

@@ -80,7 +80,7 @@ private:
     void hold_signs(LoadedMode& mode, std::size_t events);
     Rhs with_jacobian(LoadedMode& mode);
     Rhs with_series(LoadedMode& mode);
-    void count_step(LoadedMode& mode);
+    void count_step(LoadedMode& mode, double t, std::span<const double> state);
 
     CompiledModes& compiled_;
     const Start& start_;

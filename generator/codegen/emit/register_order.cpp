@@ -68,23 +68,26 @@ std::vector<int> register_order(const std::vector<Computation>& statements) {
 
     const std::vector<int> place = depth_first(statements, users);
     std::vector<int> waits, uses, free;
+    std::vector<int> ends(count, 0);  // values that a statement is the last one to use
     std::vector<double> at(count, 0);
     for (std::size_t id = 0; id < count; ++id) {
         waits.push_back(static_cast<int>(statements[id].needs.size()));
         uses.push_back(static_cast<int>(users[id].size()));
         if (waits.back() == 0) free.push_back(static_cast<int>(id));
+        if (uses.back() == 1) ++ends[static_cast<std::size_t>(users[id][0])];
     }
+    std::vector<char> is_done(count, 0);
+    const auto last_use_is_left = [&](int need) {
+        for (const int user : users[need])
+            if (is_done[user] == 0) ++ends[user];
+    };
     order.clear();
     double cycle = 0;
     for (int live = 0; !free.empty();) {
         const auto roomy = [&](int a, int b) {
             return std::make_tuple(at[a] > cycle, -tail[a], a) < std::make_tuple(at[b] > cycle, -tail[b], b);
         };
-        const auto frees = [&](int id) {
-            const auto& needs = statements[id].needs;
-            return std::any_of(needs.begin(), needs.end(), [&](int need) { return uses[need] == 1; }) ||
-                   uses[id] == 0;
-        };
+        const auto frees = [&](int id) { return ends[id] > 0 || uses[id] == 0; };
         const auto key = [&](int id) {
             return std::make_tuple(!frees(id), at[id] > cycle + processor::look_ahead, place[id]);
         };
@@ -98,8 +101,11 @@ std::vector<int> register_order(const std::vector<Computation>& statements) {
         const int id = *best;
         free.erase(best);
         order.push_back(id);
-        for (const int need : statements[id].needs)
+        is_done[id] = 1;
+        for (const int need : statements[id].needs) {
             if (--uses[need] == 0) --live;
+            if (uses[need] == 1) last_use_is_left(need);
+        }
         if (uses[id] > 0) ++live;
         const double start = std::max(cycle, at[id]);
         for (const int user : users[id]) {

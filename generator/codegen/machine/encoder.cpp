@@ -10,7 +10,7 @@ namespace alembert::machine {
 
 namespace {
 
-using Xbyak::CodeGenerator, Xbyak::Xmm, Xbyak::Zmm;
+using Xbyak::CodeGenerator, Xbyak::Xmm, Xbyak::Ymm, Xbyak::Zmm;
 
 /// Memory that is never executed: `executable` copies what is finished.
 struct Heap : Xbyak::Allocator {
@@ -27,7 +27,7 @@ constexpr Call packed_root = [](CodeGenerator& code, const Xmm& to, const Xmm&, 
     code.vsqrtpd(to, second);
 };
 
-/// For one double, and for eight.
+/// For one double, and for several.
 using C = CodeGenerator;
 constexpr std::array<std::array<Call, 2>, 19> calls{{
     {call<&C::vaddsd>, call<&C::vaddpd>},
@@ -54,7 +54,11 @@ constexpr std::array<std::array<Call, 2>, 19> calls{{
 }  // namespace
 
 bool can_run(int lanes) {
-    return registers() == Registers::widest || (lanes == 1 && registers() == Registers::wide);
+    return registers() == Registers::widest || (lanes < 8 && registers() == Registers::wide);
+}
+
+int lanes_of_processor() {
+    return registers() == Registers::widest ? 8 : 4;
 }
 
 int registers_of_processor() {
@@ -62,7 +66,13 @@ int registers_of_processor() {
 }
 
 Encoder::Encoder(int lanes, int registers)
-    : CodeGenerator(1 << 16, Xbyak::AutoGrow, &heap), is_packed_(lanes > 1), registers_(registers) {}
+    : CodeGenerator(1 << 16, Xbyak::AutoGrow, &heap), lanes_(lanes), registers_(lanes == 4 ? 16 : registers) {
+    constexpr std::uint64_t size = 0x7fffffffffffffff, sign = ~size;
+    if (lanes == 4)
+        constants_ = {size, size, size, size, sign, sign, sign, sign};
+    else
+        constants_ = {size, 0, sign, 0};
+}
 
 Xbyak::Address Encoder::at(const Memory& memory, bool stands_for_all) {
     if (memory.base != Base::constants) return ptr[Xbyak::Reg64(static_cast<int>(memory.base)) + memory.offset];
@@ -70,25 +80,25 @@ Xbyak::Address Encoder::at(const Memory& memory, bool stands_for_all) {
 }
 
 void Encoder::compute(Instruction instruction, int to, int first, const Operand& second) {
-    const Call call = calls[static_cast<std::size_t>(instruction)][is_packed_ ? 1 : 0];
+    const Call call = calls[static_cast<std::size_t>(instruction)][is_packed() ? 1 : 0];
     if (second.memory)
-        call(*this, reg(to), reg(first), at(*second.memory, is_packed_));
+        call(*this, reg(to), reg(first), at(*second.memory, lanes_ == 8));
     else
         call(*this, reg(to), reg(first), reg(second.reg));
 }
 
 void Encoder::load(int to, const Memory& from) {
-    if (!is_packed_)
+    if (!is_packed())
         vmovsd(Xmm(to), at(from));
-    else if (from.base == Base::constants)
+    else if (from.base == Base::constants && lanes_ == 8)
         vbroadcastsd(Zmm(to), at(from));
     else
-        vmovupd(Zmm(to), at(from));
+        vmovupd(reg(to), at(from));
 }
 
 void Encoder::store(const Memory& to, int from) {
-    if (is_packed_)
-        vmovupd(at(to), Zmm(from));
+    if (is_packed())
+        vmovupd(at(to), reg(from));
     else
         vmovsd(at(to), Xmm(from));
 }
@@ -99,18 +109,18 @@ void Encoder::copy(int to, int from) {
 
 void Encoder::enter() {
     constexpr std::uint32_t any_large = 1 << 20;  // so that it takes four bytes
-    if (is_packed_) {
+    if (is_packed()) {
         push(rbp);
         mov(rbp, rsp);
     }
     sub(rsp, any_large);
     frame_ = getSize() - sizeof any_large;
-    if (is_packed_) and_(rsp, -64);
+    if (is_packed()) and_(rsp, -64);
 }
 
 void Encoder::end(std::int32_t bytes) {
     rewrite(frame_, static_cast<std::uint32_t>(bytes), sizeof bytes);
-    if (is_packed_) {
+    if (is_packed()) {
         vzeroupper();
         leave();
     } else {
@@ -123,8 +133,13 @@ void Encoder::end_unless_above(int number, double bound, std::size_t other, std:
     constexpr std::uint8_t greater = 30;
     const int free = number == 0 ? 1 : 0;
     load(free, constant(bound));
-    vcmppd(k1, Zmm(number), Zmm(free), greater);  // a bit for each double
-    kortestb(k1, k1);                             // whether one of the eight is set
+    if (lanes_ == 8) {
+        vcmppd(k1, Zmm(number), Zmm(free), greater);  // a bit for each double
+        kortestb(k1, k1);                             // whether one of the eight is set
+    } else {
+        vcmppd(Ymm(free), Ymm(number), Ymm(free), greater);
+        vtestpd(Ymm(free), Ymm(free));  // whether one of the four signs is set
+    }
     rewrite(frame_, static_cast<std::uint32_t>(bytes), sizeof bytes);
     vzeroupper();
     leave();
@@ -136,7 +151,7 @@ void Encoder::end_unless_above(int number, double bound, std::size_t other, std:
 Memory Encoder::constant(double value) {
     const auto bits = std::bit_cast<std::uint64_t>(value);
     const auto [known, is_new] = places_.try_emplace(bits, static_cast<std::int32_t>(8 * constants_.size()));
-    if (is_new) constants_.push_back(bits);
+    if (is_new) constants_.insert(constants_.end(), lanes_ == 4 ? 4 : 1, bits);
     return {Base::constants, known->second};
 }
 

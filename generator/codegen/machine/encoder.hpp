@@ -9,9 +9,9 @@
 ///     code.compute(Instruction::fused_add_231, 1, 2, Operand{.memory = place});  // xmm1 += xmm2·[place]
 ///     code.vzeroupper();                                                         // and all that xbyak has
 ///
-/// Registers are 0 … 15, with AVX-512 also 16 … 31. With eight lanes, a register and a place in memory hold eight
-/// doubles side by side, and a constant is one double that stands for eight. Constants lie behind the code, and
-/// are addressed relative to it.
+/// Registers are 0 … 15, with AVX-512 also 16 … 31. With several lanes, a register and a place in memory hold so
+/// many doubles side by side. A constant is one double, with eight lanes too, where it stands for all; with four
+/// lanes, which AVX2 has, it is there four times. Constants lie behind the code, and are addressed relative to it.
 
 #include <xbyak/xbyak.h>
 
@@ -64,40 +64,45 @@ enum class Instruction : unsigned char {
 
 class Encoder : public Xbyak::CodeGenerator {
 public:
-    /// `lanes`: 1 or 8. `registers`: how many of them the code may use, 16 or 32.
+    /// `lanes`: 1, 4 or 8. `registers`: how many of them the code may use, 16 or, not with four lanes, 32.
     explicit Encoder(int lanes = 1, int registers = registers_of_processor());
+    int lanes() const { return lanes_; }
     int registers() const { return registers_; }
 
     void compute(Instruction instruction, int to, int first, const Operand& second);
     void load(int to, const Memory& from);
     void store(const Memory& to, int from);
     void copy(int to, int from);
-    Xbyak::Xmm reg(int number) const { return is_packed_ ? Xbyak::Zmm(number) : Xbyak::Xmm(number); }
+    Xbyak::Xmm reg(int number) const {
+        if (lanes_ == 8) return Xbyak::Zmm(number);
+        return lanes_ == 4 ? Xbyak::Ymm(number) : Xbyak::Xmm(number);
+    }
     Xbyak::Address at(const Memory& memory, bool stands_for_all = false);
 
-    /// Begins a function with room on its stack, with eight lanes at a multiple of 64 bytes; the end says how
+    /// Begins a function with room on its stack, with several lanes at a multiple of 64 bytes; the end says how
     /// much.
     void enter();
     void end(std::int32_t bytes);
-    /// The same, but goes to the function at `other` if a double in the register is larger than `bound`. Eight
+    /// The same, but goes to the function at `other` if a double in the register is larger than `bound`. Several
     /// lanes only.
     void end_unless_above(int number, double bound, std::size_t other, std::int32_t bytes);
 
     /// A constant behind the code; equal ones share a place.
     Memory constant(double value);
-    /// Constants of 16 bytes: everything but the sign of a double, and the sign alone.
+    /// Constants of 16 bytes, with four lanes of 32: everything but the sign of a double, and the sign alone.
     static Memory all_but_sign() { return {Base::constants, 0}; }
-    static Memory sign() { return {Base::constants, 16}; }
+    Memory sign() const { return {Base::constants, lanes_ == 4 ? 32 : 16}; }
 
     /// The code with its constants.
     std::vector<std::uint8_t> finished();
 
 private:
-    bool is_packed_;
-    int registers_;
+    bool is_packed() const { return lanes_ > 1; }
+
+    int lanes_, registers_;
     std::size_t frame_ = 0;  ///< where the room on the stack is said
     Xbyak::Label begin_of_constants_;
-    std::vector<std::uint64_t> constants_{0x7fffffffffffffff, 0, 0x8000000000000000, 0};
+    std::vector<std::uint64_t> constants_;
     std::map<std::uint64_t, std::int32_t> places_;
 };
 

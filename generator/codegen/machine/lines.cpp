@@ -6,7 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "alembert/batch/packs.hpp"
 #include "alembert/native/simd_math.hpp"
 #include "codegen/emit/schedule.hpp"
 #include "codegen/machine/pack_sines.hpp"
@@ -68,17 +67,25 @@ struct Signed {
     Signed operator-() const { return {value, !negative}; }
 };
 
+/// How a function for several systems is made.
+struct Packing {
+    Sines sines;
+    int lanes;
+};
+
 class Lining {
 public:
     Lining(const Program& program, const Vocabulary& words, const Readiness& ready,
-           const std::vector<FunctionArgument>& arguments, bool constants_are_given, std::optional<Sines> packed)
+           const std::vector<FunctionArgument>& arguments, bool constants_are_given, std::optional<Packing> packed)
         : p_(program),
           ready_(ready),
           value_(static_cast<std::size_t>(program.size())),
           is_leaf_(value_.size(), 0),
           uses_(value_.size(), 0) {
-        lines_.lanes = packed ? lanes : 1;
-        sines_ = packed;
+        if (packed) {
+            lines_.lanes = packed->lanes;
+            sines_ = packed->sines;
+        }
         for (const FunctionArgument& a : arguments)
             if (a.name == "t")
                 lines_.takes_time = true;
@@ -235,11 +242,15 @@ private:
             return known->second = {leaf({.kind = Home::Kind::sines, .place = first}),
                                     leaf({.kind = Home::Kind::sines, .place = first + 1})};
         }
+        // By AVX2 the larger one of two is the second where one is not a number, which must not be the first
+        // angle.
+        if (lines_.largest < 0 && lines_.lanes == 4) lines_.largest = number(0);
         lines_.largest = lines_.largest < 0
                              ? add({.kind = Line::Kind::absolute, .of = {x, -1, -1}})
                              : add({.kind = Line::Kind::larger_size, .of = {lines_.largest, x, -1}});
         return known->second = sine_and_cosine_inside({.add = [this](const Line& line) { return add(line); },
-                                                       .number = [this](double v) { return number(v); }},
+                                                       .number = [this](double v) { return number(v); },
+                                                       .lanes = lines_.lanes},
                                                       x);
     }
 
@@ -431,7 +442,7 @@ private:
 };
 
 Lines lines_for(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task,
-                std::optional<Sines> packed) {
+                std::optional<Packing> packed) {
     Lining lining(program, words, ready, task.arguments, true, packed);
     std::vector<Lining::Wanted> wanted;
     for (const FunctionResult& result : task.results)
@@ -440,7 +451,7 @@ Lines lines_for(const Program& program, const Vocabulary& words, const Readiness
 }
 
 Lines constants_for(const Program& program, const Vocabulary& words, const Readiness& ready,
-                    std::optional<Sines> packed) {
+                    std::optional<Packing> packed) {
     Lining lining(program, words, ready, {{"Real*", "par"}}, false, packed);
     std::vector<Lining::Wanted> wanted;
     for (std::size_t k = 0; k < words.constants().size(); ++k)
@@ -455,16 +466,17 @@ Lines lines_of(const Program& program, const Vocabulary& words, const Readiness&
 }
 
 Lines lines_of_packs(const Program& program, const Vocabulary& words, const Readiness& ready,
-                     const FunctionTask& task, Sines sines) {
-    return lines_for(program, words, ready, task, sines);
+                     const FunctionTask& task, Sines sines, int lanes) {
+    return lines_for(program, words, ready, task, Packing{sines, lanes});
 }
 
 Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready) {
     return constants_for(program, words, ready, {});
 }
 
-Lines lines_of_constants_in_packs(const Program& program, const Vocabulary& words, const Readiness& ready) {
-    return constants_for(program, words, ready, Sines::called);
+Lines lines_of_constants_in_packs(const Program& program, const Vocabulary& words, const Readiness& ready,
+                                  int lanes) {
+    return constants_for(program, words, ready, Packing{Sines::called, lanes});
 }
 
 }  // namespace alembert::machine

@@ -40,8 +40,8 @@ struct Line {
         negative,
         shift_left,   ///< by `place` bits
         shift_right,  ///< likewise; the sign moves in
-        larger_size,  ///< the larger of |of[0]| and |of[1]|; the other where one is not a number
-        select,       ///< of[1] where the bits of of[2] are set, else of[0]
+        larger_size,  ///< the larger of of[0] ≥ 0 and |of[1]|; of[0] where the latter is not a number
+        select,       ///< of[1] where the bits of of[2] are set, else of[0]; with four lanes its highest bits tell
         turn_sign,    ///< of[0] with its sign turned where that of of[1] is set
         fused,        ///< ± of[0]·of[1] ± of[2]
         call,         ///< function(of[0]), or function(of[0], of[1])
@@ -69,7 +69,7 @@ struct SineGroup {
 };
 
 struct Lines {
-    int lanes = 1;            ///< 1, or 8 for eight systems side by side
+    int lanes = 1;            ///< 1, or systems side by side: 4 or 8
     std::vector<Home> homes;  ///< of each value
     std::vector<Line> list;
     std::vector<SineGroup> groups;
@@ -80,11 +80,13 @@ struct Lines {
 };
 
 Lines lines_of(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task);
+/// `lanes`: 4 or 8.
 Lines lines_of_packs(const Program& program, const Vocabulary& words, const Readiness& ready,
-                     const FunctionTask& task, Sines sines);
+                     const FunctionTask& task, Sines sines, int lanes);
 
 /// The function that computes the constants after the parameters.
 Lines lines_of_constants(const Program& program, const Vocabulary& words, const Readiness& ready);
-Lines lines_of_constants_in_packs(const Program& program, const Vocabulary& words, const Readiness& ready);
+Lines lines_of_constants_in_packs(const Program& program, const Vocabulary& words, const Readiness& ready,
+                                  int lanes);
 
 }  // namespace alembert::machine

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "codegen/machine/memory_code.hpp"
 
+#include <utility>
+
 #include "alembert/native/executable.hpp"
 #include "codegen/machine/registers.hpp"
+#include "codegen/machine/two_halves.hpp"
 
 namespace alembert::machine {
 
@@ -20,6 +23,10 @@ struct MemoryCode::Parts {
 MemoryCode::MemoryCode(int lanes, int registers) : parts_(new Parts{.code = Encoder(lanes, registers)}) {}
 MemoryCode::~MemoryCode() = default;
 
+int MemoryCode::lanes() const {
+    return parts_->code.lanes();
+}
+
 std::size_t MemoryCode::write_aside(const Lines& lines) {
     const std::size_t begin = parts_->begin();
     parts_->is_possible = parts_->is_possible && write_function(parts_->code, lines);
@@ -27,8 +34,13 @@ std::size_t MemoryCode::write_aside(const Lines& lines) {
 }
 
 void MemoryCode::write(const Lines& lines, std::size_t other, Put put) {
-    parts_->functions.emplace_back(parts_->begin(), std::move(put));
+    std::size_t begin = parts_->begin();
     parts_->is_possible = parts_->is_possible && write_function(parts_->code, lines, other);
+    if (lines.lanes == 4) {
+        const std::size_t body = std::exchange(begin, parts_->begin());
+        write_in_two_halves(parts_->code, body, lines.arrays + (lines.takes_time ? 1 : 0));
+    }
+    parts_->functions.emplace_back(begin, std::move(put));
 }
 
 void MemoryCode::write_call(const void* function, const void* last, Put put) {

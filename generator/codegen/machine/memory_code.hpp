@@ -21,11 +21,13 @@ namespace alembert::machine {
 
 class MemoryCode {
 public:
-    /// `lanes`: 1, or 8 for eight systems side by side; `registers`: how many of the processor's it may use.
+    /// `lanes`: 1, or 4 or 8, with which functions are for eight systems side by side; `registers`: how many of
+    /// the processor's it may use.
     explicit MemoryCode(int lanes = 1, int registers = registers_of_processor());
     ~MemoryCode();
     MemoryCode(const MemoryCode&) = delete;
     MemoryCode& operator=(const MemoryCode&) = delete;
+    int lanes() const;
 
     /// Writes a function whose address `place` gets when it is placed. Lines with sines inside need `other`, which
     /// `write_aside` has given of the same function with called sines: it is taken for large angles.

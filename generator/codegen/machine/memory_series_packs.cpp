@@ -20,9 +20,11 @@ constexpr double cost_of_component = 0.011, cost_of_operation = 0.0006, cost_of_
 
 void write_packed(MemoryCode& functions, const Program& program, const Vocabulary& words, const Readiness& ready,
                   const FunctionTask& task, auto& place) {
-    const Lines inside = lines_of_packs(program, words, ready, task, Sines::inside);
-    const std::size_t other =
-        inside.largest < 0 ? 0 : functions.write_aside(lines_of_packs(program, words, ready, task, Sines::called));
+    const int lanes = functions.lanes();
+    const Lines inside = lines_of_packs(program, words, ready, task, Sines::inside, lanes);
+    std::size_t other = 0;
+    if (inside.largest >= 0)
+        other = functions.write_aside(lines_of_packs(program, words, ready, task, Sines::called, lanes));
     functions.write(inside, place, other);
 }
 
@@ -43,8 +45,10 @@ void describe(SeriesPacks& packs, const SeriesSteps& steps, std::size_t constant
 
 }  // namespace
 
-std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, bool with_work) {
-    if (!can_run() || !can_run(lanes)) return nullptr;
+std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, bool with_work,
+                                                       std::optional<int> wished) {
+    const int lanes = wished.value_or(lanes_of_processor());
+    if (!can_run(lanes)) return nullptr;
     const SeriesSteps steps = series_steps(recurrences(program, with_work), true);
     const Vocabulary zero_words(steps.at_zero), order_words(steps.at_order);
     const Readiness zero(steps.at_zero, nodes_of(steps.first)), order(steps.at_order, nodes_of(steps.next));
@@ -55,7 +59,7 @@ std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, b
     if (!zero_words.constants().empty())
         alone.write(lines_of_constants(steps.at_zero, zero_words, zero), packs->prepare);
     if (!order_words.constants().empty())
-        packed.write(lines_of_constants_in_packs(steps.at_order, order_words, order), packs->fix);
+        packed.write(lines_of_constants_in_packs(steps.at_order, order_words, order, lanes), packs->fix);
     write_packed(packed, steps.at_zero, zero_words, zero, steps.first, packs->first);
     write_packed(packed, steps.at_order, order_words, order, steps.next, packs->next);
     auto code = std::make_shared<std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>>(

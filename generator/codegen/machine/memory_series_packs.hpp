@@ -6,16 +6,19 @@
 ///     if (const std::shared_ptr<const SeriesPacks> packs = memory_series_packs(program))
 ///         packs->expand(t, state, par, order, out, work);
 ///
-/// Null where memory_solver.hpp returns nothing, and on processors without AVX-512.
+/// Null where memory_solver.hpp returns nothing.
 
 #include <memory>
+#include <optional>
 
 #include "alembert/batch/pack_series.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
 
-/// `with_work`: the power of loads is integrated as one more component. Throws ModelError as emit_taylor does.
-std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, bool with_work = false);
+/// `with_work`: the power of loads is integrated as one more component; `lanes`: as in memory_solver. Throws
+/// ModelError as emit_taylor does.
+std::shared_ptr<const SeriesPacks> memory_series_packs(const Program& program, bool with_work = false,
+                                                       std::optional<int> lanes = {});
 
 }  // namespace alembert

@@ -104,11 +104,12 @@ public:
         const auto packs = std::make_shared<Packs>();
         alembert_pack_table& t = packs->table;
         t.abi = abi_version;
-        t.lanes = lanes_;
+        t.lanes = alembert::lanes;
         t.prepare = [](double*) {};
         t.energy = [](const double*, const double*, const double*, const double*, double*, double*) {};
         t.outputs_at = [](const double*, const double*, const double*, const double*, double*) {};
-        if (!words_.constants().empty()) code_.write(lines_of_constants_in_packs(p_, words_, ready_), t.prepare);
+        if (!words_.constants().empty())
+            code_.write(lines_of_constants_in_packs(p_, words_, ready_, lanes_), t.prepare);
         write_packed(right_hand_side(p_, words_), t.rhs);
         write_packed(mass_forcing(p_), t.mass_forcing);
         write_packed(energy(p_), t.energy);
@@ -174,10 +175,10 @@ private:
     template <typename Function>
     void write_packed(const FunctionTask& task, Function& place) {
         if (task.results.empty() && task.copies.empty()) return;
-        const Lines inside = lines_of_packs(p_, words_, ready_, task, Sines::inside);
+        const Lines inside = lines_of_packs(p_, words_, ready_, task, Sines::inside, lanes_);
         std::size_t other = 0;
         if (inside.largest >= 0)
-            other = code_.write_aside(lines_of_packs(p_, words_, ready_, task, Sines::called));
+            other = code_.write_aside(lines_of_packs(p_, words_, ready_, task, Sines::called, lanes_));
         code_.write(inside, place, other);
     }
 
@@ -206,13 +207,15 @@ private:
 
 }  // namespace
 
-std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs, std::optional<int> registers) {
-    if (!can_run() || (with_packs && !can_run(lanes))) return std::nullopt;
+std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs, std::optional<int> registers,
+                                          std::optional<int> lanes) {
+    const int side_by_side = lanes.value_or(lanes_of_processor());
+    if (!can_run() || (with_packs && !can_run(side_by_side))) return std::nullopt;
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
     std::shared_ptr<const alembert_pack_table> packs;
     const int own = registers_of_processor(), allowed = std::min(own, registers.value_or(own));
-    if (with_packs && !(packs = Building(program, lanes, allowed).packs())) return std::nullopt;
+    if (with_packs && !(packs = Building(program, side_by_side, allowed).packs())) return std::nullopt;
     return Building(program, 1, allowed).solver(std::move(packs));
 }
 

@@ -30,10 +30,10 @@ struct MemorySolver {
     std::function<void(const Module& compiled)> go_over;
 };
 
-/// `with_packs`: with the functions for eight systems at once, as a file that is emitted with `--batch`, which
-/// need AVX-512. `registers`: how many the code may use, 16 or 32; all of the processor's if it is not given.
+/// `with_packs`: with the functions for eight systems at once, as a file that is emitted with `--batch`. Less than
+/// the processor has may be used: `registers`, 16 or 32 of them, with `lanes` numbers, 4 or 8, in those of packs.
 /// Throws ModelError as `emit` does.
 std::optional<MemorySolver> memory_solver(const Program& program, bool with_packs = false,
-                                          std::optional<int> registers = {});
+                                          std::optional<int> registers = {}, std::optional<int> lanes = {});
 
 }  // namespace alembert

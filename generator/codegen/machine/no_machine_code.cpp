@@ -11,11 +11,15 @@ bool machine::can_run(int) {
     return false;
 }
 
+int machine::lanes_of_processor() {
+    return 4;
+}
+
 int machine::registers_of_processor() {
     return 16;
 }
 
-std::optional<MemorySolver> memory_solver(const Program&, bool, std::optional<int>) {
+std::optional<MemorySolver> memory_solver(const Program&, bool, std::optional<int>, std::optional<int>) {
     return std::nullopt;
 }
 
@@ -23,7 +27,7 @@ std::optional<MemorySeries> memory_series(const Program&, bool) {
     return std::nullopt;
 }
 
-std::shared_ptr<const SeriesPacks> memory_series_packs(const Program&, bool) {
+std::shared_ptr<const SeriesPacks> memory_series_packs(const Program&, bool, std::optional<int>) {
     return nullptr;
 }
 

@@ -48,7 +48,8 @@ std::array<int, 2> sine_and_cosine_inside(const LineMaker& make, int x) {
               c = fused(make, zz, Q, fused(make, make.number(0.5), z, one, true));
     // The lowest bit of the number of quarter turns says whether sine and cosine change places, the next one the
     // sign.
-    const int odd = unary(make, Kind::shift_right, unary(make, Kind::shift_left, shifted, 63), 63);
+    const int bit = unary(make, Kind::shift_left, shifted, 63),
+              odd = make.lanes == 4 ? bit : unary(make, Kind::shift_right, bit, 63);
     const auto placed = [&](int even, int other, int quarters) {
         const int value = make.add({.kind = Kind::select, .of = {even, other, odd}});
         return binary(make, Kind::turn_sign, value, unary(make, Kind::shift_left, quarters, 62));

@@ -14,11 +14,12 @@ namespace alembert::machine {
 
 namespace {
 
-using Xbyak::Zmm;
+using Xbyak::Ymm, Xbyak::Zmm;
 
 constexpr int never = std::numeric_limits<int>::max();
 constexpr std::int32_t largest_frame = 1 << 20;  ///< in bytes; a thread's stack has several times as much
 constexpr int soon = 200;  ///< lines; a value that is used again so soon is loaded into a register if one is free
+constexpr std::int32_t pack_size = 64;  ///< in bytes, of a value in the arrays of eight systems
 constexpr std::array bases{Base::rdi, Base::rsi, Base::rdx, Base::rcx, Base::r8, Base::r9};
 
 Xbyak::Reg64 pointer(Base base) {
@@ -38,7 +39,8 @@ public:
           holds_(static_cast<std::size_t>(code.registers()), -1),
           reg_(lines.homes.size(), -1),
           slot_(lines.homes.size(), -1),
-          unit_(8 * lines.lanes) {
+          unit_(8 * lines.lanes),
+          step_(lines.lanes > 1 ? pack_size : 8) {
         free_ = holds_.size() == 32 ? ~0U : 0xffffU;
         find_uses();
         const bool calls = std::any_of(l_.list.begin(), l_.list.end(), [](const Line& line) {
@@ -108,7 +110,7 @@ private:
             case Home::Kind::time:
                 return is_packed() ? Memory{bases[0], 0} : Memory{Base::rsp, time_};
             case Home::Kind::argument:
-                return {base(home.argument), unit_ * home.place};
+                return {base(home.argument), step_ * home.place};
             case Home::Kind::constant:
                 return code_.constant(home.number);
             case Home::Kind::sines:
@@ -225,28 +227,21 @@ private:
                 return unary(line, Instruction::both_bits, Encoder::all_but_sign());
             case Line::Kind::negative:
                 load(line.of[0]);
-                return unary(line, Instruction::other_bits, Encoder::sign());
-            case Line::Kind::larger_size: {
-                load(line.of[0]);
-                load(line.of[1]);
-                const int x = reg_[line.of[0]], y = reg_[line.of[1]], to = target(line);
-                constexpr std::uint8_t largest_absolute = 3, sign_is_clear = 2 << 2;
-                code_.vrangepd(Zmm(to), Zmm(x), Zmm(y), largest_absolute | sign_is_clear);
-                return finish(line, to);
-            }
+                return unary(line, Instruction::other_bits, code_.sign());
+            case Line::Kind::larger_size:
+                return larger_size(line);
             case Line::Kind::shift_left:
             case Line::Kind::shift_right: {
                 load(line.of[0]);
                 const int x = reg_[line.of[0]], to = target(line);
-                if (line.kind == Line::Kind::shift_left)
-                    code_.vpsllq(Zmm(to), Zmm(x), static_cast<std::uint8_t>(line.place));
-                else
-                    code_.vpsraq(Zmm(to), Zmm(x), static_cast<std::uint8_t>(line.place));
+                const auto bits = static_cast<std::uint8_t>(line.place);
+                line.kind == Line::Kind::shift_left ? code_.vpsllq(code_.reg(to), code_.reg(x), bits)
+                                                    : code_.vpsraq(Zmm(to), Zmm(x), bits);
                 return finish(line, to);
             }
             case Line::Kind::select:
             case Line::Kind::turn_sign:
-                return bits(line);
+                return l_.lanes == 4 ? bits_of_four(line) : bits(line);
             case Line::Kind::fused:
                 return fused(line);
             case Line::Kind::call:
@@ -255,7 +250,7 @@ private:
                 return sines(l_.groups[line.place]);
             case Line::Kind::store:
                 load(line.of[0]);
-                code_.store({base(line.argument), unit_ * line.place}, reg_[line.of[0]]);
+                code_.store({base(line.argument), step_ * line.place}, reg_[line.of[0]]);
                 return drop(line.of[0]);
         }
     }
@@ -264,6 +259,21 @@ private:
         for (const int v : line.of) drop(v);
         hold(r, line.to);
         drop(line.to);
+    }
+
+    void larger_size(const Line& line) {
+        load(line.of[0]);
+        load(line.of[1]);
+        const int x = reg_[line.of[0]], y = reg_[line.of[1]];
+        const int to = l_.lanes == 8 ? target(line) : taken();  // AVX2 needs both after the result is begun
+        constexpr std::uint8_t largest_absolute = 3, sign_is_clear = 2 << 2;
+        if (l_.lanes == 8) {
+            code_.vrangepd(Zmm(to), Zmm(x), Zmm(y), largest_absolute | sign_is_clear);
+        } else {
+            code_.vandpd(Ymm(to), Ymm(y), code_.at(Encoder::all_but_sign()));
+            code_.vmaxpd(Ymm(to), Ymm(to), Ymm(x));  // x where y is not a number
+        }
+        finish(line, to);
     }
 
     void binary(const Line& line, Instruction instruction, bool commutes) {
@@ -357,8 +367,24 @@ private:
         if (line.kind == Line::Kind::select)
             code_.vpternlogq(Zmm(r), second, Zmm(reg_[line.of[2]]), 0xd8);
         else
-            code_.vpternlogq(Zmm(r), second, code_.at(Encoder::sign(), true), 0x78);
+            code_.vpternlogq(Zmm(r), second, code_.at(code_.sign(), true), 0x78);
         finish(line, r);
+    }
+
+    /// The same by AVX2, whose instructions have a register for the result.
+    void bits_of_four(const Line& line) {
+        for (const int v : line.of)
+            if (v >= 0) load(v);
+        const Ymm a(reg_[line.of[0]]), b(reg_[line.of[1]]);
+        if (line.kind == Line::Kind::select) {
+            const int mask = reg_[line.of[2]], to = target(line);
+            code_.vblendvpd(Ymm(to), a, b, Ymm(mask));
+            return finish(line, to);
+        }
+        const int to = taken();
+        code_.vandpd(Ymm(to), b, code_.at(code_.sign()));
+        code_.vxorpd(Ymm(to), Ymm(to), a);
+        finish(line, to);
     }
 
     void in_registers(int first, int second) {
@@ -371,7 +397,7 @@ private:
         for (const int v : holds_)
             if (v >= 0 && next(v) != never) save(v);
     }
-    void after_call(const void* function) {
+    void after_call(auto function) {
         if (is_packed()) code_.vzeroupper();  // code of others would wait for the upper parts of registers
         code_.mov(code_.rax, reinterpret_cast<std::uintptr_t>(function));
         code_.call(code_.rax);
@@ -388,8 +414,10 @@ private:
         save_all();
         code_.mov(code_.rdi, reinterpret_cast<std::uintptr_t>(line.function));
         code_.lea(code_.rsi, code_.at({Base::rsp, time_}));
-        after_call(line.of[1] < 0 ? reinterpret_cast<const void*>(each_for_code)
-                                  : reinterpret_cast<const void*>(each_pair_for_code));
+        if (line.of[1] < 0)
+            after_call(l_.lanes == 8 ? each_for_code : each_of_four_for_code);
+        else
+            after_call(l_.lanes == 8 ? each_pair_for_code : each_pair_of_four_for_code);
         code_.load(0, {Base::rsp, time_});
         finish(line, 0);
     }
@@ -438,8 +466,7 @@ private:
         save_all();
         code_.lea(code_.rdi, code_.at({Base::rsp, block_ + unit_ * group.place}));
         code_.mov(code_.esi, count * l_.lanes);
-        after_call(is_packed() ? reinterpret_cast<const void*>(sines_of_packs_for_code)
-                               : reinterpret_cast<const void*>(sines_for_code));
+        after_call(l_.lanes == 8 ? sines_of_packs_for_code : sines_for_code);
         for (const int v : group.angles) drop(v);
     }
 
@@ -450,7 +477,7 @@ private:
     std::vector<int> reg_;             // the register of each value
     std::vector<std::int32_t> slot_;   // the place on the stack of each value
     std::vector<std::int32_t> slots_;  // places that are free
-    std::int32_t unit_;                // the size of a value, in bytes
+    std::int32_t unit_, step_;         // the size of a value, and its distance to the next one in an array; bytes
     std::vector<int> first_, uses_, next_;
     unsigned free_ = 0, locked_ = 0;  // registers, a bit for each
     int at_ = 0;                      // the current line

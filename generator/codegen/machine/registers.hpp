@@ -8,7 +8,8 @@
 ///     if (write_function(code, lines)) …      // the function begins at `begin`
 ///
 /// The function is called as System V's ABI for x86-64 says: t in xmm0, the arrays in rdi, rsi, rdx, rcx, r8, r9.
-/// With eight lanes, the first of these registers has the address of the times.
+/// With several lanes, the first of these registers has the address of the times, and the arrays have eight
+/// numbers for each value, of which a function with four lanes takes the first four.
 
 #include "codegen/machine/encoder.hpp"
 #include "codegen/machine/lines.hpp"

@@ -140,6 +140,7 @@ struct MemoryCode::Parts {
         const void* function = nullptr;
         const void* last = nullptr;
     };
+    int lanes = 1;
     std::shared_ptr<std::vector<double>> block = std::make_shared<std::vector<double>>(longest_block);
     ModuleOfLines module{{.block = number_of(block->data()),
                           .sines = number_of(reinterpret_cast<const void*>(sines_in_place)),
@@ -168,8 +169,12 @@ struct MemoryCode::Parts {
     }
 };
 
-MemoryCode::MemoryCode(int, int) : parts_(new Parts) {}
+MemoryCode::MemoryCode(int lanes, int) : parts_(new Parts{.lanes = lanes}) {}
 MemoryCode::~MemoryCode() = default;
+
+int MemoryCode::lanes() const {
+    return parts_->lanes;
+}
 
 /// Sines inside need fused multiply-add, without which the reduction of their angles is wrong: those that are
 /// called take their place at all angles.
@@ -204,6 +209,10 @@ std::shared_ptr<const void> MemoryCode::placed() {
 
 bool can_run(int) {
     return true;
+}
+
+int lanes_of_processor() {
+    return 8;
 }
 
 int registers_of_processor() {

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "alembert/native/cpu_features.hpp"
 #include "base/language/say.hpp"
 #include "present/report/page.hpp"
 #include "present/report/work_precision.hpp"
@@ -129,6 +130,7 @@ Json as_json(const Bench& b) {
     result["scene"] = b.mechanism.name;
     result["formulation"] = b.formulation;
     result["operations"] = b.operations;
+    result["instructions"] = name_of(registers());
     result["reference"] = reference_of(b);
     result["runs"] = Json::array();
     for (const Measured& run : b.runs) result["runs"].push_back(json_of(run));

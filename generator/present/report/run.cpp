@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "alembert/native/cpu_features.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/layout.hpp"
 #include "present/report/page.hpp"
@@ -294,7 +295,8 @@ void add_account(std::string& page, const Run& run) {
     if (energy.jacobi_conserved) say_on(page, "T2 - T0 + V is; its drift {:.2e}\n", energy.jacobi_drift);
     if (run.is_constrained()) say_on(page, "constraint drift {:.2e}\n", run.constraint_drift);
     for (const std::string& line : run.adjusted) say_on(page, "adjusted at the start: {}\n", line);
-    const std::string code = run.solver.code == CodeKind::memory ? say(" (in memory)")
+    const std::string code = run.solver.code == CodeKind::memory ? say(" (in memory, {})", name_of(registers()))
+                             : run.solver.code == CodeKind::both ? say(" (in memory, then by the compiler)")
                              : run.solver.from_cache             ? say(" (cached)")
                                                                  : "";
     say_on(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.timings.derive,
@@ -321,6 +323,7 @@ Json as_json(const Run& run) {
     if (run.solver.jacobian_operations) result["jacobian_operations"] = *run.solver.jacobian_operations;
     result["formulation"] = run.solver.formulation;
     result["code"] = name_of(run.solver.code);
+    result["instructions"] = name_of(registers());
     result["steps"] = s.steps;
     result["rejected"] = s.rejected;
     result["evaluations"] = s.evaluations;

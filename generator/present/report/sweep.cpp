@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "alembert/native/cpu_features.hpp"
 #include "base/language/say.hpp"
 #include "present/report/page.hpp"
 
@@ -40,6 +41,7 @@ Json as_json(const Sweep& s, const SweepTotals& sum) {
     result["method"] = s.method;
     result["formulation"] = s.formulation;
     result["side_by_side"] = s.packed ? 8 : 1;
+    result["instructions"] = name_of(registers());
     result["threads"] = s.threads;
     result["steps"] = sum.steps;
     result["rejected"] = sum.rejected;

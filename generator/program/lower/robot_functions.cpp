@@ -75,6 +75,19 @@ Program with_fewest_operations(const std::vector<Program>& forms) {
                              [&](const Program& a, const Program& b) { return cost(a) < cost(b); });
 }
 
+/// The values alone of those programs that may have the fewest operations when they are cleaned, which takes most
+/// of the time and saves up to a twentieth of the operations.
+std::vector<Program> cleaned(std::vector<std::pair<Program, std::vector<int>>> programs) {
+    constexpr double saved = 0.05;
+    std::vector<int> counts;
+    for (const auto& [program, values] : programs) counts.push_back(program.count(values).total());
+    std::vector<Program> forms;
+    for (std::size_t k = 0; k < programs.size(); ++k)
+        if (counts[k] * (1 - saved) <= *std::min_element(counts.begin(), counts.end()))
+            forms.push_back(with_values_only(std::move(programs[k].first), programs[k].second));
+    return forms;
+}
+
 const char* sentence_for(const std::string& name) {
     if (name == "inverse") return "Inverse dynamics: the loads M q'' + C q' + g - Q that bring q'' about.";
     if (name == "mass") return "The mass matrix M(q).";
@@ -209,7 +222,7 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
     const int n = m_.size();
     const Program inverse = dynamics("inverse").program;
     const std::vector<int> loads = inverse.nodes_of(Group::function);
-    std::vector<Program> forms;
+    std::vector<std::pair<Program, std::vector<int>>> found_values;
     for (const EliminationOrder order : every_order) {
         Program program = inverse;
         std::vector<int> inputs;
@@ -220,8 +233,9 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
         std::vector<int> values(static_cast<std::size_t>(n * 2 * n), program.number(0));
         for (const Partial& partial : *found)
             values[static_cast<std::size_t>(partial.output * 2 * n + partial.input)] = partial.node;
-        forms.push_back(with_values_only(std::move(program), values));
+        found_values.emplace_back(std::move(program), std::move(values));
     }
+    const std::vector<Program> forms = cleaned(std::move(found_values));
     if (forms.empty())
         throw ModelError(
             say("the derivatives of inverse dynamics are too long to be written out; leave "

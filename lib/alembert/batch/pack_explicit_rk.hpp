@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "alembert/batch/packs.hpp"
+#include "alembert/batch/pack_pieces.hpp"
 #include "alembert/native/cpu_features.hpp"
 #include "alembert/ode/tableau.hpp"
 
@@ -31,8 +31,6 @@ namespace alembert {
 
 template <const auto& tableau>
 class PackStep {
-    using Wide [[gnu::vector_size(lanes * sizeof(double)), gnu::may_alias]] = double;
-    using Bits [[gnu::vector_size(lanes * sizeof(double)), gnu::may_alias]] = long long;
     static constexpr int stages = tableau.stages;
 
 public:
@@ -123,13 +121,6 @@ private:
     const Lanes* stage(int i) const {
         return array(arrays + i);
     }
-    Wide* wide(int which) {
-        return reinterpret_cast<Wide*>(array(which));
-    }
-    static Wide& wide(Lanes& one) {
-        return reinterpret_cast<Wide&>(one);
-    }
-
     void rate_into(int i, const Lanes& t, int state) {
         pack_.rhs(reals(&t), reals(array(state)), reals(par_.data()), reals(stage(i)));
         if (dimension_ == controlled_) return;
@@ -139,13 +130,6 @@ private:
         stage(i)[controlled_] = energy[3];
     }
 
-    /// Σ_j row_j k_j of component b, over the weights that are not zero.
-    template <const auto& row, int... j>
-    [[gnu::always_inline]] static void weighted_sum(const Wide* k, int dimension, int b, Wide& sum,
-                                                    std::integer_sequence<int, j...>) {
-        sum = Wide{};
-        ((row[j] != 0 ? void(sum += row[j] * k[j * dimension + b]) : void()), ...);
-    }
     template <int i>
     struct Stage {
         static constexpr auto row = tableau.a[i];
@@ -157,118 +141,154 @@ private:
     using Solution = std::make_integer_sequence<int, stages>;
     using Estimate = std::make_integer_sequence<int, stages + 1>;
 
-    template <int i>
-    [[gnu::always_inline]] void evaluate(const Wide& t, const Wide& h) {
-        const Wide *const k = wide(arrays), *const y = wide(y_), *const rest = wide(rest_);
-        Wide* const trial = wide(trial_);
-        for (int b = 0; b < dimension_; ++b) {
-            Wide sum;
-            weighted_sum<Stage<i>::row>(k, dimension_, b, sum, std::make_integer_sequence<int, i>());
-            trial[b] = y[b] + (h * sum + rest[b]);
+    /// The arithmetic on vectors of so many lanes. A place is one of a component and of a piece of its lanes.
+    template <int width>
+    struct Work {
+        using Pieces = PackPieces<width>;
+        using Wide = typename Pieces::Reals;
+        using Bits = typename Pieces::Bits;
+        static constexpr int pieces = Pieces::pieces;
+        static Wide* wide(PackStep& s, int which) { return Pieces::in(s.array(which)); }
+        static Wide* wide(Lanes& one) { return Pieces::in(&one); }
+
+        /// Σ_j row_j k_j at a place, over the weights that are not zero.
+        template <const auto& row, int... j>
+        [[gnu::always_inline]] static void weighted_sum(const Wide* k, int places, int at, Wide& sum,
+                                                        std::integer_sequence<int, j...>) {
+            sum = Wide{};
+            ((row[j] != 0 ? void(sum += row[j] * k[j * places + at]) : void()), ...);
         }
-        Lanes at;
-        wide(at) = t + tableau.c[i] * h;
-        rate_into(i, at, trial_);
-    }
 
-    template <int... i>
-    [[gnu::always_inline]] void evaluate_all(const Wide& t, const Wide& h, std::integer_sequence<int, i...>) {
-        (evaluate<i + 1>(t, h), ...);
-    }
-
-    [[gnu::always_inline]] void attempt_here() {
-        const Wide t = wide(time), h = wide(end) - t;
-        evaluate_all(t, h, std::make_integer_sequence<int, stages - 1>());
-        const Wide *const k = wide(arrays), *const start = wide(y_), *const rest = wide(rest_);
-        Wide *const ends = wide(next_), *const ends_rest = wide(next_rest_);
-        for (int b = 0; b < dimension_; ++b) {
-            Wide sum;
-            weighted_sum<Stage<stages>::row>(k, dimension_, b, sum, Solution());
-            const Wide y = start[b], change = h * sum + rest[b], next = y + change, taken = next - y;
-            ends[b] = next;
-            ends_rest[b] = (y - (next - taken)) + (change - taken);
-        }
-        if constexpr (last_stage_in_estimate()) rate_into(stages, end, next_);
-        misfit = {};
-        if constexpr (!has_fixed_step) measure(h);
-    }
-
-    /// The error is measured component by component as in explicit_rk.hpp; it is infinite if something is not
-    /// finite.
-    [[gnu::always_inline]] void measure(const Wide& h) {
-        const Wide *const k = wide(arrays), *const y = wide(y_), *const next = wide(next_);
-        const Wide none{}, one = none + 1;
-        Wide largest{}, zero{};
-        for (int b = 0; b < controlled_; ++b) {
-            const Wide size0 = y[b] < 0 ? -y[b] : y[b], size1 = next[b] < 0 ? -next[b] : next[b];
-            Wide scale = size0 > size1 ? size0 : size1;
-            scale = h / (scale > 1 ? scale : one);
-            Wide error, square;
-            weighted_sum<Error<0>::row>(k, dimension_, b, error, Estimate());
-            error *= scale;
-            square = error * error;
-            if constexpr (tableau.error_rows == 2) {
-                Wide third;
-                weighted_sum<Error<tableau.error_rows - 1>::row>(k, dimension_, b, third, Estimate());
-                third *= scale;
-                square *= square / (square + 0.01 * third * third + 1e-300);
+        template <int i>
+        [[gnu::always_inline]] static void evaluate(PackStep& s) {
+            const Wide *const k = wide(s, arrays), *const y = wide(s, y_), *const rest = wide(s, rest_);
+            Wide* const trial = wide(s, trial_);
+            const int places = s.dimension_ * pieces;
+            Lanes at;
+            for (int piece = 0; piece < pieces; ++piece) {
+                const Wide t = wide(s.time)[piece], h = wide(s.end)[piece] - t;
+                wide(at)[piece] = t + tableau.c[i] * h;
+                for (int b = piece; b < places; b += pieces) {
+                    Wide sum;
+                    weighted_sum<Stage<i>::row>(k, places, b, sum, std::make_integer_sequence<int, i>());
+                    trial[b] = y[b] + (h * sum + rest[b]);
+                }
             }
-            largest = square > largest ? square : largest;
-            zero += (square + next[b]) * 0;
+            s.rate_into(i, at, trial_);
         }
-        wide(misfit) = zero == 0 ? largest : none + HUGE_VAL;
-        for (int lane = 0; lane < lanes; ++lane) misfit[lane] = std::sqrt(misfit[lane]);
-    }
 
-    [[gnu::always_inline]] void finish_here() {
-        if constexpr (!last_stage_in_estimate()) rate_into(stages, end, next_);
-        const Wide *const rate = wide(arrays + stages), *const next = wide(next_);
-        Wide zero{};
-        for (int b = 0; b < controlled_; ++b) zero += (rate[b] + next[b]) * 0;
-        wide(misfit) = zero == 0 ? wide(misfit) : Wide{} + HUGE_VAL;
-    }
-
-    [[gnu::always_inline]] void advance_here(unsigned accepted) {
-        Bits take;
-        for (int lane = 0; lane < lanes; ++lane) take[lane] = -static_cast<long long>(accepted >> lane & 1U);
-        Wide *const y = wide(y_), *const rest = wide(rest_), *const first = wide(arrays);
-        const Wide *const next = wide(next_), *const next_rest = wide(next_rest_),
-                          *const last = wide(arrays + stages);
-        for (int b = 0; b < dimension_; ++b) {
-            y[b] = take ? next[b] : y[b];
-            rest[b] = take ? next_rest[b] : rest[b];
-            first[b] = take ? last[b] : first[b];
+        template <int... i>
+        [[gnu::always_inline]] static void evaluate_all(PackStep& s, std::integer_sequence<int, i...>) {
+            (evaluate<i + 1>(s), ...);
         }
-        wide(time) = take ? wide(end) : wide(time);
-    }
+
+        [[gnu::always_inline]] static void attempt(PackStep& s) {
+            evaluate_all(s, std::make_integer_sequence<int, stages - 1>());
+            const Wide *const k = wide(s, arrays), *const start = wide(s, y_), *const rest = wide(s, rest_);
+            Wide *const ends = wide(s, next_), *const ends_rest = wide(s, next_rest_);
+            const int places = s.dimension_ * pieces;
+            for (int piece = 0; piece < pieces; ++piece) {
+                const Wide h = wide(s.end)[piece] - wide(s.time)[piece];
+                for (int b = piece; b < places; b += pieces) {
+                    Wide sum;
+                    weighted_sum<Stage<stages>::row>(k, places, b, sum, Solution());
+                    const Wide y = start[b], change = h * sum + rest[b], next = y + change, taken = next - y;
+                    ends[b] = next;
+                    ends_rest[b] = (y - (next - taken)) + (change - taken);
+                }
+            }
+            if constexpr (last_stage_in_estimate()) s.rate_into(stages, s.end, next_);
+            s.misfit = {};
+            if constexpr (!has_fixed_step)
+                for (int piece = 0; piece < pieces; ++piece) measure(s, piece);
+        }
+
+        /// The error is measured component by component as in explicit_rk.hpp; it is infinite if something is not
+        /// finite.
+        [[gnu::always_inline]] static void measure(PackStep& s, int piece) {
+            const Wide *const k = wide(s, arrays), *const y = wide(s, y_), *const next = wide(s, next_);
+            const Wide h = wide(s.end)[piece] - wide(s.time)[piece], none{}, one = none + 1;
+            const int places = s.dimension_ * pieces;
+            Wide largest{}, zero{};
+            for (int b = piece; b < s.controlled_ * pieces; b += pieces) {
+                const Wide size0 = y[b] < 0 ? -y[b] : y[b], size1 = next[b] < 0 ? -next[b] : next[b];
+                Wide scale = size0 > size1 ? size0 : size1;
+                scale = h / (scale > 1 ? scale : one);
+                Wide error, square;
+                weighted_sum<Error<0>::row>(k, places, b, error, Estimate());
+                error *= scale;
+                square = error * error;
+                if constexpr (tableau.error_rows == 2) {
+                    Wide third;
+                    weighted_sum<Error<tableau.error_rows - 1>::row>(k, places, b, third, Estimate());
+                    third *= scale;
+                    square *= square / (square + 0.01 * third * third + 1e-300);
+                }
+                largest = square > largest ? square : largest;
+                zero += (square + next[b]) * 0;
+            }
+            wide(s.misfit)[piece] = zero == 0 ? largest : none + HUGE_VAL;
+            for (int lane = piece * width; lane < (piece + 1) * width; ++lane)
+                s.misfit[lane] = std::sqrt(s.misfit[lane]);
+        }
+
+        [[gnu::always_inline]] static void finish(PackStep& s) {
+            if constexpr (!last_stage_in_estimate()) s.rate_into(stages, s.end, next_);
+            const Wide *const rate = wide(s, arrays + stages), *const next = wide(s, next_);
+            for (int piece = 0; piece < pieces; ++piece) {
+                Wide zero{};
+                for (int b = piece; b < s.controlled_ * pieces; b += pieces) zero += (rate[b] + next[b]) * 0;
+                Wide& misfit = wide(s.misfit)[piece];
+                misfit = zero == 0 ? misfit : Wide{} + HUGE_VAL;
+            }
+        }
+
+        [[gnu::always_inline]] static void advance(PackStep& s, unsigned accepted) {
+            Wide *const y = wide(s, y_), *const rest = wide(s, rest_), *const first = wide(s, arrays);
+            const Wide *const next = wide(s, next_), *const next_rest = wide(s, next_rest_),
+                              *const last = wide(s, arrays + stages);
+            for (int piece = 0; piece < pieces; ++piece) {
+                Bits take;
+                for (int lane = 0; lane < width; ++lane)
+                    take[lane] = -static_cast<long long>(accepted >> (piece * width + lane) & 1U);
+                for (int b = piece; b < s.dimension_ * pieces; b += pieces) {
+                    y[b] = take ? next[b] : y[b];
+                    rest[b] = take ? next_rest[b] : rest[b];
+                    first[b] = take ? last[b] : first[b];
+                }
+                Wide& time = wide(s.time)[piece];
+                time = take ? wide(s.end)[piece] : time;
+            }
+        }
+    };
 
     static void attempt_any(PackStep& step) {
-        step.attempt_here();
+        Work<2>::attempt(step);
     }
     static void finish_any(PackStep& step) {
-        step.finish_here();
+        Work<2>::finish(step);
     }
     static void advance_any(PackStep& step, unsigned accepted) {
-        step.advance_here(accepted);
+        Work<2>::advance(step, accepted);
     }
 #if defined(__x86_64__)
     ALEMBERT_WIDE static void attempt_256(PackStep& step) {
-        step.attempt_here();
+        Work<4>::attempt(step);
     }
     ALEMBERT_WIDE static void finish_256(PackStep& step) {
-        step.finish_here();
+        Work<4>::finish(step);
     }
     ALEMBERT_WIDE static void advance_256(PackStep& step, unsigned accepted) {
-        step.advance_here(accepted);
+        Work<4>::advance(step, accepted);
     }
     ALEMBERT_WIDEST static void attempt_512(PackStep& step) {
-        step.attempt_here();
+        Work<8>::attempt(step);
     }
     ALEMBERT_WIDEST static void finish_512(PackStep& step) {
-        step.finish_here();
+        Work<8>::finish(step);
     }
     ALEMBERT_WIDEST static void advance_512(PackStep& step, unsigned accepted) {
-        step.advance_here(accepted);
+        Work<8>::advance(step, accepted);
     }
 #endif
 

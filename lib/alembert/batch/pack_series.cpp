@@ -5,13 +5,12 @@
 #include <cstddef>
 #include <utility>
 
+#include "alembert/batch/pack_pieces.hpp"
 #include "alembert/native/cpu_features.hpp"
 
 namespace alembert {
 
 namespace {
-
-using Wide [[gnu::vector_size(lanes * sizeof(double)), gnu::may_alias]] = double;
 
 /// A number of workspace that is filled in all lanes.
 Lanes in_all(double value) {
@@ -20,7 +19,11 @@ Lanes in_all(double value) {
     return pack;
 }
 
+template <int width>
 struct Expansion {
+    using Pieces = PackPieces<width>;
+    using Wide = typename Pieces::Reals;
+    static constexpr int pieces = Pieces::pieces;
     const SeriesPacks& packs;
     int order;
     Lanes *out, *fixed, *given[2], *rows;
@@ -34,20 +37,20 @@ struct Expansion {
         if (a == b) {
 #pragma GCC unroll 16
             for (int j = 1; 2 * j <= k; ++j) {
-                if (2 * j < k) now[j % 3] += a[j] * a[k - j];
-                if (j > 1 && 2 * j < k + 1) next[j % 3] += a[j] * a[k + 1 - j];
+                if (2 * j < k) now[j % 3] += a[j * pieces] * a[(k - j) * pieces];
+                if (j > 1 && 2 * j < k + 1) next[j % 3] += a[j * pieces] * a[(k + 1 - j) * pieces];
             }
             sum = now[0] + (now[1] + now[2]);
             sum += sum;
             ahead = next[0] + (next[1] + next[2]);
             ahead += ahead;
-            if constexpr (k > 1) ahead += a[k / 2 + 1] * a[k / 2 + 1];
+            if constexpr (k > 1) ahead += a[(k / 2 + 1) * pieces] * a[(k / 2 + 1) * pieces];
             return;
         }
 #pragma GCC unroll 32
         for (int j = 1; j < k; ++j) {
-            now[j % 3] += a[j] * b[k - j];
-            if (j > 1) next[j % 3] += a[j] * b[k + 1 - j];
+            now[j % 3] += a[j * pieces] * b[(k - j) * pieces];
+            if (j > 1) next[j % 3] += a[j * pieces] * b[(k + 1 - j) * pieces];
         }
         sum = now[0] + (now[1] + now[2]);
         ahead = next[0] + (next[1] + next[2]);
@@ -57,19 +60,20 @@ struct Expansion {
     /// terms with the first factors.
     template <int k>
     [[gnu::always_inline]] void sums(Lanes* here, Lanes* after) const {
-        const auto wide = [](Lanes & pack) __attribute__((always_inline))->Wide& {
-            return reinterpret_cast<Wide&>(pack);
-        };
+        Wide *const now = Pieces::in(here), *const next = Pieces::in(after);
         for (std::size_t l = 0; l < packs.products.size(); ++l) {
             const auto [left, right] = packs.products[l];
-            const Wide *const a = reinterpret_cast<const Wide*>(rows + SeriesPacks::place_of_factor(left)),
-                              *const b = reinterpret_cast<const Wide*>(rows + SeriesPacks::place_of_factor(right));
-            if constexpr (k % 2 == 1)
-                convolve<k>(a, b, wide(here[l]), wide(after[l]));
-            else if constexpr (k == 2)
-                wide(here[l]) = a[1] * b[1];
-            else
-                wide(here[l]) += a[1] * b[k - 1] + a[k - 1] * b[1];
+            for (int piece = 0; piece < pieces; ++piece) {
+                const Wide *const a = Pieces::in(rows + SeriesPacks::place_of_factor(left)) + piece,
+                                  *const b = Pieces::in(rows + SeriesPacks::place_of_factor(right)) + piece;
+                const std::size_t at = l * pieces + static_cast<std::size_t>(piece);
+                if constexpr (k % 2 == 1)
+                    convolve<k>(a, b, now[at], next[at]);
+                else if constexpr (k == 2)
+                    now[at] = a[pieces] * b[pieces];
+                else
+                    now[at] += a[pieces] * b[(k - 1) * pieces] + a[(k - 1) * pieces] * b[pieces];
+            }
         }
     }
 
@@ -80,9 +84,9 @@ struct Expansion {
         Lanes *const here = given[k % 2], *const after = given[(k + 1) % 2];
         if (k == order) {
             constexpr double inverse = 1.0 / k;
-            for (int i = 0; i < at.width; ++i)
-                reinterpret_cast<Wide&>(out[k * at.width + i]) =
-                    inverse * reinterpret_cast<const Wide&>(here[at.rates() + i]);
+            Wide* const last = Pieces::in(out + k * at.width);
+            const Wide* const rates = Pieces::in(here + at.rates());
+            for (int i = 0; i < at.width * pieces; ++i) last[i] = inverse * rates[i];
             return false;
         }
         sums<k>(here, after);
@@ -104,8 +108,10 @@ struct Expansion {
     }
 };
 
-/// There are packs of series only where there are the widest registers (memory_series_packs.hpp).
-ALEMBERT_WIDEST void run(const Expansion& one) {
+ALEMBERT_WIDE void run(const Expansion<4>& one) {
+    one.all();
+}
+ALEMBERT_WIDEST void run(const Expansion<8>& one) {
     one.all();
 }
 
@@ -127,7 +133,12 @@ void SeriesPacks::expand(const Lanes& t, const Lanes* state, const Lanes* par, i
     fix(reals(work));
     std::copy_n(state, at.width, out);
     if (order == 0) return;
-    run({.packs = *this, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
+    const auto go = [&]<int width>() {
+        run(Expansion<width>{
+            .packs = *this, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
+    };
+    static const bool has_widest = registers() == Registers::widest;
+    has_widest ? go.template operator()<8>() : go.template operator()<4>();
 }
 
 }  // namespace alembert

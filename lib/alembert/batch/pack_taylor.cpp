@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "alembert/batch/pack_pieces.hpp"
 #include "alembert/native/cpu_features.hpp"
 #include "alembert/ode/taylor.hpp"
 
@@ -12,25 +13,15 @@ namespace alembert {
 
 namespace {
 
-using Wide [[gnu::vector_size(lanes * sizeof(double)), gnu::may_alias]] = double;
-using Bits [[gnu::vector_size(lanes * sizeof(double)), gnu::may_alias]] = long long;
-
-Wide* wide(std::vector<Lanes>& list) {
-    return reinterpret_cast<Wide*>(list.data());
-}
-Wide& wide(Lanes& one) {
-    return reinterpret_cast<Wide&>(one);
-}
-
-// No function returns a wide number: how that is done depends on the processor.
-
 /// a = the larger of a and |b|
+template <class Wide>
 [[gnu::always_inline]] inline void raise(Wide& a, const Wide& b) {
     const Wide size = b < 0 ? -b : b;
     a = a > size ? a : size;
 }
 
 /// Four polynomials in h⁴ side by side, so that few operations wait for each other.
+template <class Wide>
 struct Sums {
     Wide of[4] = {};
     [[gnu::always_inline]] void add(int r, const Wide& h4, const Wide& term) { of[r] = of[r] * h4 + term; }
@@ -41,21 +32,28 @@ struct Sums {
 
 }  // namespace
 
-/// The arithmetic, compiled for the widest registers: without them there are no packs of series
-/// (memory_series_packs.hpp).
+/// The arithmetic on vectors of so many lanes.
+template <int width>
 struct PackTaylor::Work {
-    [[gnu::always_inline]] static void attempt(PackTaylor& s) {
-        const Wide h = wide(s.end) - wide(s.time), h2 = h * h, h4 = h2 * h2, none{};
+    using Pieces = PackPieces<width>;
+    using Wide = typename Pieces::Reals;
+    using Bits = typename Pieces::Bits;
+    static constexpr int pieces = Pieces::pieces;
+    static Wide* wide(std::vector<Lanes>& list) { return Pieces::in(list.data()); }
+    static Wide* wide(Lanes& one) { return Pieces::in(&one); }
+
+    [[gnu::always_inline]] static void attempt(PackTaylor& s, int piece) {
+        const Wide h = wide(s.end)[piece] - wide(s.time)[piece], h2 = h * h, h4 = h2 * h2, none{};
         const Wide *const rows = wide(s.coefficients_), *const y = wide(s.y_), *const rest = wide(s.rest_);
         Wide *const ends = wide(s.next_), *const ends_rest = wide(s.next_rest_), *const slopes = wide(s.slopes_);
         const int n = s.dimension_, order = s.order_;
         Wide power = none + 1, square = h, largest{}, zero{};
         for (int k = order; k > 0; k /= 2, square *= square)
             if (k % 2 == 1) power *= square;
-        for (int b = 0; b < n; ++b) {
-            Sums sums, slope;
+        for (int b = piece; b < n * pieces; b += pieces) {
+            Sums<Wide> sums, slope;
             const auto add = [&](int r, int k) __attribute__((always_inline)) {
-                const Wide term = rows[k * n + b];
+                const Wide term = rows[k * n * pieces + b];
                 sums.add(r, h4, term);
                 slope.add(r, h4, term * static_cast<double>(k));
             };
@@ -70,26 +68,26 @@ struct PackTaylor::Work {
                        taken = next - start;
             ends[b] = next;
             ends_rest[b] = (start - (next - taken)) + (change - taken);
-            if (b >= s.controlled_) continue;
+            if (b >= s.controlled_ * pieces) continue;
             raise(scale, start);
             raise(scale, next);
-            const Wide error = h == 0 ? none : rows[order * n + b] * power / scale;
+            const Wide error = h == 0 ? none : rows[order * n * pieces + b] * power / scale;
             raise(largest, error);
             zero += (error + next) * 0;
         }
-        wide(s.misfit) = zero == 0 ? largest : none + HUGE_VAL;
+        wide(s.misfit)[piece] = zero == 0 ? largest : none + HUGE_VAL;
     }
 
     /// Whether the rates at the ends are finite and those of the polynomials, as Taylor::foresees_end.
-    [[gnu::always_inline]] static void look(PackTaylor& s) {
+    [[gnu::always_inline]] static void look(PackTaylor& s, int piece) {
         constexpr double rounded = 1e-8;
-        const Wide h = wide(s.end) - wide(s.time), none{}, one = none + 1;
-        const Wide *const rate = wide(s.coefficients_) + s.dimension_,
-                          *const end_rate = wide(s.next_coefficients_) + s.dimension_, *const y = wide(s.y_),
-                          *const next = wide(s.next_), *const slopes = wide(s.slopes_);
+        const Wide h = wide(s.end)[piece] - wide(s.time)[piece], none{}, one = none + 1;
+        const Wide *const rate = wide(s.coefficients_) + s.dimension_ * pieces,
+                          *const end_rate = wide(s.next_coefficients_) + s.dimension_ * pieces,
+                          *const y = wide(s.y_), *const next = wide(s.next_), *const slopes = wide(s.slopes_);
         Wide zero{};
         Bits missed{};
-        for (int b = 0; b < s.controlled_; ++b) {
+        for (int b = piece; b < s.controlled_ * pieces; b += pieces) {
             Wide miss{}, scale = one, fastest{};
             raise(miss, slopes[b] - h * end_rate[b]);
             raise(scale, y[b]);
@@ -100,41 +98,60 @@ struct PackTaylor::Work {
             zero += (end_rate[b] + next[b]) * 0;
         }
         Wide size = one;
-        raise(size, wide(s.time));
+        raise(size, wide(s.time)[piece]);
         missed &= h >= shortest_tried * size;
-        wide(s.misfit) = (zero == 0) & ~missed ? wide(s.misfit) : none + HUGE_VAL;
-        s.unforeseen_ = 0;
-        for (int lane = 0; lane < lanes; ++lane) s.unforeseen_ |= missed[lane] != 0 ? 1U << lane : 0U;
+        Wide& misfit = wide(s.misfit)[piece];
+        misfit = (zero == 0) & ~missed ? misfit : none + HUGE_VAL;
+        for (int lane = 0; lane < width; ++lane)
+            s.unforeseen_ |= missed[lane] != 0 ? 1U << (piece * width + lane) : 0U;
     }
 
     /// Takes over the ends that are accepted, and measures the last terms of their series.
-    [[gnu::always_inline]] static void advance(PackTaylor& s, unsigned accepted) {
+    [[gnu::always_inline]] static void advance(PackTaylor& s, unsigned accepted, int piece) {
         Bits take;
-        for (int lane = 0; lane < lanes; ++lane) take[lane] = -static_cast<long long>(accepted >> lane & 1U);
+        for (int lane = 0; lane < width; ++lane)
+            take[lane] = -static_cast<long long>(accepted >> (piece * width + lane) & 1U);
         Wide *const y = wide(s.y_), *const rest = wide(s.rest_), *const rows = wide(s.next_coefficients_);
         const Wide *const next = wide(s.next_), *const next_rest = wide(s.next_rest_),
                           *const before = wide(s.coefficients_);
         const int n = s.dimension_;
-        for (int b = 0; b < n; ++b) {
+        for (int b = piece; b < n * pieces; b += pieces) {
             y[b] = take ? next[b] : y[b];
             rest[b] = take ? next_rest[b] : rest[b];
         }
-        wide(s.time) = take ? wide(s.end) : wide(s.time);
+        Wide& time = wide(s.time)[piece];
+        time = take ? wide(s.end)[piece] : time;
         constexpr unsigned all = (1U << lanes) - 1;
         if (accepted != all)
-            for (int i = 0; i < (s.order_ + 1) * n; ++i) rows[i] = take ? rows[i] : before[i];
+            for (int i = piece; i < (s.order_ + 1) * n * pieces; i += pieces) rows[i] = take ? rows[i] : before[i];
         for (int k = std::max(0, s.order_ - 7); k <= s.order_; ++k) {
             const Wide none{}, one = none + 1;
             Wide largest{}, zero{};
-            for (int b = 0; b < s.controlled_; ++b) {
+            for (int b = piece; b < s.controlled_ * pieces; b += pieces) {
                 Wide scale = one;
                 raise(scale, y[b]);
-                raise(largest, rows[k * n + b] / scale);
-                zero += rows[k * n + b] * 0;
+                raise(largest, rows[k * n * pieces + b] / scale);
+                zero += rows[k * n * pieces + b] * 0;
             }
-            wide(s.sizes_[k + 7 - s.order_]) = zero == 0 ? largest : none + HUGE_VAL;
+            wide(s.sizes_[k + 7 - s.order_])[piece] = zero == 0 ? largest : none + HUGE_VAL;
         }
     }
+};
+
+/// Compiled for the registers that there may be (without AVX2 there are no packs of series).
+struct PackTaylor::Compiled {
+    ALEMBERT_WIDE static void attempt_256(PackTaylor& s) {
+        for (int piece = 0; piece < Work<4>::pieces; ++piece) Work<4>::attempt(s, piece);
+    }
+    ALEMBERT_WIDE static void look_256(PackTaylor& s) {
+        for (int piece = 0; piece < Work<4>::pieces; ++piece) Work<4>::look(s, piece);
+    }
+    ALEMBERT_WIDE static void advance_256(PackTaylor& s, unsigned accepted) {
+        for (int piece = 0; piece < Work<4>::pieces; ++piece) Work<4>::advance(s, accepted, piece);
+    }
+    ALEMBERT_WIDEST static void attempt_512(PackTaylor& s) { Work<8>::attempt(s, 0); }
+    ALEMBERT_WIDEST static void look_512(PackTaylor& s) { Work<8>::look(s, 0); }
+    ALEMBERT_WIDEST static void advance_512(PackTaylor& s, unsigned accepted) { Work<8>::advance(s, accepted, 0); }
 };
 
 PackTaylor::PackTaylor(const Module& module, const SeriesPacks& series, int dimension, int extra, double tolerance)
@@ -144,6 +161,7 @@ PackTaylor::PackTaylor(const Module& module, const SeriesPacks& series, int dime
       controlled_(dimension - extra),
       order_(taylor_order(tolerance, series.order_cost, series.product_cost)),
       parameters_(series.parameters),
+      has_widest_(registers() == Registers::widest),
       most_missed_(terms_left_out * tolerance),
       lengths_(order_, std::log(taylor_share * tolerance)),
       y_(place(dimension)),
@@ -171,17 +189,18 @@ void PackTaylor::put(int lane, double t, const double* state, const double*, con
     new_ |= 1U << lane;
 }
 
-ALEMBERT_WIDEST void PackTaylor::attempt() {
-    Work::attempt(*this);
+void PackTaylor::attempt() {
+    (has_widest_ ? Compiled::attempt_512 : Compiled::attempt_256)(*this);
 }
 
-ALEMBERT_WIDEST void PackTaylor::finish() {
+void PackTaylor::finish() {
     series_.expand(end, next_.data(), series_par_.data(), order_, next_coefficients_.data(), work_.data());
-    Work::look(*this);
+    unforeseen_ = 0;
+    (has_widest_ ? Compiled::look_512 : Compiled::look_256)(*this);
 }
 
-ALEMBERT_WIDEST void PackTaylor::advance(unsigned accepted) {
-    Work::advance(*this, accepted);
+void PackTaylor::advance(unsigned accepted) {
+    (has_widest_ ? Compiled::advance_512 : Compiled::advance_256)(*this, accepted);
     std::swap(coefficients_, next_coefficients_);
     new_ &= ~accepted;
 }

@@ -56,7 +56,9 @@ public:
     Lanes time{}, end{}, misfit{};
 
 private:
+    template <int width>
     struct Work;
+    struct Compiled;
 
     static std::size_t place(int i) { return static_cast<std::size_t>(i); }
     const Lanes* series_now() const { return coefficients_.data(); }
@@ -66,6 +68,7 @@ private:
     const alembert_pack_table& pack_;
     const SeriesPacks& series_;
     int dimension_, controlled_, order_, parameters_;
+    bool has_widest_;
     double most_missed_;
     SeriesLength lengths_;
     std::vector<Lanes> y_, rest_, next_, next_rest_, slopes_, par_, series_par_, coefficients_, next_coefficients_,

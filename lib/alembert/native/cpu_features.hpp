@@ -35,4 +35,15 @@ inline Registers registers() {
 #endif
 }
 
+/// "SSE2", "AVX2" or "AVX-512", for people; "other" where the processor is not an x86-64.
+inline const char* name_of(Registers kind) {
+#if defined(__x86_64__)
+    constexpr const char* names[] = {"SSE2", "AVX2", "AVX-512"};
+    return names[static_cast<int>(kind)];
+#else
+    (void)kind;
+    return "other";
+#endif
+}
+
 }  // namespace alembert

@@ -16,10 +16,11 @@ int rounded_up(int count) {
     return (count + 7) / 8 * 8;
 }
 
-/// Eight lanes: one register, or several of a processor that has none so wide.
-using Eight = double __attribute__((vector_size(64)));
-
+/// `width`: the numbers in a register.
+template <int width>
 struct Expansion {
+    using Wide [[gnu::vector_size(width * sizeof(double))]] = double;
+    static_assert(sizeof(Wide) == width * sizeof(double));
     const SeriesCode& code;
     int order;
     double *out, *fixed, *given[2], *rows;
@@ -30,17 +31,17 @@ struct Expansion {
     [[gnu::always_inline]] void convolve(double* sums) const {
         const int lanes = code.places.lanes;
         const std::ptrdiff_t step = 2 * static_cast<std::ptrdiff_t>(lanes);
-        for (int lane = 0; lane < lanes; lane += 8) {
+        for (int lane = 0; lane < lanes; lane += width) {
             const double* const at = rows + lane;
-            Eight part[4] = {};
+            Wide part[4] = {};
 #pragma GCC unroll 32
             for (int j = edge; j <= k - edge; ++j) {
-                Eight left, right;
+                Wide left, right;
                 std::memcpy(&left, at + j * step, sizeof left);
                 std::memcpy(&right, at + lanes + (k - j) * step, sizeof right);
                 part[j % 4] += left * right;
             }
-            const Eight total = (part[0] + part[1]) + (part[2] + part[3]);
+            const Wide total = (part[0] + part[1]) + (part[2] + part[3]);
             std::memcpy(sums + lane, &total, sizeof total);
         }
     }
@@ -79,15 +80,11 @@ struct Expansion {
     }
 };
 
-ALEMBERT_WIDE void expand_wide(const Expansion& one) {
+ALEMBERT_WIDE void run_orders(const Expansion<4>& one) {
     one.all();
 }
-ALEMBERT_WIDEST void expand_widest(const Expansion& one) {
+ALEMBERT_WIDEST void run_orders(const Expansion<8>& one) {
     one.all();
-}
-void run_orders(const Expansion& one) {
-    static const bool has_widest = registers() == Registers::widest;
-    (has_widest ? expand_widest : expand_wide)(one);
 }
 
 }  // namespace
@@ -106,7 +103,12 @@ void SeriesCode::expand(double t, const double* state, const double* par, int or
     fix(work);
     std::copy_n(state, at.width, out);
     if (order == 0) return;
-    run_orders({.code = *this, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
+    static const bool has_widest = registers() == Registers::widest;
+    const auto run = [&]<int width>() {
+        run_orders(Expansion<width>{
+            .code = *this, .order = order, .out = out, .fixed = work, .given = {even, odd}, .rows = rows});
+    };
+    has_widest ? run.template operator()<8>() : run.template operator()<4>();
 }
 
 }  // namespace alembert

@@ -149,6 +149,14 @@ void each_pair_for_code(double (*f)(double, double), double* values) {
     for (int i = 0; i < 8; ++i) values[i] = f(values[i], values[i + 8]);
 }
 
+void each_of_four_for_code(double (*f)(double), double* values) {
+    for (int i = 0; i < 4; ++i) values[i] = f(values[i]);
+}
+
+void each_pair_of_four_for_code(double (*f)(double, double), double* values) {
+    for (int i = 0; i < 4; ++i) values[i] = f(values[i], values[i + 4]);
+}
+
 double sign_for_code(double x) {
     return std::isnan(x) ? x : static_cast<double>(x > 0) - static_cast<double>(x < 0);
 }

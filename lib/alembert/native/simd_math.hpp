@@ -34,9 +34,11 @@ void sines_for_code(double* values, int count);
 /// processors with AVX-512.
 void sines_of_packs_for_code(double* values, int count);
 
-/// values[i] = f(values[i]), and values[i] = f(values[i], values[i + 8]), for i = 0 … 7.
+/// values[i] = f(values[i]), and values[i] = f(values[i], values[i + 8]), for i = 0 … 7; of four likewise.
 void each_for_code(double (*f)(double), double* values);
 void each_pair_for_code(double (*f)(double, double), double* values);
+void each_of_four_for_code(double (*f)(double), double* values);
+void each_pair_of_four_for_code(double (*f)(double, double), double* values);
 
 double sign_for_code(double x);
 double lesser_for_code(double x, double y);   ///< NaN if one of the two is
