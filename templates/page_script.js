@@ -244,7 +244,7 @@ function figureDrawer(f, root) {
         node.setAttribute("y", (p[1] + down + 5).toFixed(1));
       } else if (shape.kind === "angle_text") {
         const [c, start, sweep] = arc(shape, place, angles), r = shape.size + 11, [right, down] = shape.nudge || [0, 0];
-        const at = Math.abs(sweep) >= 0.5 ? start + sweep / 2 : start + sweep + (sweep < 0 ? -0.32 : 0.32);
+        const at = Math.abs(sweep) >= 0.5 ? start + sweep / 2 : start + sweep + (sweep < -1e-6 ? -0.32 : 0.32);
         node.setAttribute("x", (c[0] + right + r * Math.cos(at)).toFixed(1));
         node.setAttribute("y", (c[1] + down + r * Math.sin(at) + 5).toFixed(1));
       } else {

@@ -34,7 +34,8 @@ elif [ $# -eq 0 ]; then
         heavy_top free_body; do
         set -- "$@" "$root/scenes/textbook/$name.toml"
     done
-    set -- "$@" "$root/tests/browser/hostile.toml" "$root/scenes/benchmark/trees/pend32.toml"
+    set -- "$@" "$root/tests/browser/hostile.toml" "$root/scenes/benchmark/trees/pend32.toml" \
+        "$root/scenes/benchmark/andrews.toml"
 fi
 for scene in "$@"; do
     page=$(basename "$(dirname "$scene")")-$(basename "$scene" .toml)

@@ -16,8 +16,8 @@ constexpr double arrow_length = 46, ring_steps = 48, arc_steps = 20;
 
 /// The direction of the letter of an angle: inside the arc, or beyond its end if the arc is short.
 double letter_angle(double start, double sweep) {
-    constexpr double roomy = 0.5, behind = 0.32;
-    return std::abs(sweep) >= roomy ? start + sweep / 2 : start + sweep + (sweep < 0 ? -behind : behind);
+    constexpr double roomy = 0.5, behind = 0.32, none = 1e-6;  // the sign of less is rounding
+    return std::abs(sweep) >= roomy ? start + sweep / 2 : start + sweep + (sweep < -none ? -behind : behind);
 }
 
 }  // namespace
