@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -13,6 +14,7 @@
 #include "alembert/native/simd_math.hpp"
 #include "analysis/state/prepared.hpp"
 #include "codegen/machine/can_run.hpp"
+#include "codegen/machine/lines.hpp"
 #include "codegen/machine/memory_solver.hpp"
 #include "machine_values.hpp"
 #include "model/formalism/formalisms.hpp"
@@ -157,6 +159,28 @@ TEST_CASE("machine: a sum of hundreds of products of each other's factors, more 
         p.roots.push_back({Group::acceleration, "", p.sum(0, terms)});
     }
     CHECK(differences(p, some_state(p, 3)) == 0);
+}
+
+TEST_CASE("machine: a sum of squares and even powers multiplies nothing by one") {
+    Program p;
+    std::vector<Program::Term> terms;
+    for (int i = 0; i < 3; ++i) {
+        p.coordinates.push_back({.name = fmt::format("q{}", i), .unit = ""});
+        terms.push_back(
+            {i == 1 ? -1 : 1, p.product(1, {{p.variable({Variable::Kind::coordinate, i}), i == 2 ? 4 : 2}})});
+    }
+    const int sum = p.sum(0, terms);
+    for (int i = 0; i < 3; ++i) p.roots.push_back({Group::acceleration, "", sum});
+    const Vocabulary words(p);
+    const std::vector<int> roots{sum};
+    const machine::Lines lines = machine::lines_of(p, words, Readiness(p, roots), right_hand_side(p, words));
+    const auto count = [&](machine::Line::Kind kind) {
+        return std::count_if(lines.list.begin(), lines.list.end(),
+                             [&](const machine::Line& line) { return line.kind == kind; });
+    };
+    CHECK(count(machine::Line::Kind::multiply) == 2);  // of the first term, and the square in the fourth power
+    CHECK(count(machine::Line::Kind::fused) == 2);
+    CHECK(differences(p, some_state(p, 5)) == 0);
 }
 
 TEST_CASE("machine: a value that is no number stays so, and what an array has is copied") {

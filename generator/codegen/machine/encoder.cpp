@@ -79,32 +79,32 @@ Xbyak::Address Encoder::at(const Memory& memory, bool stands_for_all) {
     return (stands_for_all ? ptr_b : ptr)[rip + begin_of_constants_ + memory.offset];
 }
 
-void Encoder::compute(Instruction instruction, int to, int first, const Operand& second) {
-    const Call call = calls[static_cast<std::size_t>(instruction)][is_packed() ? 1 : 0];
+void Encoder::compute(Instruction instruction, int to, int first, const Operand& second, int numbers) {
+    const Call call = calls[static_cast<std::size_t>(instruction)][numbers > 1 ? 1 : 0];
     if (second.memory)
-        call(*this, reg(to), reg(first), at(*second.memory, lanes_ == 8));
+        call(*this, reg(to, numbers), reg(first, numbers), at(*second.memory, numbers == 8));
     else
-        call(*this, reg(to), reg(first), reg(second.reg));
+        call(*this, reg(to, numbers), reg(first, numbers), reg(second.reg, numbers));
 }
 
-void Encoder::load(int to, const Memory& from) {
-    if (!is_packed())
+void Encoder::load(int to, const Memory& from, int numbers) {
+    if (numbers == 1)
         vmovsd(Xmm(to), at(from));
-    else if (from.base == Base::constants && lanes_ == 8)
+    else if (from.base == Base::constants && numbers == 8)
         vbroadcastsd(Zmm(to), at(from));
     else
-        vmovupd(reg(to), at(from));
+        vmovupd(reg(to, numbers), at(from));
 }
 
-void Encoder::store(const Memory& to, int from) {
-    if (is_packed())
-        vmovupd(at(to), reg(from));
+void Encoder::store(const Memory& to, int from, int numbers) {
+    if (numbers > 1)
+        vmovupd(at(to), reg(from, numbers));
     else
         vmovsd(at(to), Xmm(from));
 }
 
-void Encoder::copy(int to, int from) {
-    vmovapd(reg(to), reg(from));
+void Encoder::copy(int to, int from, int numbers) {
+    vmovapd(reg(to, numbers), reg(from, numbers));
 }
 
 void Encoder::enter() {

@@ -69,14 +69,22 @@ public:
     int lanes() const { return lanes_; }
     int registers() const { return registers_; }
 
-    void compute(Instruction instruction, int to, int first, const Operand& second);
-    void load(int to, const Memory& from);
-    void store(const Memory& to, int from);
-    void copy(int to, int from);
-    Xbyak::Xmm reg(int number) const {
-        if (lanes_ == 8) return Xbyak::Zmm(number);
-        return lanes_ == 4 ? Xbyak::Ymm(number) : Xbyak::Xmm(number);
+    /// `numbers`: how many the registers hold, 1, 2, 4 or 8.
+    void compute(Instruction instruction, int to, int first, const Operand& second, int numbers);
+    void load(int to, const Memory& from, int numbers);
+    void store(const Memory& to, int from, int numbers);
+    void copy(int to, int from, int numbers);
+    void compute(Instruction instruction, int to, int first, const Operand& second) {
+        compute(instruction, to, first, second, lanes_);
     }
+    void load(int to, const Memory& from) { load(to, from, lanes_); }
+    void store(const Memory& to, int from) { store(to, from, lanes_); }
+    void copy(int to, int from) { copy(to, from, lanes_); }
+    static Xbyak::Xmm reg(int number, int numbers) {
+        if (numbers == 8) return Xbyak::Zmm(number);
+        return numbers == 4 ? Xbyak::Ymm(number) : Xbyak::Xmm(number);
+    }
+    Xbyak::Xmm reg(int number) const { return reg(number, lanes_); }
     Xbyak::Address at(const Memory& memory, bool stands_for_all = false);
 
     /// Begins a function with room on its stack, with several lanes at a multiple of 64 bytes; the end says how

@@ -74,7 +74,7 @@ void InterpretedLines::run(double t, double* const* arrays) const {
                 angles[k] = value[static_cast<std::size_t>(group.angles[k])];
             sines_in_place(angles, group.size, static_cast<int>(group.angles.size()));
             for (std::size_t v = 0; v < value.size(); ++v)
-                if (l_.homes[v].kind == Home::Kind::sines && l_.homes[v].place >= group.place &&
+                if (l_.homes[v].kind == Home::Kind::block && l_.homes[v].place >= group.place &&
                     l_.homes[v].place < group.place + 3 * group.size)
                     value[v] = block[static_cast<std::size_t>(l_.homes[v].place)];
         } else {

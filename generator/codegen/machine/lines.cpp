@@ -224,7 +224,7 @@ private:
         add({.kind = Line::Kind::sines, .place = static_cast<int>(lines_.groups.size())});
         for (const int id : sines) {
             const int first = group.place + (p_[id].op == Op::sin ? size : 2 * size);
-            value_[id] = {leaf({.kind = Home::Kind::sines, .place = first + position.at(p_[id].args[0])})};
+            value_[id] = {leaf({.kind = Home::Kind::block, .place = first + position.at(p_[id].args[0])})};
         }
         lines_.groups.push_back(std::move(group));
     }
@@ -239,8 +239,8 @@ private:
             add({.kind = Line::Kind::sines, .place = static_cast<int>(lines_.groups.size()) - 1});
             const int first = lines_.block + 1;
             lines_.block += 3;
-            return known->second = {leaf({.kind = Home::Kind::sines, .place = first}),
-                                    leaf({.kind = Home::Kind::sines, .place = first + 1})};
+            return known->second = {leaf({.kind = Home::Kind::block, .place = first}),
+                                    leaf({.kind = Home::Kind::block, .place = first + 1})};
         }
         // By AVX2 the larger one of two is the second where one is not a number, which must not be the first
         // angle.
@@ -365,12 +365,14 @@ private:
         for (const std::size_t k : ready_.order(id)) {
             const int arg = node.args[k];
             const bool is_divisor = node.exponents[k] < 0 || is_below(arg);
-            Signed factor = of(is_divisor && node.exponents[k] > 0 ? p_[arg].args[0] : arg);
-            int exponent = std::abs(node.exponents[k]);
-            for (std::vector<Signed>& side = is_divisor ? below : above; exponent > 0; exponent /= 2) {
-                if (exponent % 2 != 0) side.push_back(factor);
-                if (exponent > 1) factor = times(factor, factor);
-            }
+            add_power(of(is_divisor && node.exponents[k] > 0 ? p_[arg].args[0] : arg), std::abs(node.exponents[k]),
+                      is_divisor ? below : above);
+        }
+    }
+    void add_power(Signed factor, int exponent, std::vector<Signed>& factors) {
+        for (; exponent > 0; exponent /= 2) {
+            if (exponent % 2 != 0) factors.push_back(factor);
+            if (exponent > 1) factor = times(factor, factor);
         }
     }
 
@@ -381,6 +383,21 @@ private:
         const Signed top = above.empty() ? Signed{number(1)} : times(above), bottom = times(below);
         return {add({.kind = Line::Kind::divide, .of = {top.value, bottom.value, -1}}),
                 top.negative != bottom.negative};
+    }
+
+    /// The two factors of a product that a sum adds; of an even power, the same one twice.
+    std::array<Signed, 2> two_factors(int id) {
+        const Node& node = p_[id];
+        std::vector<Signed> above, below;
+        if (node.args.size() == 1 && node.exponents[0] % 2 == 0) {
+            add_power(of(node.args[0]), node.exponents[0] / 2, above);
+            const Signed half = times(above);
+            return {half, half};
+        }
+        split(id, above, below);
+        const Signed last = above.back();
+        above.pop_back();
+        return {above.empty() ? Signed{number(1)} : times(above), last};
     }
 
     /// total + x
@@ -413,13 +430,8 @@ private:
                 const Signed x = of(arg);
                 total = plus(total, {number(std::abs(c)), c < 0}, x);
             } else if (is_fused(arg)) {
-                std::vector<Signed> above, below;
-                split(arg, above, below);
-                const Signed last = above.back();
-                above.pop_back();
-                Signed rest = above.empty() ? Signed{number(1)} : times(above);
-                rest.negative = rest.negative != (c < 0);
-                total = plus(total, rest, last);
+                const auto [first, last] = two_factors(arg);
+                total = plus(total, c < 0 ? -first : first, last);
             } else {
                 const Signed x = of(arg);
                 total = plus(total, c < 0 ? -x : x);

@@ -7,10 +7,10 @@
 ///     const Lines lines = lines_of(program, words, readiness, mass_forcing(program));
 ///     lines.list[0];          // value 7 = value 2 · value 5 + value 3
 ///
-/// A value that stands in memory anyway has a home: what a function takes from its arrays, constants, and sines
-/// and cosines, which are computed for all angles of the same depth in one call. Products that are used once are
-/// part of the sums that use them, and reciprocals part of the products. Signs are carried along until a value is
-/// used that must have one.
+/// A value that stands in memory anyway has a home: what a function takes from its arrays, constants, and in a
+/// block of its own sines and cosines, which are computed for all angles of the same depth in one call. Products
+/// that are used once are part of the sums that use them, and reciprocals part of the products. Signs are carried
+/// along until a value is used that must have one.
 
 #include <array>
 #include <span>
@@ -22,11 +22,12 @@
 namespace alembert::machine {
 
 struct Home {
-    enum class Kind : unsigned char { none, time, argument, constant, sines };
+    enum class Kind : unsigned char { none, time, argument, constant, block };
     Kind kind = Kind::none;
     int argument = 0;   ///< position among the arrays of the function
-    int place = 0;      ///< in the array, or in the block of sines
+    int place = 0;      ///< in the array, or in the block
     double number = 0;  ///< of a constant
+    int numbers = 1;    ///< side by side in the value, for each system: 1, 2 or 4 (side_by_side.hpp)
 };
 
 struct Line {
@@ -46,7 +47,11 @@ struct Line {
         fused,        ///< ± of[0]·of[1] ± of[2]
         call,         ///< function(of[0]), or function(of[0], of[1])
         sines,        ///< the group `place`
-        store         ///< of[0] to the array `argument` at `place`
+        store,        ///< of[0] to the array `argument` at `place`
+        pair,         ///< of[0] and of[1] side by side
+        join,         ///< the pairs of[0] and of[1] side by side
+        repeat,       ///< of[0] in all places
+        keep          ///< of[0] to the block at `place`
     };
     Kind kind;
     int to = -1;                           ///< a value; −1 if there is none
@@ -60,7 +65,7 @@ struct Line {
 /// take angles of any size. All else is the same in both.
 enum class Sines : unsigned char { inside, called };
 
-/// Angles stand at place, place + 1 … in the block of sines, then their sines, then their cosines; with one lane
+/// Angles stand at place, place + 1 … in the block, then their sines, then their cosines; with one lane
 /// each of the three lists is filled up to a multiple of four.
 struct SineGroup {
     std::vector<int> angles;
@@ -73,7 +78,7 @@ struct Lines {
     std::vector<Home> homes;  ///< of each value
     std::vector<Line> list;
     std::vector<SineGroup> groups;
-    int block = 0;  ///< length of the block of sines
+    int block = 0;  ///< its length
     int arrays = 0;
     bool takes_time = false;  ///< whether the first argument is t
     int largest = -1;         ///< the value that holds the largest angle of sines inside

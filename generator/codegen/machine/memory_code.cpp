@@ -5,6 +5,7 @@
 
 #include "alembert/native/executable.hpp"
 #include "codegen/machine/registers.hpp"
+#include "codegen/machine/side_by_side.hpp"
 #include "codegen/machine/two_halves.hpp"
 
 namespace alembert::machine {
@@ -35,7 +36,7 @@ std::size_t MemoryCode::write_aside(const Lines& lines) {
 
 void MemoryCode::write(const Lines& lines, std::size_t other, Put put) {
     std::size_t begin = parts_->begin();
-    parts_->is_possible = parts_->is_possible && write_function(parts_->code, lines, other);
+    parts_->is_possible = parts_->is_possible && write_function(parts_->code, side_by_side(lines), other);
     if (lines.lanes == 4) {
         const std::size_t body = std::exchange(begin, parts_->begin());
         write_in_two_halves(parts_->code, body, lines.arrays + (lines.takes_time ? 1 : 0));

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// In straight-line code the next use of every value is known. When a register is needed, the value goes whose next
-// use lies furthest ahead, which takes the fewest loads (Belady, A study of replacement algorithms for a
-// virtual-storage computer, IBM Systems Journal 5, 1966). A value without a home is stored on the stack first.
 #include "codegen/machine/registers.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <limits>
 
 #include "alembert/native/simd_math.hpp"
+#include "codegen/machine/register_file.hpp"
 
 namespace alembert::machine {
 
 namespace {
 
-using Xbyak::Ymm, Xbyak::Zmm;
+using Xbyak::Xmm, Xbyak::Ymm, Xbyak::Zmm;
 
-constexpr int never = std::numeric_limits<int>::max();
 constexpr std::int32_t largest_frame = 1 << 20;  ///< in bytes; a thread's stack has several times as much
-constexpr int soon = 200;  ///< lines; a value that is used again so soon is loaded into a register if one is free
-constexpr std::int32_t pack_size = 64;  ///< in bytes, of a value in the arrays of eight systems
-constexpr std::array bases{Base::rdi, Base::rsi, Base::rdx, Base::rcx, Base::r8, Base::r9};
 
 Xbyak::Reg64 pointer(Base base) {
     return Xbyak::Reg64(static_cast<int>(base));
@@ -30,28 +22,9 @@ Instruction plus(Instruction first, int k) {
     return static_cast<Instruction>(static_cast<int>(first) + k);
 }
 
-class Registering {
+class Registering : RegisterFile {
 public:
-    Registering(Encoder& code, const Lines& lines, std::size_t other)
-        : code_(code),
-          other_(other),
-          l_(lines),
-          holds_(static_cast<std::size_t>(code.registers()), -1),
-          reg_(lines.homes.size(), -1),
-          slot_(lines.homes.size(), -1),
-          unit_(8 * lines.lanes),
-          step_(lines.lanes > 1 ? pack_size : 8) {
-        free_ = holds_.size() == 32 ? ~0U : 0xffffU;
-        find_uses();
-        const bool calls = std::any_of(l_.list.begin(), l_.list.end(), [](const Line& line) {
-            return line.kind == Line::Kind::call || line.kind == Line::Kind::sines;
-        });
-        saved_ = calls ? l_.arrays + first_array() : 0;
-        const auto in_units = [&](std::int32_t bytes) { return (bytes + unit_ - 1) / unit_ * unit_; };
-        time_ = in_units(8 * saved_);
-        block_ = time_ + (is_packed() ? 2 * unit_ : 8);  // packed: for the arguments of a call
-        frame_ = block_ + unit_ * l_.block;
-    }
+    Registering(Encoder& code, const Lines& lines, std::size_t other) : RegisterFile(code, lines), other_(other) {}
 
     bool write() {
         code_.enter();
@@ -64,148 +37,15 @@ public:
             code_.end_unless_above(reg_[l_.largest], farthest_for_code, other_, frame_);
             return frame_ <= largest_frame;
         }
-        if (!is_packed()) frame_ += frame_ % 16 == 8 ? 0 : 8;  // with the return address, a multiple of 16
+        if (!is_packed()) {
+            frame_ += frame_ % 16 == 8 ? 0 : 8;  // with the return address, a multiple of 16
+            if (has_fours_) code_.vzeroupper();
+        }
         code_.end(frame_);
         return frame_ <= largest_frame;
     }
 
 private:
-    bool is_packed() const { return l_.lanes > 1; }
-    /// Packs are given a pointer to their times, before the arrays.
-    int first_array() const { return is_packed() && l_.takes_time ? 1 : 0; }
-    Base base(int array) const { return bases[static_cast<std::size_t>(array + first_array())]; }
-
-    /// Lists, for each value, the lines that use it.
-    void find_uses() {
-        first_.assign(l_.homes.size() + 1, 0);
-        const auto each = [&](const auto& use) {
-            for (int k = 0; k < static_cast<int>(l_.list.size()); ++k) {
-                const Line& line = l_.list[k];
-                if (line.kind == Line::Kind::sines)
-                    for (const int v : l_.groups[line.place].angles) use(v, k);
-                for (const int v : line.of)
-                    if (v >= 0) use(v, k);
-            }
-            if (l_.largest >= 0) use(l_.largest, static_cast<int>(l_.list.size()));
-        };
-        each([&](int v, int) { ++first_[v + 1]; });
-        for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-        uses_.resize(static_cast<std::size_t>(first_.back()));
-        next_ = first_;
-        each([&](int v, int line) { uses_[next_[v]++] = line; });
-        next_ = first_;
-    }
-
-    /// The next line after this one that uses the value.
-    int next(int v) {
-        int& place = next_[v];
-        while (place < first_[v + 1] && uses_[place] <= at_) ++place;
-        return place < first_[v + 1] ? uses_[place] : never;
-    }
-
-    bool has_memory(int v) const { return l_.homes[v].kind != Home::Kind::none || slot_[v] >= 0; }
-    Memory memory(int v) {
-        const Home& home = l_.homes[v];
-        switch (home.kind) {
-            case Home::Kind::time:
-                return is_packed() ? Memory{bases[0], 0} : Memory{Base::rsp, time_};
-            case Home::Kind::argument:
-                return {base(home.argument), step_ * home.place};
-            case Home::Kind::constant:
-                return code_.constant(home.number);
-            case Home::Kind::sines:
-                return {Base::rsp, block_ + unit_ * home.place};
-            case Home::Kind::none:
-                break;
-        }
-        return {Base::rsp, slot_[v]};
-    }
-    Operand operand(int v) { return reg_[v] >= 0 ? Operand{.reg = reg_[v]} : Operand{.memory = memory(v)}; }
-
-    void lock(int v) {
-        if (reg_[v] >= 0) locked_ |= 1U << reg_[v];
-    }
-
-    /// Stores a value on the stack that has no other home.
-    void save(int v) {
-        if (has_memory(v)) return;
-        if (slots_.empty()) {
-            slot_[v] = frame_;
-            frame_ += unit_;
-        } else {
-            slot_[v] = slots_.back();
-            slots_.pop_back();
-        }
-        code_.store({Base::rsp, slot_[v]}, reg_[v]);
-    }
-
-    void release(int r) {
-        reg_[holds_[r]] = -1;
-        holds_[r] = -1;
-        free_ |= 1U << r;
-    }
-
-    /// A register that is not locked, empty now.
-    int taken() {
-        if (free_ == 0) {
-            int furthest = -1, distance = -1;
-            for (int r = 0; r < static_cast<int>(holds_.size()); ++r) {
-                if ((locked_ >> r & 1) != 0) continue;
-                const int then = next(holds_[r]);
-                if (then > distance) furthest = r, distance = then;
-            }
-            if (distance != never) save(holds_[furthest]);
-            release(furthest);
-        }
-        return std::countr_zero(free_);
-    }
-
-    void hold(int r, int v) {
-        holds_[r] = v;
-        reg_[v] = r;
-        free_ &= ~(1U << r);
-        locked_ |= 1U << r;
-    }
-
-    void load(int v) {
-        if (reg_[v] < 0) {
-            const int r = taken();
-            code_.load(r, memory(v));
-            hold(r, v);
-        }
-        lock(v);
-    }
-    /// Loads a value that stays in memory otherwise, if it is used again soon and there is room.
-    void load_if_useful(int v) {
-        if (reg_[v] >= 0 || free_ == 0) return;
-        const int then = next(v);
-        if (then != never && then - at_ < soon) load(v);
-    }
-
-    /// Gives up registers and places on the stack of what is not used any more.
-    void drop(int v) {
-        if (v < 0 || next(v) != never) return;
-        if (reg_[v] >= 0) {
-            locked_ &= ~(1U << reg_[v]);
-            release(reg_[v]);
-        }
-        if (slot_[v] >= 0) {
-            slots_.push_back(slot_[v]);
-            slot_[v] = -1;
-        }
-    }
-
-    /// A register for the result, perhaps one of an operand. Their places on the stack are given up later: what is
-    /// saved to make room would overwrite them.
-    int target(const Line& line) {
-        for (const int v : line.of)
-            if (v >= 0 && reg_[v] >= 0 && next(v) == never) {
-                locked_ &= ~(1U << reg_[v]);
-                release(reg_[v]);
-            }
-        return taken();
-    }
-
     void write(const Line& line) {
         locked_ = 0;
         for (const int v : line.of)
@@ -252,13 +92,16 @@ private:
                 load(line.of[0]);
                 code_.store({base(line.argument), step_ * line.place}, reg_[line.of[0]]);
                 return drop(line.of[0]);
+            case Line::Kind::pair:
+            case Line::Kind::join:
+                return beside(line);
+            case Line::Kind::repeat:
+                return repeat(line);
+            case Line::Kind::keep:
+                load(line.of[0]);
+                code_.store({Base::rsp, block_ + unit_ * line.place}, reg_[line.of[0]], numbers(line.of[0]));
+                return drop(line.of[0]);
         }
-    }
-
-    void finish(const Line& line, int r) {
-        for (const int v : line.of) drop(v);
-        hold(r, line.to);
-        drop(line.to);
     }
 
     void larger_size(const Line& line) {
@@ -284,13 +127,40 @@ private:
         const int first = reg_[a];
         const Operand second = operand(b);
         const int to = target(line);
-        code_.compute(instruction, to, first, second);
+        code_.compute(instruction, to, first, second, numbers(line.to));
         finish(line, to);
     }
 
     void unary(const Line& line, Instruction instruction, const std::optional<Memory>& mask) {
         const int x = reg_[line.of[0]], to = target(line);
-        code_.compute(instruction, to, x, mask ? Operand{.memory = mask} : Operand{.reg = x});
+        code_.compute(instruction, to, x, mask ? Operand{.memory = mask} : Operand{.reg = x}, numbers(line.to));
+        finish(line, to);
+    }
+
+    /// Two numbers, or two pairs of them.
+    void beside(const Line& line) {
+        load(line.of[0]);
+        if (line.kind == Line::Kind::join) load_if_useful(line.of[1]);
+        const int first = reg_[line.of[0]];
+        const Operand second = operand(line.of[1]);
+        const int to = target(line);
+        if (line.kind == Line::Kind::join)
+            second.memory ? code_.vinsertf128(Ymm(to), Ymm(first), code_.at(*second.memory), 1)
+                          : code_.vinsertf128(Ymm(to), Ymm(first), Xmm(second.reg), 1);
+        else
+            second.memory ? code_.vmovhpd(Xmm(to), Xmm(first), code_.at(*second.memory))
+                          : code_.vunpcklpd(Xmm(to), Xmm(first), Xmm(second.reg));
+        finish(line, to);
+    }
+
+    void repeat(const Line& line) {
+        const Operand from = operand(line.of[0]);
+        const int to = target(line);
+        if (numbers(line.to) == 4)
+            from.memory ? code_.vbroadcastsd(Ymm(to), code_.at(*from.memory))
+                        : code_.vbroadcastsd(Ymm(to), Xmm(from.reg));
+        else
+            from.memory ? code_.vmovddup(Xmm(to), code_.at(*from.memory)) : code_.vmovddup(Xmm(to), Xmm(from.reg));
         finish(line, to);
     }
 
@@ -322,9 +192,9 @@ private:
             r = taken();
             free_ &= ~(1U << r);
             if (reg_[base] >= 0)
-                code_.copy(r, reg_[base]);
+                code_.copy(r, reg_[base], numbers(base));
             else
-                code_.load(r, memory(base));
+                code_.load(r, memory(base), numbers(base));
             locked_ |= 1U << r;
         }
         if (base == b) std::swap(a, b);
@@ -336,10 +206,10 @@ private:
             const bool by_132 = reg_[second] < 0 && reg_[third] >= 0;
             if (by_132) std::swap(second, third);
             in_registers(second, third);
-            code_.compute(plus(first, by_132 ? 0 : 1), r, reg_[second], operand(third));
+            code_.compute(plus(first, by_132 ? 0 : 1), r, reg_[second], operand(third), numbers(line.to));
         } else {
             in_registers(second, third);
-            code_.compute(plus(first, 2), r, reg_[second], operand(third));
+            code_.compute(plus(first, 2), r, reg_[second], operand(third), numbers(line.to));
         }
         if (reg_[base] == r) {
             holds_[r] = -1;
@@ -387,18 +257,13 @@ private:
         finish(line, to);
     }
 
-    void in_registers(int first, int second) {
-        load(first);
-        load_if_useful(second);
-    }
-
     /// Saves what a call would destroy, except for values that end in this line.
     void save_all() {
         for (const int v : holds_)
             if (v >= 0 && next(v) != never) save(v);
     }
     void after_call(auto function) {
-        if (is_packed()) code_.vzeroupper();  // code of others would wait for the upper parts of registers
+        if (has_fours_) code_.vzeroupper();  // code of others would wait for the upper parts of registers
         code_.mov(code_.rax, reinterpret_cast<std::uintptr_t>(function));
         code_.call(code_.rax);
         for (int r = 0; r < static_cast<int>(holds_.size()); ++r)
@@ -470,19 +335,7 @@ private:
         for (const int v : group.angles) drop(v);
     }
 
-    Encoder& code_;
     std::size_t other_;
-    const Lines& l_;
-    std::vector<int> holds_;           // the value in each register
-    std::vector<int> reg_;             // the register of each value
-    std::vector<std::int32_t> slot_;   // the place on the stack of each value
-    std::vector<std::int32_t> slots_;  // places that are free
-    std::int32_t unit_, step_;         // the size of a value, and its distance to the next one in an array; bytes
-    std::vector<int> first_, uses_, next_;
-    unsigned free_ = 0, locked_ = 0;  // registers, a bit for each
-    int at_ = 0;                      // the current line
-    int saved_ = 0;                   // pointers that are kept on the stack
-    std::int32_t time_ = 0, block_ = 0, frame_ = 0;
 };
 
 }  // namespace
