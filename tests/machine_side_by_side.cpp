@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <set>
 
@@ -17,6 +18,8 @@
 #include "program/lower/choose.hpp"
 #include "random_program.hpp"
 #include "scenes.hpp"
+#include "shell.hpp"
+#include "tools.hpp"
 
 namespace machine_side_by_side {
 
@@ -109,7 +112,7 @@ TEST_CASE("machine: roots and quotients side by side in random functions have th
     CHECK(found > 100);
 }
 
-// Three bodies have three roots, four have six: groups of four, three and two, and what is left over.
+// 21 pairs of bodies are five groups of four and one alone, 15 pairs are three groups of four and one of three.
 TEST_CASE(
     "machine: bodies that attract each other have their roots and quotients side by side, with the same bits") {
     if (!machine::can_run()) return;
@@ -126,6 +129,25 @@ TEST_CASE(
         for (const Line::Kind kind : {Line::Kind::root, Line::Kind::divide})
             CHECK(count(other, kind) == (count(lines, kind) + 3) / 4);
     }
+}
+
+// Half of the registers of AVX-512 are out of reach for some instructions of AVX.
+TEST_CASE("machine: code for 32 registers has its roots and quotients side by side, too") {
+    if (!has_program("objdump")) return;
+    const Program p = program_of("scenes/benchmark/pleiades.toml");
+    const Lines lines = side_by_side(lines_of_task(p, right_hand_side(p, Vocabulary(p))));
+    machine::Encoder code(1, 32);
+    REQUIRE(machine::write_function(code, lines));
+    const std::string file = temporary_folder("side_by_side") + "/code";
+    const std::vector<std::uint8_t> bytes = code.finished();
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    const std::string text =
+        run_shell("objdump -D -b binary -m i386:x86-64 --no-show-raw-insn \"$1\"", {file}).out;
+    const std::string function = text.substr(0, text.find("ret"));
+    CHECK(function.find("mm16") != std::string::npos);
+    CHECK(function.find("vinsertf64x2") != std::string::npos);
+    CHECK(function.find("(bad)") == std::string::npos);
 }
 
 TEST_CASE("machine: a function in which nothing can stand side by side keeps its lines") {

@@ -144,12 +144,17 @@ private:
         const int first = reg_[line.of[0]];
         const Operand second = operand(line.of[1]);
         const int to = target(line);
-        if (line.kind == Line::Kind::join)
-            second.memory ? code_.vinsertf128(Ymm(to), Ymm(first), code_.at(*second.memory), 1)
-                          : code_.vinsertf128(Ymm(to), Ymm(first), Xmm(second.reg), 1);
-        else
-            second.memory ? code_.vmovhpd(Xmm(to), Xmm(first), code_.at(*second.memory))
-                          : code_.vunpcklpd(Xmm(to), Xmm(first), Xmm(second.reg));
+        if (line.kind == Line::Kind::join) {
+            const auto insert = code_.registers() == 32 ? &Encoder::vinsertf64x2 : &Encoder::vinsertf128;
+            if (second.memory)
+                (code_.*insert)(Ymm(to), Ymm(first), code_.at(*second.memory), 1);
+            else
+                (code_.*insert)(Ymm(to), Ymm(first), Xmm(second.reg), 1);
+        } else if (second.memory) {
+            code_.vmovhpd(Xmm(to), Xmm(first), code_.at(*second.memory));
+        } else {
+            code_.vunpcklpd(Xmm(to), Xmm(first), Xmm(second.reg));
+        }
         finish(line, to);
     }
 
