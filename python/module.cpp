@@ -255,7 +255,7 @@ void add_verbs(py::module_& module) {
                   const std::string& method, const std::array<std::optional<double>, 5>& numbers, long budget,
                   bool estimate, bool reactions, bool fast_math, const std::string& section,
                   const std::string& code, const std::vector<std::string>& sensitivity,
-                  const std::vector<std::string>& sensitivity_of, bool regularize) {
+                  const std::vector<std::string>& sensitivity_of, bool regularize, bool tuning) {
                    return simulated(text, file,
                                     {.by = by,
                                      .method = method,
@@ -268,6 +268,7 @@ void add_verbs(py::module_& module) {
                                      .budget = budget,
                                      .fast_math = fast_math,
                                      .estimate = estimate,
+                                     .tuning = tuning,
                                      .regularize = regularize,
                                      .reactions = reactions,
                                      .sensitivity = sensitivity,

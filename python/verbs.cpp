@@ -108,6 +108,7 @@ public:
                 .max_step = real("max_step"),
                 .budget = static_cast<long>(number("budget", 10'000'000)),
                 .fast_math = flag("fast_math"),
+                .tuning = options_.value("tuning", true),
                 .progress = progress};
     }
 

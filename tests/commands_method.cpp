@@ -43,8 +43,14 @@ x = "-1e5*x' - 1e5*(x - sin(t))"
 duration = 20
 )toml";
 
+/// Chosen by counts alone, so that the method is the same on every machine.
 Json simulated(const std::string& scene, const std::vector<std::string>& more) {
-    return json_of({"simulate", scene, "--no-estimate"}, more);
+    return json_of({"simulate", scene, "--no-estimate", "--no-tuning"}, more);
+}
+
+/// The digits of the end and what led to them.
+Json result_of(const Json& run) {
+    return {run["final"], run["steps"], run["rejected"], run["energy_drift"]};
 }
 
 void check_choice(const std::vector<std::string>& options, const std::string& method, const std::string& because) {
@@ -67,7 +73,7 @@ TEST_CASE("auto: tolerance, step, structure and length choose the method, and th
     check_choice({"--step", "0.01"}, "rk4", "fixed step");
     check_choice({"--step", "0.001"}, "kahanli8", "20000 steps");
     const auto text = run({"simulate", temporary("oscillator.toml", oscillator), "--tolerance", "1e-4", "--code",
-                           "compiled", "--no-estimate"});
+                           "compiled", "--no-estimate", "--no-tuning"});
     CHECK(text.out.find("method: dop853, chosen for the tolerance 0.0001") != std::string::npos);
     // For a method given by name no reason is given.
     CHECK(!simulated(temporary("oscillator.toml", oscillator), {"--method", "dop853"}).contains("method_why"));
@@ -120,7 +126,7 @@ TEST_CASE("auto: a stiff run goes on with radau and its emitted Jacobian, and en
     CHECK(std::abs(result["final"]["coordinates"]["x"].get<double>() -
                    radau["final"]["coordinates"]["x"].get<double>()) < 1e-6);
     CHECK(std::abs(result["final"]["time"].get<double>() - 20) == 0);
-    const auto text = run({"simulate", scene, "--tolerance", "1e-8", "--no-estimate"});
+    const auto text = run({"simulate", scene, "--tolerance", "1e-8", "--no-estimate", "--no-tuning"});
     CHECK(text.out.find("the system is stiff there") != std::string::npos);
 }
 
@@ -155,10 +161,54 @@ TEST_CASE("auto: where the first steps show that a series is faster, taylor goes
     for (const char* const name : {"x", "y"})
         CHECK(std::abs(result["final"]["coordinates"][name].get<double>() -
                        exact["final"]["coordinates"][name].get<double>()) < 1e-3);
-    const auto text = run({"simulate", scene, "--tolerance", "1e-4", "--no-estimate"});
+    const auto text = run({"simulate", scene, "--tolerance", "1e-4", "--no-estimate", "--no-tuning"});
     CHECK(text.out.find("it is predicted to take less time") != std::string::npos);
     // A run that is too short to pay for the series keeps its method.
     CHECK(!simulated(scene, {"--tolerance", "1e-4", "--duration", "0.3"}).contains("switched"));
+}
+
+// About 100 ms, at a tolerance at which the choice is open.
+TEST_CASE("auto: a long run tries methods, and that of the name which it tells has the same digits") {
+    for (const auto& [file, duration] : {std::pair{"scenes/benchmark/kepler.toml", "2000"},
+                                         std::pair{"scenes/gallery/furuta_joints.toml", "1000"}}) {
+        CAPTURE(file);
+        const std::vector<std::string> options = {"simulate", source_path(file), "--no-estimate", "--tolerance",
+                                                  "1e-9",     "--duration",      duration};
+        const Json result = json_of(options);
+        CHECK(result["method_why"].get<std::string>().find("as the fastest of ") != std::string::npos);
+        std::vector<std::string> again = options;
+        again.insert(again.end(), {"--method", result["method"].get<std::string>()});
+        if (!result.contains("switched")) CHECK(result_of(json_of(again)) == result_of(result));
+    }
+}
+
+TEST_CASE("auto: without tuning a long run chooses by counts, the same every time, and a short one does so too") {
+    const std::string scene = source_path("scenes/benchmark/kepler.toml");
+    const Json once = simulated(scene, {"--duration", "2000"}), twice = simulated(scene, {"--duration", "2000"});
+    CHECK(once["method_why"].get<std::string>().find("chosen for the tolerance") != std::string::npos);
+    CHECK(once["method"] == twice["method"]);
+    CHECK(result_of(once) == result_of(twice));
+    const auto tuned = [&] { return json_of({"simulate", scene, "--no-estimate"}); };
+    CHECK(tuned()["method_why"].get<std::string>().find("chosen for the tolerance") != std::string::npos);
+    CHECK(result_of(tuned()) == result_of(tuned()));
+}
+
+// The trial begins on one side of the constraints, and takes none of the memory of the run with it.
+TEST_CASE("auto: a trial with constraints and an account of work leaves both as they are") {
+    for (const char* const file : {"scenes/textbook/four_bar.toml", "scenes/textbook/seismograph.toml"}) {
+        CAPTURE(file);
+        const std::vector<std::string> options = {"simulate", source_path(file), "--no-estimate", "--tolerance",
+                                                  "1e-10",    "--duration",      "3000"};
+        const Json result = json_of(options);
+        CHECK(result["method_why"].get<std::string>().find("as the fastest of ") != std::string::npos);
+        std::vector<std::string> again = options;
+        again.insert(again.end(), {"--method", result["method"].get<std::string>()});
+        if (result.contains("switched")) continue;
+        const Json other = json_of(again);
+        CHECK(result["final"] == other["final"]);
+        for (const char* const drift : {"constraint_drift", "work_balance", "energy_drift"})
+            CHECK(result.value(drift, Json()) == other.value(drift, Json()));
+    }
 }
 
 TEST_CASE("auto: taylor too changes to radau where stiffness limits its steps") {

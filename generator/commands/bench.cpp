@@ -59,6 +59,7 @@ void add_bench(CLI::App& app, Chosen& chosen) {
                 .type_name(values::seconds)
                 .positive();
             verb.take("--code", wishes.code);
+            verb.take("--no-tuning", wishes.tuning);
             verb.add_option("--reference-seconds", bench.options.reference_seconds,
                             say("processor time for each of the reference's methods"))
                 .type_name(values::seconds)

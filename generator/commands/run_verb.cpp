@@ -18,6 +18,7 @@ void add_run_options(Verb& verb, RunVerb& options) {
     verb.take("--budget", w.budget);
     verb.take("--code", w.code);
     verb.take("--fast-math", w.fast_math);
+    verb.take("--no-tuning", w.tuning);
     verb.take("--by", options.by);
 }
 

@@ -11,6 +11,7 @@
 
 #include "alembert/base/argument.hpp"
 #include "alembert/native/compile.hpp"
+#include "alembert/ode/cost_model.hpp"
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
 #include "codegen/emit/emit.hpp"
@@ -165,6 +166,7 @@ public:
                              .initial = initial,
                              .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
                              .effort = effort_of(program),
+                             .slowness = wishes_.tuning ? slowness_of(registers()) : Slowness{},
                              .conserved = energy.conserved});
         const Options options{.start = start_.t,
                               .duration = duration,
@@ -270,7 +272,7 @@ private:
             options.when_stiff = choice.when_stiff;
             options.when_stuck = choice.when_stuck;
             options.when_cheaper = choice.when_cheaper;
-            Measured run = workbench.measure(options);
+            Measured run = workbench.measure(options, choice.rivals);
             run.chosen = std::exchange(run.method, std::string(automatic_method));
             result_.runs.push_back(std::move(run));
             if (!result_.runs.back().failure.empty() || result_.runs.back().seconds > options_.most_seconds / 2)

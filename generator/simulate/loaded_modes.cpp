@@ -110,6 +110,7 @@ Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
             mode.when_stiff = make_rhs(*module, start_.parameters, compiled_.work());
             mode.when_stiff->extra = mode.contact.system.rhs.extra;
             mode.when_stiff->effort = mode.contact.system.rhs.effort;
+            mode.when_stiff->slowness = mode.contact.system.rhs.slowness;
             if (!mode.derived.mechanism.constraints.empty())
                 mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff), start_.parameters);
         }
@@ -134,9 +135,11 @@ void LoadedModes::count_step(LoadedMode& mode, double t, std::span<const double>
     constexpr int order = 20;           // of a usual series
     const alembert_series_table* const series = mode.compiled.series.module.get();
     double& effort = by_series ? mode.effort_of_series : mode.effort;
-    effort += by_series ? taylor_effort(series->order_cost, series->product_cost, order,
-                                        mode.contact.system.rhs.dimension)
-                        : evaluations * effort_of_evaluation(mode.contact.system.rhs, uses_jacobian(mode.running));
+    const Rhs& rhs = mode.contact.system.rhs;
+    const double step = by_series ? rhs.slowness.series * taylor_effort(series->order_cost, series->product_cost,
+                                                                        order, rhs.dimension)
+                                  : evaluations * effort_of_evaluation(rhs, uses_jacobian(mode.running));
+    effort += step / rhs.slowness.evaluation;  // compiling takes as many times as long
     if (by_series ? pays_to_compile(*series, effort) : pays_to_compile(mode.compiled.run(), effort)) {
         const std::vector<double> parameters(mode.par.begin(), mode.par.begin() + mode.module.table().parameters);
         compiled_.go_over(mode.compiled, part, {t, state, parameters});
@@ -185,6 +188,7 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::size_t events) {
         Rhs rhs = make_rhs(self->module, values, work);
         rhs.extra = self->contact.system.rhs.extra;
         rhs.effort = self->contact.system.rhs.effort;
+        rhs.slowness = self->contact.system.rhs.slowness;
         if (with_series) rhs.series = make_series(self->compiled.series.module, values);
         return constrained ? self->projection.guarded(std::move(rhs), values, friction(values)) : rhs;
     };
@@ -269,15 +273,18 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
         .contact = {.system = {.rhs = make_rhs(module, values, compiled_.work()), .quick_times = quick_times_},
                     .events = make_events(module, values, stops, directions)}});
     mode->contact.events.bounds = bounds_of(made.event_code, values);
-    if (method.when_stiff || method.when_cheaper) mode->contact.system.rhs.effort = made.effort;
+    if (method.when_stiff || method.when_cheaper) {
+        mode->contact.system.rhs.effort = made.effort;
+        mode->contact.system.rhs.slowness = method.slowness;
+    }
     if (made.series.module) mode->contact.system.rhs.series = make_series(made.series.module, values);
     if (made.canonical)
         mode->contact.system.rhs.canonical = make_canonical(module, *made.canonical, start_.parameters);
     if (method.when_stiff)
         mode->contact.system.with_jacobian = [this, self = mode.get()] { return with_jacobian(*self); };
-    if (method.when_cheaper && !jumps) {
+    if ((method.when_cheaper || !method.rivals.empty()) && !jumps) {
         mode->contact.system.with_series = [this, self = mode.get()] { return with_series(*self); };
-        mode->contact.system.effort_of_series = effort_of_making_series(made.program);
+        mode->contact.system.effort_of_series = method.slowness.evaluation * effort_of_making_series(made.program);
     }
     mode->contact.system.on_method = [self = mode.get()](Method running) { self->running = running; };
     // The work must balance the energy, so it is integrated with the same tolerance as the state, if there is one.

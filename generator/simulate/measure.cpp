@@ -5,9 +5,11 @@
 #include <cmath>
 #include <functional>
 
+#include "alembert/base/process_time.hpp"
 #include "model/formalism/routhian.hpp"
 #include "program/interpret.hpp"
 #include "program/lower/lower.hpp"
+#include "simulate/method.hpp"
 
 namespace alembert {
 
@@ -37,6 +39,7 @@ Workbench::Workbench(Parts parts)
     if (parts_.series) rhs_.series = make_series(parts_.series, parts_.parameters);
     if (parts_.series_with_work) with_work_.series = make_series(parts_.series_with_work, parts_.parameters);
     rhs_.effort = with_work_.effort = parts_.effort;
+    rhs_.slowness = with_work_.slowness = parts_.slowness;
     rhs_.canonical = with_work_.canonical = parts_.canonical;
     const Mechanism& m = parts_.derived.mechanism;
     if (!m.constraints.empty())
@@ -70,23 +73,29 @@ System Workbench::able(const Rhs& rhs) {
     return result;
 }
 
-Measured Workbench::measure(Options options) {
+Measured Workbench::measure(Options options, const std::vector<Method>& rivals) {
     options.sample = options.duration > 0 ? options.duration : 1;
     const System alone = able(rhs_);
-    Measured result{.method = std::string(name(options.method))};
+    const Options given = options;
+    Measured result;
     (has_fixed_step(options.method) ? result.step : result.tolerance) =
         has_fixed_step(options.method) ? options.step : options.tolerance;
     std::vector<double> seconds;
     double sum = 0;
     Trajectory motion;
     do {
+        const double before = thread_seconds();
+        options = given;
+        if (!rivals.empty()) choose(options, alone, rivals);
+        const double tried = thread_seconds() - before;
         projection_.begin(options.start, parts_.initial.data());
         motion = integrate(alone, parts_.initial, options);
-        seconds.push_back(motion.statistics.seconds);
+        seconds.push_back(tried + motion.statistics.seconds);
         sum += seconds.back();
     } while (seconds.size() < 200 && sum < 0.3 && (seconds.size() < 3 || sum < 0.02));
     std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2),
                      seconds.end());
+    result.method = std::string(name(options.method));
     result.seconds = seconds[seconds.size() / 2];
     result.evaluations = motion.statistics.evaluations;
     result.steps = motion.statistics.steps;
@@ -108,6 +117,17 @@ Measured Workbench::measure(Options options) {
                                               momenta(end, motion.final_state().data(), rhs_));
     kept(options, result);
     return result;
+}
+
+void Workbench::choose(Options& options, const System& system, const std::vector<Method>& rivals) {
+    const auto trial = method_trial(system, parts_.initial, options, rivals,
+                                    {.begin = [&] { projection_.begin(options.start, parts_.initial.data()); }});
+    if (!trial || trial->fastest == options.method) return;
+    const bool constrained = !parts_.derived.mechanism.constraints.empty();
+    const MethodChoice choice = after_trial({.method = options.method}, *trial, constrained);
+    options.method = choice.method;
+    options.when_stuck = choice.when_stuck;
+    options.when_cheaper = choice.when_cheaper;
 }
 
 void Workbench::kept(const Options& given, Measured& result) {

@@ -53,12 +53,14 @@ public:
         std::vector<double> parameters, initial;
         std::vector<QuickTime> quick_times = {};  ///< System::quick_times
         double effort = 0;                        ///< Rhs::effort
+        Slowness slowness = {};                   ///< Rhs::slowness
         bool conserved = true;                    ///< whether the energy is conserved
         std::vector<double> reference = {};       ///< coordinates, then rates, at the end; may be empty
     };
     explicit Workbench(Parts parts);
 
-    Measured measure(Options options);
+    /// `rivals`: methods that a long run tries (method_trial.hpp), which belongs to its time.
+    Measured measure(Options options, const std::vector<Method>& rivals = {});
     /// Coordinates and rates at the end; nothing if the run failed.
     std::optional<std::vector<double>> end_of(const Options& options);
     const Rhs& rhs() const { return rhs_; }
@@ -66,6 +68,8 @@ public:
 
 private:
     void kept(const Options& options, Measured& result);
+    /// Sets the method to the fastest of a trial, if the run is long.
+    void choose(Options& options, const System& system, const std::vector<Method>& rivals);
     /// The right-hand side with what the system can do besides.
     System able(const Rhs& rhs);
     std::vector<double> momenta(double t, const double* state, const Rhs& rhs);

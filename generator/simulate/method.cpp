@@ -83,14 +83,24 @@ SeriesCost cost_of_series(const Program& program, const RunOptions& request) {
 /// the same error at the end grows in each decade, by 22 % in theory, with 24 orders. The numbers here are those
 /// with which the choice comes nearest to the best one on 85 systems (tests/bench/regret.sh). Against that stands
 /// the predicted cost of each step.
-bool is_series_faster(const Program& program, double tolerance, const SeriesCost& cost) {
+bool is_series_faster(const Program& program, double tolerance, const SeriesCost& cost, const Slowness& slowness) {
     const double longer = 1.5 * std::pow(1e-6 / tolerance, 0.08);
     const int order = taylor_order(tolerance, cost.order, cost.product);
     const auto components = static_cast<int>(
         program.coordinates.size() + (program.speeds.empty() ? program.coordinates : program.speeds).size());
-    const Rhs rhs{.dimension = components, .effort = effort_of(program)};
+    const Rhs rhs{.dimension = components, .effort = effort_of(program), .slowness = slowness};
     const double explicit_step = verner98_tableau.stages * effort_of_evaluation(rhs, false);
-    return taylor_effort(cost.order, cost.product, order, components) < longer * explicit_step;
+    const double step = slowness.series * taylor_effort(cost.order, cost.product, order, components);
+    return step < longer * explicit_step;
+}
+
+/// What a long run tries. Whether there is a power series is found out then. Where it has to be compiled, the
+/// choice is left to the counts.
+std::vector<Method> rivals_in(const RunOptions& request, const Derived& d, double tolerance) {
+    if (!request.tuning || !d.mechanism.unilateral.empty()) return {};
+    std::vector<Method> rivals = {Method::dop853, Method::verner98};
+    if (tolerance < loosest_of_series && !needs_compiler_for_series(request)) rivals.push_back(Method::taylor);
+    return rivals;
 }
 
 MethodChoice automatic(const RunOptions& request, const Derived& d, const Program& program, const Start& start) {
@@ -114,16 +124,19 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         return {.method = Method::rk4, .why = say("chosen for a fixed step")};
     }
     const bool constrained = !d.mechanism.constraints.empty(), linked = is_linked(d.mechanism);
+    const Slowness slowness = request.tuning ? slowness_of(registers()) : Slowness{};
     const Strict& strict = needs_compiler_for_series(request) ? by_compiler : in_memory;
     const bool is_strict = tolerance < (linked ? strict.linked : strict.free);
     const bool linear = is_linear(program, d, request);
     if (is_strict || linear)
         if (const auto products = products_of_series(program, d);
             products && *products <= most_products_of(request) &&
-            (linear || is_series_faster(program, tolerance, cost_of_series(program, request))))
+            (linear || is_series_faster(program, tolerance, cost_of_series(program, request), slowness)))
             return {.method = Method::taylor,
                     .when_stiff = Method::radau,
                     .when_stuck = constrained ? std::optional(Method::dop853) : std::nullopt,
+                    .rivals = rivals_in(request, d, tolerance),
+                    .slowness = slowness,
                     .why = say(
                         "chosen for the tolerance {:g} (the motion has a short power series; radau takes over if "
                         "the system turns out stiff)",
@@ -137,6 +150,8 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         .method = without_series(tolerance, below),
         .when_stiff = Method::radau,
         .when_cheaper = may_find_series ? std::optional(Method::taylor) : std::nullopt,
+        .rivals = rivals_in(request, d, tolerance),
+        .slowness = slowness,
         .why = say("chosen for the tolerance {:g} (radau takes over if the system turns out stiff)", tolerance)};
 }
 
@@ -193,6 +208,21 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
         return {.method = *given};
     }
     return automatic(request, d, program, start);
+}
+
+MethodChoice after_trial(MethodChoice choice, const MethodTrial& trial, bool constrained) {
+    std::vector<std::string_view> tried;
+    for (const MethodAttempt& attempt : trial.attempts) tried.push_back(name(attempt.method));
+    choice.rivals.clear();
+    choice.why =
+        say("chosen as the fastest of {}, timed here up to t = {:.3g} (radau takes over if the system turns "
+            "out stiff)",
+            fmt::join(tried, ", "), trial.until);
+    choice.method = trial.fastest;
+    const bool by_series = needs_series(choice.method);
+    if (by_series) choice.when_cheaper = {};
+    choice.when_stuck = by_series && constrained ? std::optional(Method::dop853) : std::nullopt;
+    return choice;
 }
 
 double longest_step(const RunOptions& wishes, const Start& start) {

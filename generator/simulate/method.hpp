@@ -22,11 +22,14 @@
 ///
 /// With constraints, dop853 goes on where the steps of taylor become very short, as at flat poses of linkages.
 /// Runs that begin with dop853 or verner98 below 3e-4 go over to taylor where the lengths of their steps show that
-/// it is faster (series_pace.hpp). Where the series has to be compiled, which takes longer than most runs, it is
+/// it is faster (taylor_switch.hpp). What this predicts is multiplied by what is known of the registers of this
+/// processor, and runs of more than some ten milliseconds try the methods first (method_trial.hpp), unless
+/// RunOptions::tuning is false. Where the series has to be compiled, which takes longer than most runs, it is
 /// taken below 1e-10 alone; with constraints of position that and verner98 below 1e-12. Methods that choose their
 /// steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
 
 #include "alembert/ode/integrate.hpp"
+#include "alembert/ode/method_trial.hpp"
 #include "analysis/derive/derived.hpp"
 #include "simulate/options.hpp"
 
@@ -37,6 +40,9 @@ struct MethodChoice {
     std::optional<Method> when_stiff = {};
     std::optional<Method> when_stuck = {};
     std::optional<Method> when_cheaper = {};
+    /// Methods that a long run tries before it begins (method_trial.hpp).
+    std::vector<Method> rivals = {};
+    Slowness slowness = {};     ///< of this processor, as the choice has assumed
     std::string why = {};       ///< empty if the method was given
     std::string sundials = {};  ///< a method of SUNDIALS that replaces `method` (sundials_methods.hpp)
 };
@@ -49,6 +55,9 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& der
 MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program,
                         const Start& start);
 
+/// The choice after a trial has found the fastest method. `constrained`: whether the scene has constraints.
+MethodChoice after_trial(MethodChoice choice, const MethodTrial& trial, bool constrained);
+
 /// Whether the motion has a power series that is short enough to be compiled.
 bool has_short_series(const Program& program, const Derived& derived);
 
@@ -58,7 +67,7 @@ inline constexpr double loosest_of_verner98 = 3e-5;
 /// verner98.
 Method without_series(double tolerance, double loosest = loosest_of_verner98);
 
-/// The predicted time of one right-hand side, ns (pace.hpp).
+/// The predicted time of one right-hand side, ns (cost_model.hpp).
 double effort_of(const Program& program);
 
 /// The longest allowed step in s; 0 means no bound.

@@ -24,6 +24,9 @@ struct RunOptions {
     long budget = 10'000'000;             ///< the most right-hand sides
     bool fast_math = false;               ///< whether the compiler may reorder sums
     bool estimate = true;                 ///< whether to estimate the error by a second run
+    /// Whether the choice of a method takes account of this processor; otherwise it follows from counts alone, and
+    /// is the same on every machine.
+    bool tuning = true;
     bool regularize = false;  ///< whether steps are short where the potential is deep (regularization.hpp)
     bool reactions = false;   ///< whether to add the reactions of joints to every row
     /// Columns that the table of rows must have. A missing one is reported before the motion is integrated.

@@ -105,6 +105,7 @@ public:
         contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
             if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
         };
+        try_methods(modes);
         integrate(modes);
         if (watch.near_lock && !run_.is_regularized && take_quaternion(modes)) {
             watch = fresh_watch();
@@ -173,10 +174,30 @@ private:
             from, options);
     }
 
+    std::vector<double> initial_state() const {
+        std::vector<double> initial = start_.q;
+        initial.insert(initial.end(), first_.qdot.begin(), first_.qdot.end());
+        if (!energy_.conserved) initial.push_back(0);
+        return initial;
+    }
+
+    /// A long run takes the method that is the fastest in its first part.
+    void try_methods(LoadedModes& modes) {
+        if (choice_.rivals.empty() || has_jumps(run_.mechanism) || run_.is_regularized) return;
+        ContactMode& mode = modes({}).contact;
+        if (mode.switching) return;
+        const std::optional<MethodTrial> trial = method_trial(mode.system, initial_state(), options_,
+                                                              choice_.rivals, {.begin = [&] { modes.begin(); }});
+        if (!trial) return;
+        choice_ = after_trial(choice_, *trial, !run_.mechanism.constraints.empty());
+        options_.method = choice_.method;
+        options_.when_stuck = choice_.when_stuck;
+        options_.when_cheaper = choice_.when_cheaper;
+        if (needs_series(choice_.method) && !mode.system.rhs.series) mode.system.rhs = mode.system.with_series();
+    }
+
     void integrate(LoadedModes& modes) {
-        initial_ = start_.q;
-        initial_.insert(initial_.end(), first_.qdot.begin(), first_.qdot.end());
-        if (!energy_.conserved) initial_.push_back(0);
+        initial_ = initial_state();
         if (run_.is_regularized) need_depth(modes({}).contact.system.rhs, start_.t, initial_);
         const auto making = [&] {
             return modes.compiled().seconds().derive + modes.compiled().seconds().emit +

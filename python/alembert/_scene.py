@@ -161,20 +161,21 @@ class Scene:
 
     def simulate(self, duration=None, tolerance=None, *, method="", step=None, sample=None, max_step=None,
                  budget=10_000_000, estimate=True, reactions=False, by="", fast_math=False, poincare="", code="",
-                 sensitivity=(), sensitivity_of=(), regularize=False):
+                 sensitivity=(), sensitivity_of=(), regularize=False, tuning=True):
         """Integrates the motion. What is not given is the scene's. With `poincare="theta1 = 0"` the result has the
         crossings of that section. `code` is "memory" or "compiled" where the choice is not left to the program. With
         `sensitivity=["theta1", "l1"]` the result has the derivatives of the state at the end by these:
         `run.sensitivity["values"][i][k]` is that of component `["of"][i]` by `["by"][k]`; `sensitivity_of` names the
         components and outputs that are wanted, and where these are few, the adjoint equations give them. With
-        `regularize=True` steps are short where the potential is deep."""
+        `regularize=True` steps are short where the potential is deep. With `tuning=False` the method is chosen by counts
+        alone, as on every other machine."""
         given = numbers(duration=duration, tolerance=tolerance, step=step, sample=sample, max_step=max_step)
         return Run((self.text, self.name, by, method, list(given.values()), int(budget), estimate, reactions, fast_math,
-                    poincare, code, list(sensitivity), list(sensitivity_of), regularize))
+                    poincare, code, list(sensitivity), list(sensitivity_of), regularize, tuning))
 
     def sweep(self, values, duration=None, tolerance=None, *, grid=True, method="", step=None, max_step=None,
               budget=10_000_000, by="", threads=0, code="", fast_math=False, along=(), reduce=(), samples=None,
-              sampling="sobol", seed=0, path=None, resume=False):
+              sampling="sobol", seed=0, path=None, resume=False, tuning=True):
         """The ends of many motions: `values={"l1": numpy.linspace(1, 2, 100), "theta1": [0.1, 0.2]}` gives a Swept of
         shape (100, 2); with grid=False the lists have one length and are taken side by side. With `samples=1000` the
         values are ranges, {"l1": (1, 2)}, in which as many points lie; `sampling` and `seed` are the command's.
@@ -185,7 +186,7 @@ class Scene:
         if resume and place is None:
             raise ValueError("resume=True needs path=…: what is done is kept beside this file")
         given, shape = points_of(values, grid) if samples is None else samples_of(values, samples, sampling, seed)
-        given.update(method=method, by=by, threads=threads, code=code, budget=int(budget), fast_math=fast_math,
+        given.update(method=method, by=by, threads=threads, code=code, budget=int(budget), fast_math=fast_math, tuning=tuning,
                      along=listed(along), reduce=listed(reduce), path=place, resume=resume,
                      **numbers(duration=duration, tolerance=tolerance, step=step, max_step=max_step))
         try:
@@ -200,10 +201,10 @@ class Scene:
         return Swept(_json.loads(json), text, columns, table, shape)
 
     def bench(self, duration=None, *, method="", max_step=None, budget=10_000_000, code="", run_seconds=2.0,
-              reference_seconds=30.0, peers=False, by=""):
+              reference_seconds=30.0, peers=False, by="", tuning=True):
         """Speed against error of every method; `.figure` is the diagram. `run_seconds` is the processor time of the
         slowest runs that are of interest, `reference_seconds` that of each of the reference's methods."""
-        return self._ask("bench", Drawn, method=method, code=code, peers=peers, by=by, budget=int(budget),
+        return self._ask("bench", Drawn, method=method, code=code, peers=peers, by=by, budget=int(budget), tuning=tuning,
                          **numbers(duration=duration, max_step=max_step, run_seconds=run_seconds,
                                    reference_seconds=reference_seconds))
 

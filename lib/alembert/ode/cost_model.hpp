@@ -2,29 +2,40 @@
 #pragma once
 
 /// What steps cost, as it is predicted from counts, so that two methods can be compared during a run and the
-/// comparison is the same on every machine and in every run.
+/// comparison is the same in every run.
 ///
 ///     Pace pace;
 ///     pace.add(t, evaluations * effort_of_evaluation(rhs, method));    // after each accepted step
 ///     pace.effort_per_time();                                          // over the last steps; 0 at first
 ///
-/// Efforts are nanoseconds of the processor on which they were fitted (by `bench`, on systems of 2 to 50
-/// components): a right-hand side takes Rhs::effort; an explicit method adds 13 + 0.15 n for each evaluation of n
-/// components, and an implicit one 30 n, in which are its linear algebra and its Jacobians.
+/// Efforts are nanoseconds of a processor with AVX-512 (Zen 5), on which they were fitted (by `bench`, on systems
+/// of 2 to 50 components): a right-hand side takes Rhs::effort; an explicit method adds 13 + 0.15 n for each
+/// evaluation of n components, and an implicit one 30 n, in which are its linear algebra and its Jacobians. The
+/// step of a power series has its own law (taylor.hpp). On other processors both are longer, and not by the same
+/// factor (Rhs::slowness): with AVX2 the sums of products, which are most of a series, have half as wide
+/// registers.
 
 #include <array>
 #include <cstddef>
 
+#include "alembert/native/cpu_features.hpp"
 #include "alembert/ode/methods.hpp"
 #include "alembert/ode/rhs.hpp"
 
 namespace alembert {
 
+/// By the registers that a processor has. With AVX2 alone 41 systems took 2.2 and 3.7 times as long on an AMD
+/// EPYC (tests/bench/step_costs.sh); after that their times differ from the laws by 19 % and 10 % (root mean
+/// square).
+inline constexpr Slowness slowness_of(Registers kind) {
+    return kind == Registers::wide ? Slowness{.evaluation = 2.2, .series = 3.7} : Slowness{};
+}
+
 /// The effort of one evaluation within a step. `method` must not be a Taylor series, which has its own
 /// (taylor.hpp).
 inline double effort_of_evaluation(const Rhs& rhs, bool implicit) {
     const double n = rhs.dimension, call = rhs.effort > 0 ? rhs.effort : 10 * n;
-    return call + (implicit ? 30 * n : 13 + 0.15 * n);
+    return rhs.slowness.evaluation * (call + (implicit ? 30 * n : 13 + 0.15 * n));
 }
 
 /// The evaluations of a usual step of radau.

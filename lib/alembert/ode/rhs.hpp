@@ -29,6 +29,11 @@ namespace alembert {
 
 struct Canonical;
 
+/// How many times as long as on the processor of cost_model.hpp evaluations and power series take on this one.
+struct Slowness {
+    double evaluation = 1, series = 1;
+};
+
 struct Rhs {
     using Call = void (*)(const void* context, double t, const double* state, double* rate);
 
@@ -38,8 +43,9 @@ struct Rhs {
     std::shared_ptr<const void> context = {};
     Call call = nullptr;
     Call jacobian = nullptr;  ///< writes dimension² numbers
-    double effort = 0;   ///< about how many ns a call takes, predicted from counts (cost_model.hpp); 0: not known
-    Series series = {};  ///< of the motion, for the method taylor; may be missing
+    double effort = 0;  ///< about how many ns a call takes, predicted from counts (cost_model.hpp); 0: not known
+    Slowness slowness = {};  ///< by which predicted times are multiplied
+    Series series = {};      ///< of the motion, for the method taylor; may be missing
     std::shared_ptr<const Canonical> canonical =
         {};  ///< momenta and constraints, for the method rattle (hamiltonian.hpp); may be missing
     Call energies =

@@ -87,8 +87,9 @@ public:
           slopes_(size_),
           shrink_(static_cast<std::size_t>(ends.controlled)),
           work_(static_cast<std::size_t>(ends.rhs.series.workspace) + 8) {
-        effort_ = taylor_effort(ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost, order_,
-                                static_cast<int>(size_));
+        effort_ = ends.rhs.slowness.series * taylor_effort(ends.rhs.series.module->order_cost,
+                                                           ends.rhs.series.module->product_cost, order_,
+                                                           static_cast<int>(size_));
         void* start = work_.data();
         std::size_t room = work_.size() * sizeof(double);
         aligned_ = static_cast<double*>(std::align(64, room - 64, start, room));

@@ -26,7 +26,8 @@ bool SeriesPace::is_worth_making(const Place& here, double effort_per_time) {
     }
     const alembert_series_table& costs = *rhs_->series.module;
     const int order = taylor_order(tolerance_, costs.order_cost, costs.product_cost);
-    until_ = taylor_effort(costs.order_cost, costs.product_cost, order, rhs_->dimension) / share;
+    until_ = rhs_->slowness.series * taylor_effort(costs.order_cost, costs.product_cost, order, rhs_->dimension) /
+             share;
     return here.spent >= until_;
 }
 

@@ -99,6 +99,7 @@ Rhs system_of(const OwnTime& own) {
     result.names = own.rhs.names;
     if (!result.names.empty()) result.names.emplace_back("t");
     result.effort = 2 * own.rhs.effort;
+    result.slowness = own.rhs.slowness;
     if (own.form == Regularization::canonical) result.drift = OwnTime::drift_of;
     return result;
 }
