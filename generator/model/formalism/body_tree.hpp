@@ -139,10 +139,11 @@ RigidBody<S> operator+(const RigidBody<S>& a, const RigidBody<S>& b) {
 /// A tree with the same motion but fewer inertia parameters: mass on the axis of a turning joint can be assigned
 /// to the parent, and so can all second moments of a sliding body, because turning (sliding) does not move them
 /// relative to the parent (Gautier & Khalil, IEEE Trans. Robotics and Automation 6 (1990) 368: base parameters).
-/// There remain xx yy xy yz zx of P, and the components of h perpendicular to the axis.
+/// There remain xx yy xy yz zx of P, and the components of h perpendicular to the axis. Only the links before
+/// `end` are changed.
 template <typename S>
-BodyTree<S> regrouped(BodyTree<S> tree) {
-    for (int j = tree.size() - 1; j >= 0; --j) {
+BodyTree<S> regrouped(BodyTree<S> tree, int end) {
+    for (int j = end - 1; j >= 0; --j) {
         TreeLink<S>& link = tree.links[j];
         RigidBody<S> moved;
         if (link.slides) {
@@ -165,6 +166,10 @@ BodyTree<S> regrouped(BodyTree<S> tree) {
         parent = parent + moved;
     }
     return tree;
+}
+template <typename S>
+BodyTree<S> regrouped(const BodyTree<S>& tree) {
+    return regrouped(tree, tree.size());
 }
 
 }  // namespace alembert

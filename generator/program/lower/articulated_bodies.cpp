@@ -22,7 +22,8 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
     const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) {
         return Symbolic(program, lowering(e));
     };
-    const BodyTree<Symbolic> tree = regrouped(reframed(program, dressed<Symbolic>(joints, form.axes, z, value)));
+    const BodyTree<Symbolic> bare = reframed(program, dressed<Symbolic>(joints, form.axes, z, value)),
+                             tree = regrouped(bare);
     const JointChange change(program, joints, form.axes, lowering);
     const auto nodes = [&](const std::vector<Symbolic>& list) {
         std::vector<int> result;
@@ -54,12 +55,12 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
     const std::vector<int> loads = change.loads(Q);
     if (form.solve == RecursionForm::Solve::articulated) {
         result.acceleration = change.accelerations(nodes(articulated_bodies(tree, bias.wrenches, symbols(loads))));
+    } else if (form.solve == RecursionForm::Solve::both_ends) {
+        result.acceleration = change.accelerations(nodes(from_both_ends(bare, symbols(loads))));
     } else {
         std::vector<int> f;
         for (std::size_t j = 0; j < n.size(); ++j) f.push_back(program.sum(0, {{1, loads[j]}, {-1, n[j]}}));
-        if (form.solve == RecursionForm::Solve::both_ends)
-            result.acceleration = change.accelerations(nodes(from_both_ends(tree, symbols(f))));
-        else if (const auto rates = solve_symmetric(program, lower, f))
+        if (const auto rates = solve_symmetric(program, lower, f))
             result.acceleration = change.accelerations(*rates);
     }
     return result;
