@@ -1,7 +1,9 @@
 // Runs commands by the program as WebAssembly and by the native one, and compares what they give.
 //   node web/compare.mjs NATIVE FOLDER [--chromium] [--scenes PATTERN] [--verbs NAME,NAME]
 // FOLDER has alembert.mjs and alembert.wasm. Everything must be the same, byte for byte, apart from
-//   - times that a run took ("seconds"), and what is said of the code that ran ("code", "threads", "side_by_side");
+//   - times that a run took ("seconds", "states_per_second"), and what is said of the code that ran ("code", "instructions",
+//     "threads", "side_by_side");
+//   - plots of rounding;
 //   - numbers: the one program multiplies and adds in one rounding and calculates with 64 bits where the other has two
 //     roundings and 113 bits, so that their last digits differ. `loose` says by how much, and why, for each verb.
 import { spawn, spawnSync } from "node:child_process";
@@ -83,16 +85,20 @@ function scene_text(file) {
 // Numbers as they stand in texts, JSON, tables and pages.
 const number = /(?<![\w.])-?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w.])/g;
 
-/// What is the same in both but for numbers, and the numbers.
+// A plot whose axis has ticks of 10⁻¹² or less shows rounding alone.
+const is_rounding = /·10<tspan[^>]*>-1[2-9]</;
+
+/// What is the same in both but for numbers, and the numbers. A zero is a number, because the other may have 1e-17.
 function taken_apart(text) {
     const numbers = [];
     const words = text
         .replace(/"seconds": *(\{[^}]*\}|[^,{}\n]*)/g, '"seconds": …')
-        .replace(/"(code|cached|threads|side_by_side)": *[^,{}\n]*/g, '"$1": …')
+        .replace(/"(code|instructions|cached|threads|side_by_side|states_per_second)": *[^,{}\n]*/g, '"$1": …')
+        .replace(/<svg[\s\S]*?<\/svg>/g, (plot) => (is_rounding.test(plot) ? "<svg>rounding</svg>" : plot))
         .replace(/sha256-[\w+\/=]*/g, "sha256-…") // of scripts and styles that hold the page's numbers
         .replace(/\d+(\.\d+)? (s|ms|µs)\b/g, "… s")
         .replace(number, (found) => {
-            if (/^-?\d{1,15}$/.test(found) && Math.abs(Number(found)) < 1000) return found;
+            if (/^-?\d{1,15}$/.test(found) && Math.abs(Number(found)) < 1000 && Number(found) !== 0) return found;
             numbers.push(Number(found));
             return "#";
         });

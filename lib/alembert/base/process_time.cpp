@@ -3,9 +3,12 @@
 
 #include <sys/resource.h>
 
+#include <chrono>
 #include <ctime>
 
 namespace alembert {
+
+#ifndef __EMSCRIPTEN__
 
 namespace {
 
@@ -33,5 +36,24 @@ double thread_seconds() {
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
+
+#else
+
+// An engine of WebAssembly tells no processor time. Its one thread does nothing else while the clock runs.
+
+double process_seconds() {
+    return thread_seconds();
+}
+
+double children_seconds() {
+    return 0;
+}
+
+double thread_seconds() {
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now().time_since_epoch();
+    return time.count();
+}
+
+#endif
 
 }  // namespace alembert
