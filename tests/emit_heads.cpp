@@ -9,12 +9,18 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
+#include "analysis/derive/derived.hpp"
 #include "codegen/emit/comment.hpp"
+#include "codegen/emit/emit.hpp"
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/reserved_words.hpp"
+#include "program/differentiate.hpp"
+#include "program/lower/lower.hpp"
+#include "program/tangent.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
 #include "simulate/emission.hpp"
@@ -154,6 +160,28 @@ TEST_CASE("emit: no name in emitted code is a keyword or a macro of the compiler
         CHECK(names.fresh(plain) == plain);
     CHECK(label_of(names.fresh("EI")) == "EI");
     CHECK(label_of("register_") == "register_");
+}
+
+TEST_CASE("emit: no name of a scene is that of an argument of an emitted function") {
+    const Scene scene = read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml"));
+    const Derived derived = alembert::derived(scene, {.use = Use::run});
+    const Program plain = lowered(derived).program;
+    const auto derivatives = differentiated(plain, {.parameters = true, .power = true});
+    REQUIRE(derivatives);
+    const std::regex function(R"(void \w+\(([^()]*)\))"), argument(R"((\w+)(?=,|$))");
+    std::set<std::string> found;
+    for (const Program& program : {derivatives->program, with_tangent(plain)})
+        for (const CodeLanguage language : {CodeLanguage::cpp, CodeLanguage::c}) {
+            const std::string text = emit(program, {.language = language}).text;
+            for (std::sregex_iterator f(text.begin(), text.end(), function), end; f != end; ++f) {
+                const std::string arguments = (*f)[1];
+                for (std::sregex_iterator a(arguments.begin(), arguments.end(), argument); a != end; ++a)
+                    found.insert((*a)[1]);
+            }
+        }
+    for (const char* const name : {"state", "par", "values", "direction", "change"})
+        CHECK_MESSAGE(found.contains(name), name);
+    for (const std::string& name : found) CHECK_MESSAGE(Names().fresh(name) != name, name);
 }
 
 TEST_CASE("emit: parameters with the names of macros and keywords give the rates of parameters with plain names") {

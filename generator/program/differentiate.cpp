@@ -9,6 +9,7 @@
 
 #include "alembert/base/random.hpp"
 #include "program/interpret.hpp"
+#include "program/motion_system.hpp"
 #include "program/partials.hpp"
 #include "program/solve.hpp"
 
@@ -17,29 +18,6 @@ namespace alembert {
 namespace {
 
 using Matrix = std::vector<std::vector<int>>;  ///< a matrix of nodes, row by row
-
-/// The system K (u', −λ) = b: K (lower triangle) and b.
-struct System {
-    std::vector<int> K, b;
-    int speeds = 0;
-    int size() const { return static_cast<int>(b.size()); }
-    int entry(int i, int j) const {
-        return i < j ? entry(j, i) : K[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
-    }
-};
-
-System system_of(Program& p) {
-    System s{.K = p.nodes_of(Group::mass), .b = p.nodes_of(Group::forcing)};
-    s.speeds = s.size();
-    const std::vector<int> rows = p.nodes_of(p.speeds.empty() ? Group::row : Group::speed_row),
-                           gamma = p.nodes_of(Group::gamma);
-    for (int k = 0; const int c : p.kept_constraints()) {
-        for (int i = 0; i < s.speeds; ++i) s.K.push_back(rows[static_cast<std::size_t>(c * s.speeds + i)]);
-        s.K.insert(s.K.end(), static_cast<std::size_t>(++k), p.number(0));
-    }
-    s.b.insert(s.b.end(), gamma.begin(), gamma.end());
-    return s;
-}
 
 /// Substitutes nodes for other nodes.
 class Substitution {
@@ -112,7 +90,7 @@ public:
 
     /// ∂(q', u')/∂inputs by way of R, with M u' from M or from T.
     std::optional<Matrix> implicit(const std::vector<int>& inputs, EliminationOrder order, bool by_energy) {
-        System system = system_of(p_);
+        MotionSystem system = motion_system(p_);
         const std::optional<Matrix> x = solve_for_sides(p_, system.K, {system.b}, system.speeds);
         if (!x) return std::nullopt;
         std::map<int, int> solved;
@@ -134,7 +112,7 @@ public:
                     terms.emplace_back(
                         -1, p_.product(1, {{system.entry(i, j), 1}, {unknown[static_cast<std::size_t>(j)], 1}}));
             } else {
-                terms.emplace_back(-1, row_times(system, i, unknown));
+                terms.emplace_back(-1, row_times(p_, system, i, unknown));
             }
             residuals.push_back(p_.sum(0, terms));
         }
@@ -265,7 +243,7 @@ private:
     std::vector<int> speeds() const { return {state_.begin() + n_, state_.end()}; }
 
     /// M z as the change of momentum along z, ∂(∂T/∂u)/∂u · z; nothing if numbers show that T has another M.
-    std::optional<std::vector<int>> inertia_by_energy(const System& system, const std::vector<int>& z) {
+    std::optional<std::vector<int>> inertia_by_energy(const MotionSystem& system, const std::vector<int>& z) {
         const int epsilon = p_.variable({Variable::Kind::unknown, first_unknown_ + system.size()});
         const auto momenta = of(p_.nodes_of(Group::kinetic), speeds(), EliminationOrder::reverse);
         if (!momenta) return std::nullopt;
@@ -282,7 +260,7 @@ private:
         for (const std::vector<int>& row : *slope) result.push_back(at_zero(row[0]));
 
         std::vector<int> by_matrix;
-        for (int i = 0; i < s_; ++i) by_matrix.push_back(row_times(system, i, z));
+        for (int i = 0; i < s_; ++i) by_matrix.push_back(row_times(p_, system, i, z));
         std::mt19937_64 random(1);
         const UniformReal<> unit(0.1, 0.9);
         for (int trial = 0; trial < 3; ++trial) {
@@ -305,14 +283,6 @@ private:
             if (!(difference <= 1e-9 * largest)) return std::nullopt;
         }
         return result;
-    }
-
-    /// Σ_j K_ij z_j over the given z.
-    int row_times(const System& system, int i, const std::vector<int>& z) {
-        std::vector<Program::Term> terms;
-        for (std::size_t j = 0; j < z.size(); ++j)
-            terms.emplace_back(1, p_.product(1, {{system.entry(i, static_cast<int>(j)), 1}, {z[j], 1}}));
-        return p_.sum(0, terms);
     }
 
     std::optional<Matrix> of(const std::vector<int>& outputs, const std::vector<int>& inputs,

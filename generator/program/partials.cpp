@@ -249,4 +249,24 @@ std::optional<std::vector<Partial>> partials(Program& program, std::span<const i
     return graph.result();
 }
 
+std::vector<int> tangents(Program& program, std::span<const int> outputs, const std::map<int, int>& direction) {
+    std::map<int, int> tangent = direction;  // of the nodes that the direction changes
+    Label label(program);
+    for (const int id : program.needed({outputs.begin(), outputs.end()})) {
+        if (direction.contains(id)) continue;
+        const std::vector<int> args = program[id].args;
+        std::vector<Program::Term> terms;
+        for (std::size_t k = 0; k < args.size(); ++k)
+            if (const auto found = tangent.find(args[k]); found != tangent.end())
+                terms.emplace_back(1, program.product(1, {{label(id, k), 1}, {found->second, 1}}));
+        if (!terms.empty()) tangent[id] = program.sum(0, terms);
+    }
+    std::vector<int> result;
+    for (const int id : outputs) {
+        const auto found = tangent.find(id);
+        result.push_back(found == tangent.end() ? program.number(0) : found->second);
+    }
+    return result;
+}
+
 }  // namespace alembert

@@ -20,6 +20,7 @@
 /// An input may be any node; the nodes before it count as constant. The derivatives of |x|, sign, min and max are
 /// right on either side of the kink, and the mean of both on it.
 
+#include <map>
 #include <optional>
 #include <span>
 
@@ -40,5 +41,10 @@ struct Partial {
 std::optional<std::vector<Partial>> partials(Program& program, std::span<const int> outputs,
                                              std::span<const int> inputs, EliminationOrder order,
                                              long budget = 400000, std::span<const int> stages = {});
+
+/// The derivatives of the outputs along one direction, Σ ∂output/∂x ẋ over the nodes x of `direction`, which maps
+/// each to the node of its ẋ. This is the forward mode with one direction, with as many operations as a few
+/// evaluations of the outputs, however many x there are (Griewank & Walther, §3.1).
+std::vector<int> tangents(Program& program, std::span<const int> outputs, const std::map<int, int>& direction);
 
 }  // namespace alembert

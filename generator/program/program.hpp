@@ -144,6 +144,7 @@ enum class Group : unsigned char {
     parameter_jacobian,
     power_gradient,
     value_gradient,  ///< differentiate.hpp
+    tangent,         ///< derivatives along a direction (tangent.hpp)
     event_impulse,   ///< the impulses of each event that has some, n for each
     function,        ///< results of functions of their own (named_function.hpp)
 };

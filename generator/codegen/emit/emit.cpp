@@ -122,18 +122,15 @@ private:
 
     void add_derivatives() {
         const std::vector<int> nodes = p_.nodes_of(Group::jacobian);
-        const SparseTask by_state = jacobian(p_), by_parameters = parameter_jacobian(p_),
-                         of_values = value_gradient(p_);
-        for (const SparseTask* part : {&by_state, &by_parameters, &of_values}) add(part->task);
+        const SparseTask by_state = jacobian(p_), by_parameters = parameter_jacobian(p_);
+        for (const SparseTask* part : {&by_state, &by_parameters}) add(part->task);
+        add(tangent(p_));
         file_.set("has_derivatives", !nodes.empty());
         file_.set("has_parameter_derivatives", !p_.nodes_of(Group::parameter_jacobian).empty());
         list("rows", wrapped_list(texts(by_state.rows)));
         list("columns", wrapped_list(texts(by_state.columns)));
         list("parameter_rows", wrapped_list(texts(by_parameters.rows)));
         list("parameter_columns", wrapped_list(texts(by_parameters.columns)));
-        list("value_rows", wrapped_list(texts(of_values.rows)));
-        list("value_columns", wrapped_list(texts(of_values.columns)));
-        number("value_entries", of_values.rows.size());
         number("entries", by_state.rows.size());
         number("parameter_entries", by_parameters.rows.size());
         number("derivative_operations", static_cast<std::size_t>(p_.count(nodes).total()));

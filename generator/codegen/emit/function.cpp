@@ -68,7 +68,7 @@ std::string place_of(const FunctionResult& result) {
 }
 
 std::set<std::string> used_in(const std::vector<Passage>& passages, const std::vector<ArrayInput>& items) {
-    constexpr const char* arrays[] = {"state", "rate", "par"};
+    constexpr const char* arrays[] = {"state", "rate", "par", "direction"};
     std::set<std::string> used;
     for (const Passage& passage : passages)
         for (const CodeStatement& statement : passage.statements)

@@ -23,7 +23,7 @@ constexpr std::array own{
     "abs", "sign", "pow", "atan2", "min", "max", "pi", "std", "main", "mass_forcing", "outputs_at", "events_at",
     "constraints_at", "multipliers_at", "position", "velocity", "rows", "pivots", "project", "gamma_at", "lambda",
     "table", "solver", "real2", "real4", "real8", "bits2", "bits4", "bits8", "sines", "sine", "cosine", "is_near",
-    "sines_near", "sines_far", "sincos_in", "restrict", "fabs"};
+    "sines_near", "sines_far", "sincos_in", "restrict", "fabs", "values", "direction", "change"};
 // clang-format on
 
 constexpr std::array<std::string_view, 25> greek{

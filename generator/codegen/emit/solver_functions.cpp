@@ -281,13 +281,16 @@ SparseTask parameter_jacobian(const Program& p) {
                   p, {{Group::parameter_jacobian, 0}}, p.parameters.size());
 }
 
-SparseTask value_gradient(const Program& p) {
-    return sparse({.name = "value_gradient",
-                   .about = "Derivatives of T, V, E, the power and the outputs by state, u' and parameters.",
-                   .arguments = {t, state, rate, par, to("values")},
-                   .goals = {},
-                   .results = {}},
-                  p, {{Group::value_gradient, 0}}, p.coordinates.size() + 2 * speeds_of(p) + p.parameters.size());
+FunctionTask tangent(const Program& p) {
+    FunctionTask task{
+        .name = "tangent",
+        .about = "The change of rate, then of T, V, E, the power and the outputs, along a direction.",
+        .arguments = {t, state, rate, par, {"const Real*", "direction"}, to("change")},
+        .goals = {},
+        .results = {}};
+    add_results(task.results, p, Group::tangent, "change");
+    task.goals = unnamed("Derivatives", task.results);
+    return task;
 }
 
 }  // namespace alembert

@@ -36,7 +36,8 @@ struct SparseTask {
 };
 SparseTask jacobian(const Program& program);
 SparseTask parameter_jacobian(const Program& program);
-/// Derivatives of energies and outputs; without results unless they were asked for (DerivativeWishes::values).
-SparseTask value_gradient(const Program& program);
+
+/// The derivatives along a direction; without results unless the program has them (program/tangent.hpp).
+FunctionTask tangent(const Program& program);
 
 }  // namespace alembert

@@ -8,7 +8,7 @@
 namespace alembert {
 
 std::string ArrayInput::source() const {
-    constexpr const char* arrays[] = {"state", "rate", "par"};
+    constexpr const char* arrays[] = {"state", "rate", "par", "direction"};
     return fmt::format("{}[{}]", arrays[static_cast<int>(array)], place);
 }
 
@@ -29,6 +29,9 @@ Vocabulary::Vocabulary(const Program& program, CodeLanguage language)
         a_.push_back(names_.fresh(q.empty() ? u_.back() + "_dot" : q + "_ddot"));
     }
     for (const Quantity& par : p_.parameters) par_.push_back(names_.fresh(par.name));
+    for (int id = 0; id < p_.size(); ++id)
+        if (const Variable& x = p_[id].variable; p_[id].op == Op::variable && x.kind == Variable::Kind::unknown)
+            unknown_[x.index] = names_.fresh(fmt::format("direction_{}", x.index));
     find_constants();
 }
 
@@ -82,6 +85,7 @@ std::map<int, std::string> Vocabulary::variables() const {
                 leaves[id] = a_[i];
                 break;
             case Variable::Kind::unknown:
+                leaves[id] = unknown_.at(node.variable.index);
                 break;
         }
     }
@@ -96,6 +100,7 @@ std::map<int, std::string> Vocabulary::leaves() const {
 
 std::vector<ArrayInput> Vocabulary::inputs(const std::map<int, int>& uses, bool rates_needed) const {
     std::vector<char> q(q_.size(), 0), u(u_.size(), rates_needed ? 1 : 0), a(a_.size(), 0), par(par_.size(), 0);
+    std::set<int> direction;
     for (const auto& [id, count] : uses) {
         const Node& node = p_[id];
         if (node.op != Op::variable || constant_names_.contains(id)) continue;
@@ -113,8 +118,10 @@ std::vector<ArrayInput> Vocabulary::inputs(const std::map<int, int>& uses, bool 
             case Variable::Kind::acceleration:
                 a[i] = 1;
                 break;
-            case Variable::Kind::time:
             case Variable::Kind::unknown:
+                direction.insert(node.variable.index);
+                break;
+            case Variable::Kind::time:
                 break;
         }
     }
@@ -127,6 +134,7 @@ std::vector<ArrayInput> Vocabulary::inputs(const std::map<int, int>& uses, bool 
     add(q_, q, ArrayInput::Array::state, 0);
     add(u_, u, ArrayInput::Array::state, n_);
     add(a_, a, ArrayInput::Array::rate, n_);
+    for (const int place : direction) items.push_back({unknown_.at(place), ArrayInput::Array::direction, place});
     add(par_, par, ArrayInput::Array::par, 0);
     for (std::size_t k = 0; k < constants_.size(); ++k)
         if (uses.contains(constants_[k]))

@@ -18,7 +18,7 @@ namespace alembert {
 
 /// A name that a function takes from one of its arrays.
 struct ArrayInput {
-    enum class Array { state, rate, par };  ///< each array is declared separately
+    enum class Array { state, rate, par, direction };  ///< each array is declared separately
     std::string name;
     Array array;
     int place;
@@ -53,6 +53,7 @@ private:
     int n_, s_;
     Names names_;
     std::vector<std::string> q_, u_, a_, par_;
+    std::map<int, std::string> unknown_;  ///< the direction of program/tangent.hpp, by place
     std::vector<int> constants_;
     std::map<int, std::string> constant_names_;
 };

@@ -45,7 +45,7 @@ Json as_json(const FunctionalUnit& unit, const std::string& path) {
     result["parameters"] = names_of_kind(unit, UnitKind::parameter);
     result["fixed_parameters"] = names_of_kind(unit, UnitKind::tied_parameter);
     result["event_indicators"] = names_of_kind(unit, UnitKind::event);
-    result["directional_derivatives"] = unit.has_derivatives;
+    result["directional_derivatives"] = true;
     return result;
 }
 
@@ -60,8 +60,6 @@ std::string as_text(const FunctionalUnit& unit, const std::string& path) {
     say_on(page, "parameters  {}\n", listed(names_of_kind(unit, UnitKind::parameter)));
     if (const auto fixed = names_of_kind(unit, UnitKind::tied_parameter); !fixed.empty())
         say_on(page, "fixed       {}\n", listed(fixed));
-    if (!unit.has_derivatives)
-        page += say("without directional derivatives: they would be too long to be written out\n");
     return page;
 }
 

@@ -100,27 +100,24 @@ private:
     }
 
     void add_interfaces() {
-        const char* const derivatives = m_.has_derivatives ? "true" : "false";
         if (!is_2_) {
             add("  <ModelExchange modelIdentifier=\"{}\" canGetAndSetFMUState=\"true\" "
                 "canSerializeFMUState=\"true\" "
-                "providesDirectionalDerivatives=\"{}\" needsCompletedIntegratorStep=\"true\"/>\n",
-                name_, derivatives);
+                "providesDirectionalDerivatives=\"true\" needsCompletedIntegratorStep=\"true\"/>\n",
+                name_);
             add("  <CoSimulation modelIdentifier=\"{}\" canGetAndSetFMUState=\"true\" "
                 "canSerializeFMUState=\"true\" "
-                "providesDirectionalDerivatives=\"{}\" canHandleVariableCommunicationStepSize=\"true\"/>\n",
-                name_, derivatives);
+                "providesDirectionalDerivatives=\"true\" canHandleVariableCommunicationStepSize=\"true\"/>\n",
+                name_);
             return;
         }
         const std::string files = fmt::format(
             "    <SourceFiles>\n      <File name=\"{0}.c\"/>\n      <File name=\"{0}_fmu.c\"/>\n    "
             "</SourceFiles>\n",
             name_);
-        const std::string abilities = fmt::format(
+        const std::string abilities =
             " canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\" "
-            "canSerializeFMUstate=\"true\" "
-            "providesDirectionalDerivative=\"{}\"",
-            derivatives);
+            "canSerializeFMUstate=\"true\" providesDirectionalDerivative=\"true\"";
         add("  <ModelExchange modelIdentifier=\"{}\"{}>\n{}  </ModelExchange>\n", name_, abilities, files);
         add("  <CoSimulation modelIdentifier=\"{}\" canHandleVariableCommunicationStepSize=\"true\" "
             "canInterpolateInputs=\"true\"{}>\n{}  </CoSimulation>\n",

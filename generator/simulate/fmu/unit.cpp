@@ -21,6 +21,10 @@ constexpr const char *folder_2 = "aarch64-linux", *folder_3 = "aarch64-linux";
 constexpr const char *folder_2 = "linux64", *folder_3 = "x86_64-linux";
 #endif
 
+/// Statements; a longer function is written in parts. A unit is compiled once, by whoever waits for it, and its
+/// master takes the time between calls: so parts begin earlier than in solvers (program/processor.hpp).
+constexpr std::size_t longest_function = 1000;
+
 /// 32 digits as {8-4-4-4-12}.
 std::string in_groups(const std::string& digits) {
     std::string result = "{";
@@ -39,7 +43,8 @@ FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options
     FunctionalUnit unit{unit_model(std::move(scene), options.by)};
     unit.version = options.version;
     unit.platform = options.version == 2 ? folder_2 : folder_3;
-    const Source equations = emit(unit.program, {.language = CodeLanguage::c});
+    const Source equations =
+        emit(unit.program, {.language = CodeLanguage::c, .longest_function = longest_function});
     unit.name = equations.file.substr(0, equations.file.size() - 2);
     unit.variables = unit_variables(unit);
     Fingerprint print;

@@ -5,9 +5,9 @@
 
 #include "analysis/state/assemble.hpp"
 #include "base/language/say.hpp"
-#include "program/differentiate.hpp"
 #include "program/lower/lower.hpp"
 #include "program/switches.hpp"
+#include "program/tangent.hpp"
 #include "simulate/first_accelerations.hpp"
 #include "simulate/sides.hpp"
 
@@ -46,17 +46,13 @@ void add_impulses(Program& program, const UnitModel& model) {
         program.roots.push_back({Group::event_impulse, "", node});
 }
 
-/// The program with its signs held, and with derivatives where these are short enough.
+/// The program with its signs held, and with its derivatives.
 void complete(UnitModel& model, Program program) {
     if (const std::optional<Switched> held = switched(program)) {
         model.signs = static_cast<int>(held->frictions.size());
         program = held->program;
     }
-    if (auto derivatives = differentiated(program, {.parameters = true, .values = true, .budget = 100'000})) {
-        model.has_derivatives = true;
-        program = std::move(derivatives->program);
-    }
-    model.program = program.canonical();
+    model.program = with_tangent(program).canonical();
 }
 
 }  // namespace
@@ -88,6 +84,7 @@ UnitModel unit_model(Scene scene, const std::string& by) {
     add_impulses(program, model);
     complete(model, std::move(program));
     model.start.parameters.resize(model.program.parameters.size(), 1);
+    model.start.unknown.resize(direction_size(model.program), 0);
     model.duration = start.duration;
     model.tolerance = start.tolerance;
     model.sample = start.sample;

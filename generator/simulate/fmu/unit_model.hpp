@@ -4,7 +4,8 @@
 /// The equations of a functional mock-up unit, with the numbers at which it starts.
 ///
 ///     const UnitModel model = unit_model(read_scene("scenes/textbook/cart_pole.toml"), "");
-///     model.program;                     // for emit; its last parameters are those of inputs, then signs
+///     model.program;                     // for emit, with its tangent; its last parameters are those of inputs,
+///     then signs
 ///
 /// Functions with kinks (abs, sign, min, max) have a sign that is held between events, as in program/switches.hpp.
 /// Events whose impulses change the rates have these as roots of Group::event_impulse.
@@ -21,9 +22,8 @@ struct UnitModel : Derived {
     std::vector<FreeInput> inputs = {};
     std::string input_time = {};  ///< as in FreeInputs
     Program program = {};
-    int signs = 0;                 ///< parameters that hold a sign, the last of the program
-    bool has_derivatives = false;  ///< whether the program has the groups of program/differentiate.hpp
-    State<double> start = {};      ///< q, u, t and all parameters
+    int signs = 0;             ///< parameters that hold a sign, the last of the program
+    State<double> start = {};  ///< q, u, t, all parameters, and the direction of the tangent as unknowns
     std::vector<bool> tied =
         {};  ///< of the first parameters, those that keep their values (analysis/state/left_out.hpp)
     double duration = 0, tolerance = 0, sample = 0;

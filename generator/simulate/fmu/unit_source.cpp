@@ -109,9 +109,7 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     has("energy", energy(p)), has("outputs_at", outputs_at(p)), has("events_at", events_at(p));
     has("multipliers_at", multipliers_at(p)), has("constraints_at", constraints_at(p));
     has("project", project(p)), has("impulses_at", impulses_at(p));
-    has("parameter_jacobian", parameter_jacobian(p).task), has("value_gradient", value_gradient(p).task);
     file.set("projection", projection_text(p, CodeLanguage::c));
-    file.set("has_derivatives", !jacobian(p).task.results.empty());
     const auto rendered = [&file](std::string_view shape) {
         return kainjow::mustache::mustache{std::string(shape)}.render(file);
     };

@@ -315,9 +315,11 @@ std::string shared_object(const std::vector<CSource>& files, const CompileOption
     std::vector<std::string> command = find_compiler(options.compiler);
     const Leftover folder(new_private_folder());
     const std::string there = folder.path().string(), object = (folder.path() / "unit.so").string();
-    for (const char* flag :
-         {"-std=c99", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math",
-          "-fvisibility=hidden", "-nostdlib", "-s", "-Wl,--build-id=none", "-pipe"})
+    std::size_t size = 0;
+    for (const CSource& file : files) size += file.text.size();
+    for (const char* flag : {"-std=c99", "-shared", "-fPIC", size > large_source ? "-O1" : "-O2",
+                             "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden",
+                             "-nostdlib", "-s", "-Wl,--build-id=none", "-pipe"})
         command.emplace_back(flag);
     command.push_back("-ffile-prefix-map=" + there + "=.");
     for (const CSource& file : files) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The linear system K (u', −λ) = b of a program, with K = [M Aᵀ; A 0] and b = (f, γ).
+///
+///     const MotionSystem system = motion_system(program);
+///     solve_for_sides(program, system.K, {system.b}, system.speeds);
+
+#include <vector>
+
+#include "program/program.hpp"
+
+namespace alembert {
+
+struct MotionSystem {
+    std::vector<int> K;  ///< nodes of the lower triangle, row by row
+    std::vector<int> b;
+    int speeds = 0;  ///< the number of u', which come first; the multipliers that are kept follow
+
+    int size() const { return static_cast<int>(b.size()); }
+    int entry(int i, int j) const {
+        return i < j ? entry(j, i) : K[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
+    }
+};
+
+/// The program must have its mass matrix (Group::mass); zeros are added to it where K has them.
+MotionSystem motion_system(Program& program);
+
+/// Σ_j K_ij z_j over the given z, the first unknowns.
+int row_times(Program& program, const MotionSystem& system, int i, const std::vector<int>& z);
+
+}  // namespace alembert
