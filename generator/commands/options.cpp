@@ -40,7 +40,7 @@ std::vector<SharedOption> all_options() {
         {"--budget", values::count, say("evaluations of one motion, at most"), positive},
         {"--code", values::code, say("auto (default); memory: no compiler; compiled")},
         {"--fast-math", nullptr, say("let the compiler reorder sums")},
-        {"!--no-tuning", nullptr, say("choose the method by counts alone, not for this processor")},
+        {"!--no-tuning", nullptr, say("choose the method by counts alone")},
         {"!--no-motion", nullptr, say("leaves the motion out")},
     };
 }

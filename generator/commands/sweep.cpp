@@ -250,8 +250,7 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
                             say("statistics instead of rows: min,max,mean,median,0.95"))
                 .type_name(values::statistics);
             verb.add_flag("--resume", options.resume, say("go on with a sweep to -o that was interrupted"));
-            verb.add_option("--chunk", options.chunk,
-                            say("motions that a process takes at once; default: by time"))
+            verb.add_option("--chunk", options.chunk, say("motions that a process takes at once"))
                 .type_name(values::count)
                 .between(1, 1'000'000'000);
             verb.take("--svg", options.svg, say("SVG picture: lines over one quantity, maps over two"));

@@ -116,6 +116,7 @@ public:
         add_seconds(modes);
         watch.is_over = true;
         settle_account(watch);
+        refuse_start_without_energy(free);
         if (wishes_.estimate && !run_.motion.failure && options_.duration > 0) estimate(modes, free, watch);
         if (sensitivities_ && !run_.motion.failure)
             run_.sensitivity = sensitivities_->at(run_.motion.final_time(), options_.tolerance, wishes_.budget);
@@ -253,6 +254,21 @@ private:
         for (const ContactEvent& event : run_.motion.contacts) account.impact_loss += event.energy_loss;
         for (const EventRecord& event : run_.motion.events) account.impulse_work += event.energy_gain;
         run_.constraint_drift = watch.constraint_drift;
+    }
+
+    /// Where the energy divides by zero at the start, the equations do too, although what they divide may be 0
+    /// there as well, so that rates come out.
+    void refuse_start_without_energy(const LoadedMode& free) {
+        if (run_.motion.failure || !run_.energy.conserved || !std::isnan(run_.energy.drift)) return;
+        State<double> state = first_;
+        state.parameters = with_held_parameters(std::move(state.parameters), free.program);
+        if (!failure_at(free.derived, state)) return;
+        run_.motion.failure = Failure{
+            .kind = FailureKind::not_a_number,
+            .message = say("the energy, which should stay, is not a number: its terms are too large or too "
+                           "small for double precision, or divide by zero"),
+            .time = start_.t,
+            .state = initial_};
     }
 
     void estimate(LoadedModes& modes, const LoadedMode& free, const Watch& watch) {
