@@ -28,8 +28,8 @@ constexpr std::string_view javascript[] = {
     "instanceof", "let", "null", "of", "package", "super", "undefined", "var", "with", "yield", "NaN", "Infinity",
     "Math", "Float64Array", "PI", "defaults", "parameter_values", "initial_state", "initial_time", "values"};
 
-// The macros of the headers of C, C++ and POSIX that do not have the shape of a macro (glibc 2.36 to 2.42, GCC 12 to 14), and
-// some that compilers for other systems define.
+// The macros of the headers of C, C++ and POSIX that do not have the shape of a macro (those of Debian 12 and 13),
+// further functions of C23, and some that compilers for other systems define.
 constexpr std::string_view macros[] = {
     "B0", "B1000000", "B110", "B115200", "B1152000", "B1200", "B134", "B150", "B1500000", "B1800", "B19200",
     "B200", "B2000000", "B230400", "B2400", "B2500000", "B300", "B3000000", "B3500000", "B38400", "B4000000",

@@ -21,8 +21,8 @@ constexpr const char *folder_2 = "aarch64-linux", *folder_3 = "aarch64-linux";
 constexpr const char *folder_2 = "linux64", *folder_3 = "x86_64-linux";
 #endif
 
-/// Statements; a longer function is written in parts. Parts take a sixth longer to run, and large ones half the
-/// time to compile, for which whoever makes a unit waits: so they begin earlier than in solvers
+/// Statements; a longer function is written in parts. Whoever makes a unit waits for the compiler, whose time
+/// grows with the square of a function's length, so parts begin earlier than in solvers
 /// (program/processor.hpp).
 constexpr std::size_t longest_function = 1000;
 
