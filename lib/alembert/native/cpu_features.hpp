@@ -12,8 +12,10 @@ namespace alembert {
 #if defined(__x86_64__)
 #define ALEMBERT_WIDE __attribute__((target("avx2,fma")))
 #define ALEMBERT_WIDEST __attribute__((target("avx512f,avx512dq,avx512vl,fma")))
+#define ALEMBERT_WIDE_SAME_DIGITS __attribute__((target("avx2")))  // no product is added in one rounding
 #else
 #define ALEMBERT_WIDE
+#define ALEMBERT_WIDE_SAME_DIGITS
 #define ALEMBERT_WIDEST
 #endif
 

@@ -12,11 +12,13 @@
 ///
 /// If the misfit is too large or `finish` fails, `worst_component` gives the component responsible.
 ///
-/// Arrays are padded to whole lanes of two numbers, which every x86-64 has (lanes of four cost 10 % more without
-/// AVX). The weights are compile-time constants, so that zeros cost nothing. Nothing is allocated after
-/// construction. The state is kept as a sum of two doubles, y + rest (Kahan 1965; Hairer, Lubich, Wanner,
-/// Geometric Numerical Integration, §VIII.5): a small step then loses nothing of what it adds to a large state,
-/// and the stages start from both numbers.
+/// The sums of stages are made in registers of four numbers where the processor has them (AVX2), else of two,
+/// which every x86-64 has; the digits are the same, since each number has its own sum in the order of the weights,
+/// and no product is added in one rounding. Arrays are padded to whole packs of eight numbers. The weights are
+/// compile-time constants, so that zeros cost nothing. Nothing is allocated after construction. The state is kept
+/// as a sum of two doubles, y + rest (Kahan 1965; Hairer, Lubich, Wanner, Geometric Numerical Integration,
+/// §VIII.5): a small step then loses nothing of what it adds to a large state, and the stages start from both
+/// numbers.
 ///
 /// The error is measured component by component as |error_i| / max(1, |y_i|). The largest value is the misfit,
 /// which is compared with the tolerance. With two rows of error weights (dop853) the error is that of Hairer,
@@ -32,6 +34,7 @@
 #include <utility>
 #include <vector>
 
+#include "alembert/native/cpu_features.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "alembert/ode/tableau.hpp"
 
@@ -46,10 +49,20 @@ void repeat(Function function) {
     all(std::make_integer_sequence<int, count>());
 }
 
+/// A register of so many numbers, each for itself, so that the type is known where a template is read.
+template <int width>
+struct RegisterOf;
+template <>
+struct RegisterOf<2> {
+    using Lane [[gnu::vector_size(2 * sizeof(double)), gnu::may_alias]] = double;
+};
+template <>
+struct RegisterOf<4> {
+    using Lane [[gnu::vector_size(4 * sizeof(double)), gnu::may_alias]] = double;
+};
+
 template <const auto& tableau>
 class Step {
-    using Lane [[gnu::vector_size(16)]] = double;
-    static constexpr int width = 2;
     static constexpr int stages = tableau.stages;
 
 public:
@@ -61,21 +74,22 @@ public:
     Step(const Rhs& rhs, double t, std::span<const double> state, double /*tolerance*/ = 0)
         : rhs_(rhs),
           controlled_(rhs.dimension - rhs.extra),
-          blocks_((rhs.dimension + width - 1) / width),
-          stride_(std::max(blocks_, short_stride)),
-          memory_(static_cast<std::size_t>(stride_) * (arrays + tableau.all_stages + tableau.dense_rows)),
+          stride_(std::max((rhs.dimension + pack - 1) / pack * pack, short_stride)),
+          memory_(static_cast<std::size_t>(stride_ / pack) * (arrays + tableau.all_stages + tableau.dense_rows)),
           t_(t) {
-        std::copy(state.begin(), state.end(), real(y_));
-        rate_into(0, t, real(y_));
+        if (rhs.dimension > least_for_wide && registers() != Registers::usual)
+            kernel_ = {attempt_256, misfit_256, finite_256};
+        std::copy(state.begin(), state.end(), array(y_));
+        rate_into(0, t, array(y_));
     }
 
     double time() const { return t_; }
     double end_time() const { return end_; }
     double length() const { return h_; }
-    const double* state() const { return real(y_); }
-    const double* rate() const { return real(stage(0)); }
-    const double* end_state() const { return real(next_); }
-    const double* end_rate() const { return real(stage(stages)); }
+    const double* state() const { return array(y_); }
+    const double* rate() const { return stage(0); }
+    const double* end_state() const { return array(next_); }
+    const double* end_rate() const { return stage(stages); }
     long evaluations() const { return evaluations_; }
     const Rhs& rhs() const { return rhs_; }
 
@@ -84,55 +98,41 @@ public:
         end_ = end;
         h_ = end - t_;
         looked_into_ = false;
-        repeat<stages - 1>([&]<int i>() { this->template evaluate<i + 1>(); });
-        add_up();
-        if constexpr (last_stage_in_estimate()) rate_into(stages, end_, real(next_));
+        kernel_.attempt(*this);
     }
 
-    double misfit() {
-        with_stride([&](auto stride) {
-            for (int b = 0; b < blocks_; ++b) lanes(error_)[b] = squared_error(stride, b);
-        });
-        double largest = 0;
-        double zero = 0;
-        for (int i = 0; i < controlled_; ++i) {
-            const double square = real(error_)[i];
-            largest = std::max(largest, square);
-            zero += (square + end_state()[i]) * 0;
-        }
-        return zero == 0 ? std::sqrt(largest) : HUGE_VAL;
-    }
+    double misfit() { return kernel_.misfit(*this); }
 
     /// Moves the end of an attempted step onto its constraints and evaluates the rate again. A component that does
     /// not move keeps its compensation of rounding.
     void correct(const std::function<void(double t, double* state)>& project) {
-        std::copy_n(real(next_), rhs_.dimension, real(trial_));
-        project(end_, real(next_));
+        std::copy_n(array(next_), rhs_.dimension, array(trial_));
+        project(end_, array(next_));
         bool moved = false;
         for (int i = 0; i < rhs_.dimension; ++i) {
-            if (real(next_)[i] == real(trial_)[i]) continue;
-            real(next_rest_)[i] = 0;
+            if (array(next_)[i] == array(trial_)[i]) continue;
+            array(next_rest_)[i] = 0;
             moved = true;
         }
         if (!moved) return;
-        if constexpr (last_stage_in_estimate()) rate_into(stages, end_, real(next_));
+        if constexpr (last_stage_in_estimate()) rate_into(stages, end_, array(next_));
     }
 
     /// Evaluates the rate at the end, unless the estimate has needed it already; false if it is not finite.
     bool finish() {
-        if constexpr (!last_stage_in_estimate()) rate_into(stages, end_, real(next_));
-        return is_finite(end_rate()) && is_finite(end_state());
+        if constexpr (!last_stage_in_estimate()) rate_into(stages, end_, array(next_));
+        return kernel_.is_finite(*this, stage(stages)) && kernel_.is_finite(*this, array(next_));
     }
 
-    bool starts_finite() const { return is_finite(rate()); }
+    bool starts_finite() const { return kernel_.is_finite(*this, rate()); }
 
     /// The component responsible for a failure: the first that is not finite at the start or the attempted end,
     /// else the one with the largest error.
     int worst_component() const {
         int worst = 0;
         for (int i = 0; i < controlled_; ++i) {
-            if (!std::isfinite(rate()[i] + end_state()[i] + end_rate()[i] + real(error_)[i])) return i;
-            if (real(error_)[i] > real(error_)[worst]) worst = i;
+            if (!std::isfinite(rate()[i] + end_state()[i] + end_rate()[i] + array(error_)[i])) return i;
+            if (array(error_)[i] > array(error_)[worst]) worst = i;
         }
         return worst;
     }
@@ -140,7 +140,7 @@ public:
     void advance() {
         std::swap(y_, next_);
         std::swap(rest_, next_rest_);
-        std::copy_n(stage(stages), blocks_, stage(0));
+        std::copy_n(stage(stages), rhs_.dimension, stage(0));
         t_ = end_;
     }
 
@@ -148,21 +148,34 @@ public:
     void interpolate(double theta, double* out) {
         if (!looked_into_) look_into();
         const double other = 1 - theta;
-        const double* const r[2] = {real(difference_), real(stage(tableau.all_stages))};
+        const double* const r[2] = {array(difference_), stage(tableau.all_stages)};
         for (int i = 0; i < rhs_.dimension; ++i) {
             const double r1 = r[0][i];
             const double r2 = h_ * rate()[i] - r1;
             const double r3 = r1 - h_ * end_rate()[i] - r2;
             double tail = 0;
             for (int row = tableau.dense_rows - 1; row >= 0; --row)
-                tail = r[1][row * stride_ * width + i] + (row % 2 == 0 ? theta : other) * tail;
+                tail = r[1][row * stride_ + i] + (row % 2 == 0 ? theta : other) * tail;
             out[i] = state()[i] + theta * (r1 + other * (r2 + theta * (r3 + other * tail)));
         }
     }
 
 private:
-    static constexpr int short_stride = 8;  ///< in lanes; enough for up to 16 components
-    static constexpr int arrays = 7;        ///< y, rest, next, next_rest, and the three below
+    static constexpr int pack = 8;           ///< to so many numbers arrays are padded
+    static constexpr int short_stride = 16;  ///< enough for up to 16 components
+    static constexpr int least_for_wide =
+        8;                            ///< with fewer components what is fresh comes sooner from narrow ones
+    static constexpr int arrays = 7;  ///< y, rest, next, next_rest, and the three below
+    struct alignas(pack * sizeof(double)) Pack {
+        double of[pack] = {};
+    };
+
+    /// What depends on the registers of the processor.
+    struct Kernel {
+        void (*attempt)(Step&);
+        double (*misfit)(Step&);
+        bool (*is_finite)(const Step&, const double* values);
+    };
 
     static constexpr bool last_stage_in_estimate() {
         for (const auto& row : tableau.e)
@@ -170,87 +183,16 @@ private:
         return false;
     }
 
-    Lane* lanes(int array) { return memory_.data() + array * stride_; }
-    const Lane* lanes(int array) const { return memory_.data() + array * stride_; }
-    double* real(int array) { return reinterpret_cast<double*>(lanes(array)); }
-    const double* real(int array) const { return reinterpret_cast<const double*>(lanes(array)); }
-    Lane* stage(int i) { return lanes(arrays + i); }
-    const Lane* stage(int i) const { return lanes(arrays + i); }
-    static double* real(Lane* lane) { return reinterpret_cast<double*>(lane); }
-    static const double* real(const Lane* lane) { return reinterpret_cast<const double*>(lane); }
+    double* array(int which) { return reinterpret_cast<double*>(memory_.data()) + which * stride_; }
+    const double* array(int which) const {
+        return reinterpret_cast<const double*>(memory_.data()) + which * stride_;
+    }
+    double* stage(int i) { return array(arrays + i); }
+    const double* stage(int i) const { return array(arrays + i); }
 
     void rate_into(int i, double t, const double* state) {
-        rhs_(t, state, real(stage(i)));
+        rhs_(t, state, stage(i));
         ++evaluations_;
-    }
-
-    /// Calls `function` with the number of lanes from one array to the next. For short states that is a constant,
-    /// so that the distances of all stages from the first are constants, which saves 5 % of the time of a free
-    /// body.
-    template <class Function>
-    void with_stride(Function function) const {
-        if (stride_ == short_stride)
-            function(std::integral_constant<int, short_stride>());
-        else
-            function(stride_);
-    }
-
-    /// Σ_j weight_j k_j, j running over the non-zero weights, `k` being the first stage; `Row` gives weight j as a
-    /// constant.
-    template <class Row>
-    static Lane weighted_sum(const Lane* k, auto stride) {
-        constexpr int count = terms_of<Row>();
-        if constexpr (count == 0)
-            return Lane{};
-        else
-            return sum_of_terms<Row>(k, stride, std::make_integer_sequence<int, count - 1>());
-    }
-
-    /// The terms in one expression, because a function for each would take long to compile.
-    template <class Row, int... n>
-    static Lane sum_of_terms(const Lane* k, auto stride, std::integer_sequence<int, n...>) {
-        constexpr std::array<int, sizeof...(n) + 1> at = places_of<Row, sizeof...(n) + 1>();
-        constexpr std::array<double, sizeof...(n) + 1> weight{Row::weight(at[0]), Row::weight(at[n + 1])...};
-        Lane sum = weight[0] * k[at[0] * stride];
-        (..., (sum += weight[n + 1] * k[at[n + 1] * stride]));
-        return sum;
-    }
-
-    template <class Row>
-    static constexpr int terms_of() {
-        int count = 0;
-        for (int j = 0; j < tableau.all_stages; ++j) count += Row::weight(j) != 0 ? 1 : 0;
-        return count;
-    }
-
-    /// The stages whose weights are not zero.
-    template <class Row, std::size_t count>
-    static constexpr std::array<int, count> places_of() {
-        std::array<int, count> places{};
-        std::size_t next = 0;
-        for (int j = 0; j < tableau.all_stages; ++j)
-            if (Row::weight(j) != 0) places[next++] = j;
-        return places;
-    }
-
-    /// rest + h Σ_j weight_j k_j. Stage `fresh` has just been written, and everything else waits for it. Therefore
-    /// it enters last and is loaded number by number: a load of two numbers would wait until both have reached the
-    /// cache.
-    template <class Row, int fresh>
-    static Lane change(const Lane* k, auto stride, double h, const Lane& rest) {
-        const Lane known = h * weighted_sum<Without<Row, fresh>>(k, stride) + rest;
-        constexpr double weight = Row::weight(fresh);
-        if constexpr (weight == 0) return known;
-        return known + (h * weight) * loaded_singly(reinterpret_cast<const double*>(k + fresh * stride));
-    }
-
-    static Lane loaded_singly(const double* from) {
-        double first = from[0], second = from[1];
-#if defined(__x86_64__)
-        __asm__("" : "+x"(first));
-        __asm__("" : "+x"(second));
-#endif
-        return Lane{first, second};
     }
 
     template <int i>
@@ -270,77 +212,238 @@ private:
         static constexpr double weight(int j) { return tableau.d[i][static_cast<std::size_t>(j)]; }
     };
 
-    template <int i>
-    void evaluate() {
-        with_stride([&](auto stride) {
-            const Lane *const k = stage(0), *const y = lanes(y_), *const rest = lanes(rest_);
-            Lane* const trial = lanes(trial_);
-            const double h = h_;
-            for (int b = 0; b < blocks_; ++b)
-                trial[b] = y[b] + change<StageRow<i>, i - 1>(k + b, stride, h, rest[b]);
-        });
-        rate_into(i, t_ + tableau.c[i] * h_, real(trial_));
+    template <class Row>
+    static constexpr int terms_of() {
+        int count = 0;
+        for (int j = 0; j < tableau.all_stages; ++j) count += Row::weight(j) != 0 ? 1 : 0;
+        return count;
     }
 
-    /// y₁ + rest₁ = y + (rest + h Σ b_j k_j), by Knuth's exact sum of two doubles.
-    void add_up() {
-        with_stride([&](auto stride) {
-            for (int b = 0; b < blocks_; ++b) {
-                const Lane y = lanes(y_)[b];
-                const Lane added = change<StageRow<stages>, stages - 1>(stage(0) + b, stride, h_, lanes(rest_)[b]);
-                const Lane next = y + added;
-                const Lane taken = next - y;
-                lanes(next_)[b] = next;
-                lanes(next_rest_)[b] = (y - (next - taken)) + (added - taken);
-            }
-        });
+    /// The stages whose weights are not zero.
+    template <class Row, std::size_t count>
+    static constexpr std::array<int, count> places_of() {
+        std::array<int, count> places{};
+        std::size_t next = 0;
+        for (int j = 0; j < tableau.all_stages; ++j)
+            if (Row::weight(j) != 0) places[next++] = j;
+        return places;
     }
 
-    static Lane larger(const Lane& a, const Lane& b) {
-        return a > b ? a : b;
-    }
+    /// The arithmetic on registers of so many numbers. No function returns one: how that is done depends on the
+    /// processor. `stride`, from one array to the next, is counted in registers.
+    template <int width>
+    struct Work {
+        using Lane = typename RegisterOf<width>::Lane;
+        static Lane* lanes(Step& s, int which) { return reinterpret_cast<Lane*>(s.array(which)); }
+        static const Lane* lanes(const double* from) { return reinterpret_cast<const Lane*>(from); }
+        static int blocks(const Step& s) { return (s.rhs_.dimension + width - 1) / width; }
 
-    /// The squared errors of block b, in units of max(1, |y_i|).
-    Lane squared_error(auto stride, int b) const {
-        const Lane y = lanes(y_)[b], next = lanes(next_)[b];
-        const Lane scale = h_ / larger(larger(larger(y, -y), larger(next, -next)), Lane{} + 1);
-        const Lane error = scale * weighted_sum<ErrorRow<0>>(stage(0) + b, stride);
-        const Lane square = error * error;
-        if constexpr (tableau.error_rows == 1) {
-            return square;
-        } else {
-            const Lane third = scale * weighted_sum<ErrorRow<1>>(stage(0) + b, stride);
-            constexpr double tiny = 1e-300;  // 0/0 is 0
-            return square * (square / (square + 0.01 * third * third + tiny));
+        /// Calls `function` with the stride. For short states that is a constant, so that the distances of all
+        /// stages from the first are constants, which saves 5 % of the time of a free body.
+        template <class Function>
+        [[gnu::always_inline]] static void with_stride(const Step& s, Function function) {
+            if (s.stride_ == short_stride)
+                function(std::integral_constant<int, short_stride / width>());
+            else
+                function(s.stride_ / width);
         }
-    }
 
-    bool is_finite(const double* values) const {
-        double zero = 0;
-        for (int i = 0; i < controlled_; ++i) zero += values[i] * 0;
-        return zero == 0;
+        /// Σ_j weight_j k_j, j running over the non-zero weights, `k` being the first stage; `Row` gives weight j
+        /// as a constant. The terms in one expression, because a function for each would take long to compile.
+        template <class Row, int... n>
+        [[gnu::always_inline]] static void sum_of_terms(const Lane* k, auto stride, Lane& sum,
+                                                        std::integer_sequence<int, n...>) {
+            constexpr std::array<int, sizeof...(n) + 1> at = places_of<Row, sizeof...(n) + 1>();
+            constexpr std::array<double, sizeof...(n) + 1> weight{Row::weight(at[0]), Row::weight(at[n + 1])...};
+            sum = weight[0] * k[at[0] * stride];
+            (..., (sum += weight[n + 1] * k[at[n + 1] * stride]));
+        }
+
+        template <class Row>
+        [[gnu::always_inline]] static void weighted_sum(const Lane* k, auto stride, Lane& sum) {
+            constexpr int count = terms_of<Row>();
+            if constexpr (count == 0)
+                sum = Lane{};
+            else
+                sum_of_terms<Row>(k, stride, sum, std::make_integer_sequence<int, count - 1>());
+        }
+
+        /// rest + h Σ_j weight_j k_j. Stage `fresh` has just been written, and everything else waits for it.
+        /// Therefore it enters last and is loaded number by number: a load of several numbers would wait until all
+        /// of them have reached the cache.
+        template <class Row, int fresh>
+        [[gnu::always_inline]] static void change(const Lane* k, auto stride, double h, const Lane& rest,
+                                                  Lane& sum) {
+            weighted_sum<Without<Row, fresh>>(k, stride, sum);
+            sum = h * sum + rest;
+            constexpr double weight = Row::weight(fresh);
+            if constexpr (weight != 0) {
+                Lane last;
+                load_singly(reinterpret_cast<const double*>(k + fresh * stride), last);
+                sum += (h * weight) * last;
+            }
+        }
+
+        [[gnu::always_inline]] static void load_singly(const double* from, Lane& lane) {
+            if constexpr (width == 2)
+                lane = Lane{loaded(from), loaded(from + 1)};
+            else
+                lane = Lane{loaded(from), loaded(from + 1), loaded(from + 2), loaded(from + 3)};
+        }
+        [[gnu::always_inline]] static double loaded(const double* from) {
+            double one = *from;
+#if defined(__x86_64__)
+            __asm__("" : "+x"(one));
+#endif
+            return one;
+        }
+
+        template <int i>
+        [[gnu::always_inline]] static void evaluate(Step& s) {
+            with_stride(
+                s, [&](auto stride) __attribute__((always_inline)) {
+                    const Lane *const k = lanes(s, arrays), *const y = lanes(s, s.y_),
+                                      *const rest = lanes(s, s.rest_);
+                    Lane* const trial = lanes(s, trial_);
+                    const double h = s.h_;
+                    for (int b = 0; b < blocks(s); ++b) {
+                        Lane sum;
+                        change<StageRow<i>, i - 1>(k + b, stride, h, rest[b], sum);
+                        trial[b] = y[b] + sum;
+                    }
+                });
+            s.rate_into(i, s.t_ + tableau.c[i] * s.h_, s.array(trial_));
+        }
+
+        template <int... i>
+        [[gnu::always_inline]] static void evaluate_all(Step& s, std::integer_sequence<int, i...>) {
+            (evaluate<i + 1>(s), ...);
+        }
+
+        [[gnu::always_inline]] static void attempt(Step& s) {
+            evaluate_all(s, std::make_integer_sequence<int, stages - 1>());
+            add_up(s);
+            if constexpr (last_stage_in_estimate()) s.rate_into(stages, s.end_, s.array(s.next_));
+        }
+
+        /// y₁ + rest₁ = y + (rest + h Σ b_j k_j), by Knuth's exact sum of two doubles.
+        [[gnu::always_inline]] static void add_up(Step& s) {
+            with_stride(
+                s, [&](auto stride) __attribute__((always_inline)) {
+                    const Lane *const k = lanes(s, arrays), *const start = lanes(s, s.y_),
+                                      *const rest = lanes(s, s.rest_);
+                    Lane *const next = lanes(s, s.next_), *const next_rest = lanes(s, s.next_rest_);
+                    for (int b = 0; b < blocks(s); ++b) {
+                        Lane added;
+                        change<StageRow<stages>, stages - 1>(k + b, stride, s.h_, rest[b], added);
+                        const Lane y = start[b], sum = y + added, taken = sum - y;
+                        next[b] = sum;
+                        next_rest[b] = (y - (sum - taken)) + (added - taken);
+                    }
+                });
+        }
+
+        /// The squared errors of block b, in units of max(1, |y_i|).
+        [[gnu::always_inline]] static void squared_error(Step& s, auto stride, int b, Lane& square) {
+            const Lane *const k = lanes(s, arrays) + b, y = lanes(s, s.y_)[b], next = lanes(s, s.next_)[b];
+            const Lane size = y > -y ? y : -y, next_size = next > -next ? next : -next, one = Lane{} + 1;
+            Lane scale = size > next_size ? size : next_size;
+            scale = s.h_ / (scale > one ? scale : one);
+            Lane error;
+            weighted_sum<ErrorRow<0>>(k, stride, error);
+            error = scale * error;
+            square = error * error;
+            if constexpr (tableau.error_rows == 2) {
+                Lane third;
+                weighted_sum<ErrorRow<tableau.error_rows - 1>>(k, stride, third);
+                third = scale * third;
+                constexpr double tiny = 1e-300;  // 0/0 is 0
+                square = square * (square / (square + 0.01 * third * third + tiny));
+            }
+        }
+
+        [[gnu::always_inline]] static double misfit(Step& s) {
+            Lane* const errors = lanes(s, error_);
+            with_stride(
+                s, [&](auto stride) __attribute__((always_inline)) {
+                    for (int b = 0; b < blocks(s); ++b) squared_error(s, stride, b, errors[b]);
+                });
+            const Lane* const next = lanes(s, s.next_);
+            Lane most{}, zeros{};
+            int i = 0;
+            for (; i + width <= s.controlled_; i += width) {
+                const Lane square = errors[i / width];
+                most = square > most ? square : most;
+                zeros += (square + next[i / width]) * 0;
+            }
+            double largest = 0, zero = 0;
+            for (int j = 0; j < width; ++j) largest = std::max(largest, most[j]), zero += zeros[j];
+            for (; i < s.controlled_; ++i) {
+                largest = std::max(largest, s.array(error_)[i]);
+                zero += (s.array(error_)[i] + s.end_state()[i]) * 0;
+            }
+            return zero == 0 ? std::sqrt(largest) : HUGE_VAL;
+        }
+
+        [[gnu::always_inline]] static bool is_finite(const Step& s, const double* values) {
+            Lane zeros{};
+            int i = 0;
+            for (; i + width <= s.controlled_; i += width) zeros += lanes(values)[i / width] * 0;
+            double zero = 0;
+            for (int j = 0; j < width; ++j) zero += zeros[j];
+            for (; i < s.controlled_; ++i) zero += values[i] * 0;
+            return zero == 0;
+        }
+    };
+
+    static void attempt_any(Step& step) {
+        Work<2>::attempt(step);
+    }
+    static double misfit_any(Step& step) {
+        if constexpr (has_fixed_step)
+            return 0;
+        else
+            return Work<2>::misfit(step);
+    }
+    static bool finite_any(const Step& step, const double* values) {
+        return Work<2>::is_finite(step, values);
+    }
+    ALEMBERT_WIDE_SAME_DIGITS static void attempt_256(Step& step) {
+        Work<4>::attempt(step);
+    }
+    ALEMBERT_WIDE_SAME_DIGITS static double misfit_256(Step& step) {
+        if constexpr (has_fixed_step)
+            return 0;
+        else
+            return Work<4>::misfit(step);
+    }
+    ALEMBERT_WIDE_SAME_DIGITS static bool finite_256(const Step& step, const double* values) {
+        return Work<4>::is_finite(step, values);
     }
 
     /// Computes the additional stages and the rows of dense output.
     void look_into() {
-        repeat<tableau.all_stages - stages - 1>([&]<int i>() { this->template evaluate<stages + 1 + i>(); });
-        for (int b = 0; b < blocks_; ++b) {
-            lanes(difference_)[b] = (lanes(next_)[b] - lanes(y_)[b]) + (lanes(next_rest_)[b] - lanes(rest_)[b]);
-            repeat<tableau.dense_rows>([&]<int i>() { this->template dense_row<i>(b); });
-        }
+        using Narrow = Work<2>;
+        repeat<tableau.all_stages - stages - 1>(
+            [&]<int i>() { Narrow::template evaluate<stages + 1 + i>(*this); });
+        for (int i = 0; i < rhs_.dimension; ++i)
+            array(difference_)[i] = (array(next_)[i] - array(y_)[i]) + (array(next_rest_)[i] - array(rest_)[i]);
+        repeat<tableau.dense_rows>([&]<int row>() {
+            auto* const out = Narrow::lanes(*this, arrays + tableau.all_stages + row);
+            for (int b = 0; b < Narrow::blocks(*this); ++b) {
+                typename Narrow::Lane sum;
+                Narrow::template weighted_sum<DenseRow<row>>(Narrow::lanes(*this, arrays) + b, stride_ / 2, sum);
+                out[b] = h_ * sum;
+            }
+        });
         looked_into_ = true;
-    }
-
-    template <int i>
-    void dense_row(int b) {
-        stage(tableau.all_stages + i)[b] = h_ * weighted_sum<DenseRow<i>>(stage(0) + b, stride_);
     }
 
     const Rhs& rhs_;
     int controlled_;  ///< number of components under error control
-    int blocks_;
-    int stride_;  ///< number of lanes from one array to the next
-    std::vector<Lane> memory_;
+    int stride_;      ///< numbers from one array to the next
+    std::vector<Pack> memory_;
+    Kernel kernel_{attempt_any, misfit_any, finite_any};
     int y_ = 0, rest_ = 1, next_ = 2,
         next_rest_ = 3;  ///< places of the arrays in memory; those of y and next are exchanged after a step
     static constexpr int trial_ = 4, difference_ = 5, error_ = 6;
