@@ -63,6 +63,9 @@ int main(int argc, char** argv) {
 #ifdef ALEMBERT_ODEINT
                  peers::odeint(),
 #endif
+#ifdef ALEMBERT_HAIRER
+                 peers::hairer(),
+#endif
                  std::vector<peers::Peer>{}})
             all.insert(all.end(), some.begin(), some.end());
         for (const peers::Peer& peer : all) {
@@ -88,6 +91,7 @@ int main(int argc, char** argv) {
                             times[times.size() / 2], answer.evaluations, answer.steps, answer.failed ? 1 : 0);
                 for (const double y : answer.state) std::printf(" %.17g", y);
                 std::printf("\n");
+                std::fflush(stdout);  // Fortran writes its messages there, too
                 if (answer.failed || sum > most) break;  // a stricter tolerance takes longer
             }
         }

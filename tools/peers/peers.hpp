@@ -32,5 +32,6 @@ struct Peer {
 std::vector<Peer> sundials();
 std::vector<Peer> gsl();
 std::vector<Peer> odeint();
+std::vector<Peer> hairer();
 
 }  // namespace alembert::peers
