@@ -48,4 +48,16 @@ inline const char* name_of(Registers kind) {
 #endif
 }
 
+/// A register of so many numbers. Each for itself, so that its type is known where a template is read.
+template <int width>
+struct RegisterOf;
+template <>
+struct RegisterOf<2> {
+    using Lane [[gnu::vector_size(2 * sizeof(double)), gnu::may_alias]] = double;
+};
+template <>
+struct RegisterOf<4> {
+    using Lane [[gnu::vector_size(4 * sizeof(double)), gnu::may_alias]] = double;
+};
+
 }  // namespace alembert

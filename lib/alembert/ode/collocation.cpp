@@ -176,17 +176,6 @@ RadauTable made(int s) {
         for (int i = 0; i < s; ++i) V(i, k) /= last;
     }
     const Square<Complex> back = inverted(V);
-    const auto column = [&](int k) {
-        Eigen::VectorXcd result(s);
-        for (int i = 0; i < s; ++i) result[i] = std::complex<double>(V(i, k));
-        return result;
-    };
-    const auto row = [&](int k) {
-        Eigen::VectorXcd result(s);
-        for (int i = 0; i < s; ++i) result[i] = std::complex<double>(back(k, i));
-        return result;
-    };
-
     RadauTable table;
     table.stages = s;
     table.c.resize(s);
@@ -195,13 +184,19 @@ RadauTable made(int s) {
     table.inverse = rounded(inverse);
     table.to_polynomial = rounded(inverted(shifted));
     table.lambda = static_cast<double>(mu[0].real());
-    table.v_real = column(0).real();
-    table.back_real = row(0).real();
-    for (int k = 1; k < s; k += 2) {
-        table.mu.emplace_back(mu[static_cast<std::size_t>((k + 1) / 2)]);
-        table.v_complex.push_back(column(k));
-        table.back_complex.push_back(row(k));
+    table.decoupling.resize(s, s);
+    table.coupling.resize(s, s);
+    for (int i = 0; i < s; ++i) {
+        table.decoupling(0, i) = static_cast<double>(back(0, i).real());
+        table.coupling(i, 0) = static_cast<double>(V(i, 0).real());
+        for (int k = 1; k < s; k += 2) {
+            table.decoupling(k, i) = static_cast<double>(back(k, i).real());
+            table.decoupling(k + 1, i) = static_cast<double>(back(k, i).imag());
+            table.coupling(i, k) = static_cast<double>(2 * V(i, k).real());
+            table.coupling(i, k + 1) = static_cast<double>(-2 * V(i, k).imag());
+        }
     }
+    for (int k = 1; k < s; k += 2) table.mu.emplace_back(mu[static_cast<std::size_t>((k + 1) / 2)]);
     // The weights follow from Σ b̂_i c_i^k = 1/(k+1), minus γ₀ for k = 0; h f_i = Σ (A⁻¹)_ij Z_j, and the end is
     // Z_s.
     const Square<Real> weights = inverted(powers);

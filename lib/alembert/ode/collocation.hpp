@@ -34,9 +34,13 @@ struct RadauTable {
     Eigen::MatrixXd inverse;        ///< A⁻¹
     Eigen::MatrixXd to_polynomial;  ///< gives p₀, p₁ … of Z = θ(p₀ + p₁θ + …) from the Z_i
     double lambda = 0;
-    Eigen::VectorXd v_real, back_real;     ///< the eigenvector of λ, and its row of V⁻¹
     std::vector<std::complex<double>> mu;  ///< one eigenvalue of each complex pair
-    std::vector<Eigen::VectorXcd> v_complex, back_complex;
+    /// V⁻¹: its row of λ, then those of each μ_k, real and imaginary part, those of the conjugates being known
+    /// from them.
+    Eigen::MatrixXd decoupling;
+    /// V: the eigenvector of λ, then for each μ_k twice the real part of its eigenvector and minus twice the
+    /// imaginary part, so that Z = coupling · W with real and imaginary parts of W one after the other.
+    Eigen::MatrixXd coupling;
 };
 
 /// The table for 3, 5 or 7 stages.

@@ -49,18 +49,6 @@ void repeat(Function function) {
     all(std::make_integer_sequence<int, count>());
 }
 
-/// A register of so many numbers, each for itself, so that the type is known where a template is read.
-template <int width>
-struct RegisterOf;
-template <>
-struct RegisterOf<2> {
-    using Lane [[gnu::vector_size(2 * sizeof(double)), gnu::may_alias]] = double;
-};
-template <>
-struct RegisterOf<4> {
-    using Lane [[gnu::vector_size(4 * sizeof(double)), gnu::may_alias]] = double;
-};
-
 template <const auto& tableau>
 class Step {
     static constexpr int stages = tableau.stages;

@@ -23,6 +23,7 @@
 
 #include "alembert/ode/collocation.hpp"
 #include "alembert/ode/newton.hpp"
+#include "alembert/ode/radau_stages.hpp"
 #include "alembert/ode/shifted_linear_solver.hpp"
 #include "alembert/ode/step_size.hpp"
 
@@ -41,16 +42,15 @@ public:
           jacobian_(n_),
           real_(n_),
           complex_((most - 1) / 2, Shifted<std::complex<double>>(n_)),
-          real_side_(n_),
-          real_solution_(n_),
-          complex_side_(n_),
-          state_(static_cast<std::size_t>(n_)),
+          stages_(n_),
+          side_(n_),
+          solution_(n_),
+          complex_side_(static_cast<std::size_t>(n_)),
+          complex_solution_(complex_side_.size()),
+          state_(complex_side_.size()),
           rate_(state_.size()),
-          delta_(state_.size()),
           control_(estimate_order) {
-        complex_solution_.assign(complex_.size(), Eigen::VectorXcd(n_));
         take(fewest);
-        poly_ = Eigen::MatrixXd::Zero(n_, fewest);
         power_ = Eigen::VectorXd::Ones(n_) / std::sqrt(static_cast<double>(n_));
     }
 
@@ -75,37 +75,36 @@ public:
             factorize(h);
             find_rounding(ends);
         }
-        forecast(h);
+        stages_.forecast(h / step_of_polynomial_);
         if (!solve(ends, h)) {
             has_jacobian_ = has_jacobian_ && is_fresh_;
             was_rejected_ = true;
             step_down();
             return false;
         }
-        for (int i = 0; i < n_; ++i) change[i] = z_(i, s_ - 1);
+        std::copy_n(stages_.change(s_ - 1), n_, change);
         estimate(ends, h);
         return true;
     }
 
     void finished(const Ends& ends) {
         // The end of the step is where a projection has moved it.
-        for (int i = 0; i < n_; ++i) {
-            const auto k = static_cast<std::size_t>(i);
-            z_(i, s_ - 1) = (ends.next[k] - ends.y[k]) + (ends.next_rest[k] - ends.rest[k]);
-        }
-        kept_.noalias() = z_ * table_->to_polynomial.transpose();
+        double* const last = stages_.change(s_ - 1);
+        for (std::size_t k = 0; k < state_.size(); ++k)
+            last[k] = (ends.next[k] - ends.y[k]) + (ends.next_rest[k] - ends.rest[k]);
+        stages_.find_polynomial();
     }
 
     void interpolate(const Ends& ends, double theta, double* out) const {
         for (int i = 0; i < n_; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            out[i] = ends.y[k] + (value(kept_, i, theta) + ends.rest[k]);
+            out[i] = ends.y[k] + (stages_.between(i, theta) + ends.rest[k]);
         }
     }
 
     void advance(const Ends& ends) {
-        poly_ = kept_;
-        step_of_poly_ = ends.h;
+        stages_.advance();
+        step_of_polynomial_ = ends.h;
         is_fresh_ = false;
         if (ratio_ > 1e-3) has_jacobian_ = false;
         was_rejected_ = is_first_ = false;
@@ -134,10 +133,7 @@ private:
     void take(int stages) {
         s_ = wanted_ = stages;
         table_ = &radau_table(stages);
-        z_.resize(n_, s_);
-        f_.resize(n_, s_);
-        side_.resize(n_, s_);
-        kept_.resize(n_, s_);
+        stages_.take(*table_);
         control_ = StepSize(s_ + 1);
         factored_for_ = 0;
         steps_of_order_ = 0;
@@ -164,10 +160,10 @@ private:
                 double sum = 0;
                 for (int j = 0; j < n_; ++j)
                     sum += std::abs(jacobian_.values(i, j) * ends.y[static_cast<std::size_t>(j)]);
-                real_side_[i] = (i % period == 0 ? half_epsilon : -half_epsilon) * sum;
+                side_[i] = (i % period == 0 ? half_epsilon : -half_epsilon) * sum;
             }
-            real_.solve(real_side_, real_solution_);
-            rounding_ = std::max(rounding_, ends.norm(real_solution_.data()));
+            real_.solve(side_.data(), solution_.data());
+            rounding_ = std::max(rounding_, ends.norm(solution_.data()));
         }
         if (!std::isfinite(rounding_)) rounding_ = 0;
     }
@@ -176,48 +172,31 @@ private:
     void find_largest_eigenvalue() {
         double growth = 1;
         for (int round = 0; round < 4; ++round) {
-            real_solution_.noalias() = jacobian_.values * power_;
-            const double size = real_solution_.norm();
+            solution_.noalias() = jacobian_.values * power_;
+            const double size = solution_.norm();
             if (!(size > 0) || !std::isfinite(size)) {
                 power_.setOnes();
                 power_ /= power_.norm();
                 break;
             }
             growth *= size;
-            power_ = real_solution_ / size;
+            power_ = solution_ / size;
         }
         largest_eigenvalue_ = std::sqrt(std::sqrt(growth));
     }
 
-    /// θ (p₀ + p₁θ + …)
-    static double value(const Eigen::MatrixXd& polynomial, int i, double theta) {
-        double sum = 0;
-        for (Eigen::Index k = polynomial.cols(); k-- > 0;) sum = theta * (polynomial(i, k) + sum);
-        return sum;
-    }
-
-    /// Extrapolates the polynomial of the last step; zero in the first step.
-    void forecast(double h) {
-        z_.setZero();
-        if (step_of_poly_ == 0) return;
-        for (int i = 0; i < n_; ++i) {
-            const double end = value(poly_, i, 1);
-            for (int k = 0; k < s_; ++k) z_(i, k) = value(poly_, i, 1 + table_->c[k] * h / step_of_poly_) - end;
-        }
-    }
-
     bool solve(Ends& ends, double h) {
         Contraction contraction(std::max(enough_, rounding_), s_ + 7, std::max(rounding_, least_rounding));
+        double* const scale = stages_.scale();
+        for (int i = 0; i < ends.controlled; ++i)
+            scale[i] = 1 / std::max(1.0, std::abs(ends.y[static_cast<std::size_t>(i)]));
         for (;;) {
             for (int k = 0; k < s_; ++k) {
-                for (int i = 0; i < n_; ++i) {
-                    const auto at = static_cast<std::size_t>(i);
-                    state_[at] = ends.y[at] + (z_(i, k) + ends.rest[at]);
-                }
-                ends.evaluate(ends.t + table_->c[k] * h, state_.data(), f_.col(k).data());
+                const double* const change = stages_.change(k);
+                for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = ends.y[i] + (change[i] + ends.rest[i]);
+                ends.evaluate(ends.t + table_->c[k] * h, state_.data(), stages_.rate(k));
             }
-            const double largest = correct(ends, h);
-            const auto verdict = contraction.after(largest);
+            const auto verdict = contraction.after(correct(h));
             ratio_ = contraction.ratio();
             if (verdict == Contraction::more) continue;
             return verdict == Contraction::done;
@@ -225,36 +204,30 @@ private:
     }
 
     /// Changes all stages once and returns the size of the change.
-    double correct(const Ends& ends, double h) {
-        side_.noalias() = z_ * table_->inverse.transpose();
-        side_ = f_ - side_ / h;
-        real_side_.noalias() = side_ * table_->back_real;
-        real_.solve(real_side_, real_solution_);
-        for (std::size_t pair = 0; pair < table_->mu.size(); ++pair) {
-            complex_side_.noalias() = side_.template cast<Complex>() * table_->back_complex[pair];
-            complex_[pair].solve(complex_side_, complex_solution_[pair]);
-        }
-        double largest = 0;
-        for (int k = 0; k < s_; ++k) {
-            for (int i = 0; i < n_; ++i) {
-                double delta = table_->v_real[k] * real_solution_[i];
-                for (std::size_t pair = 0; pair < table_->mu.size(); ++pair)
-                    delta += 2 * (table_->v_complex[pair][k] * complex_solution_[pair][i]).real();
-                z_(i, k) += delta;
-                delta_[static_cast<std::size_t>(i)] = delta;
+    double correct(double h) {
+        stages_.find_sides(1 / h);
+        real_.solve(stages_.side(0), stages_.solution(0));
+        for (int pair = 0; 2 * pair + 1 < s_; ++pair) {
+            const double *const real = stages_.side(2 * pair + 1), *const imaginary = stages_.side(2 * pair + 2);
+            for (std::size_t i = 0; i < complex_side_.size(); ++i) complex_side_[i] = {real[i], imaginary[i]};
+            complex_[static_cast<std::size_t>(pair)].solve(complex_side_.data(), complex_solution_.data());
+            double *const of_real = stages_.solution(2 * pair + 1), *const of_imaginary =
+                                                                        stages_.solution(2 * pair + 2);
+            for (std::size_t i = 0; i < complex_side_.size(); ++i) {
+                of_real[i] = complex_solution_[i].real();
+                of_imaginary[i] = complex_solution_[i].imag();
             }
-            largest = std::max(largest, ends.norm(delta_.data()));
         }
-        return largest;
+        return stages_.correct();
     }
 
     /// (I − hγ₀J)⁻¹ x = (λ/h − J)⁻¹ (λ/h) x.
     void estimate(Ends& ends, double h) {
         const auto filtered = [&](const std::vector<double>& rate) {
-            real_side_.noalias() = table_->lambda / h * (z_ * table_->e);
-            for (int i = 0; i < n_; ++i) real_side_[i] += rate[static_cast<std::size_t>(i)];
-            real_.solve(real_side_, real_solution_);
-            for (int i = 0; i < n_; ++i) ends.error[static_cast<std::size_t>(i)] = real_solution_[i];
+            stages_.find_error(side_.data());
+            for (int i = 0; i < n_; ++i)
+                side_[i] = table_->lambda / h * side_[i] + rate[static_cast<std::size_t>(i)];
+            real_.solve(side_.data(), ends.error.data());
         };
         filtered(ends.rate);
         if (!is_first_ && !was_rejected_) return;
@@ -270,16 +243,14 @@ private:
     int pairs_ = 0;  ///< of second_order(jacobian)
     Shifted<double> real_;
     std::vector<Shifted<std::complex<double>>> complex_;
-    Eigen::MatrixXd z_, f_, poly_, kept_,
-        side_;  ///< n × s: stages, rates, polynomials of the last and of this step
-    Eigen::VectorXd real_side_, real_solution_;
-    Eigen::VectorXcd complex_side_;
-    std::vector<Eigen::VectorXcd> complex_solution_;
-    std::vector<double> state_, rate_, delta_;
+    RadauStages stages_;
+    Eigen::VectorXd side_, solution_;
+    std::vector<std::complex<double>> complex_side_, complex_solution_;
+    std::vector<double> state_, rate_;
     StepSize control_;
     Eigen::VectorXd power_;  ///< the direction that the last powers of ∂f/∂y have given
     double rounding_ = 0, largest_eigenvalue_ = 0;
-    double factored_for_ = 0, step_of_poly_ = 0, ratio_ = 0;
+    double factored_for_ = 0, step_of_polynomial_ = 0, ratio_ = 0;
     int steps_of_order_ = 0;
     bool has_jacobian_ = false, is_fresh_ = false, was_rejected_ = false, is_first_ = true;
 };

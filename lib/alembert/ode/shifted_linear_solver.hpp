@@ -6,7 +6,7 @@
 ///
 ///     Shifted<std::complex<double>> shifted(size);
 ///     shifted.factor(J, second_order(J), mu / h);
-///     shifted.solve(b, x);
+///     shifted.solve(b, x);                        // lists of `size` numbers
 ///
 /// Equations of motion are of second order, y = (q, u) or (q, u, W) with q' = u and nothing depends on W. Then q
 /// and W are eliminated, and Gaussian elimination with row pivots is done on a system of half the size:
@@ -38,8 +38,6 @@ inline int second_order(const Eigen::MatrixXd& J) {
 template <class Scalar>
 class Shifted {
 public:
-    using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-
     explicit Shifted(int size)
         : size_(size),
           entries_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)),
@@ -51,7 +49,7 @@ public:
     void factor(const Eigen::MatrixXd& J, int pairs, Scalar sigma) {
         J_ = &J;
         n_ = pairs;
-        over_ = Scalar(1) / sigma;
+        over_ = inverse(sigma);
         m_ = pairs > 0 ? pairs : size_;
         for (int i = 0; i < m_; ++i) {
             for (int j = 0; j < m_; ++j)
@@ -67,7 +65,7 @@ public:
                 for (int j = 0; j < m_; ++j) std::swap(at(k, j), at(pivot, j));
                 std::swap(order_[k], order_[pivot]);
             }
-            reciprocal_[k] = Scalar(1) / at(k, k);
+            reciprocal_[k] = inverse(at(k, k));
             for (int i = k + 1; i < m_; ++i) {
                 const Scalar factor = product(at(i, k), reciprocal_[k]);
                 at(i, k) = factor;
@@ -77,13 +75,13 @@ public:
     }
 
     /// x must not be b itself.
-    void solve(const Vector& b, Vector& x) {
+    void solve(const Scalar* b, Scalar* x) {
         for (int i = 0; i < m_; ++i) side_[i] = b[n_ + i];
         for (int j = 0; j < n_; ++j) {
             const Scalar q = product(b[j], over_);
             for (int i = 0; i < n_; ++i) side_[i] += (*J_)(n_ + i, j) * q;
         }
-        Scalar* const u = x.data() + n_;
+        Scalar* const u = x + n_;
         for (int i = 0; i < m_; ++i) {
             Scalar sum = side_[order_[i]];
             for (int j = 0; j < i; ++j) sum -= product(at(i, j), u[j]);
@@ -107,6 +105,11 @@ private:
     static double size_of(double a) { return std::abs(a); }
     static double size_of(const std::complex<double>& a) { return std::abs(a.real()) + std::abs(a.imag()); }
     static double product(double a, double b) { return a * b; }
+    static double inverse(double a) { return 1 / a; }
+    static std::complex<double> inverse(const std::complex<double>& a) {
+        const double square = a.real() * a.real() + a.imag() * a.imag();
+        return {a.real() / square, -a.imag() / square};
+    }
     /// The product without the special treatment of infinite factors in operator*.
     static std::complex<double> product(const std::complex<double>& a, const std::complex<double>& b) {
         return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
