@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <complex>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -51,48 +52,13 @@ public:
         n_ = pairs;
         over_ = inverse(sigma);
         m_ = pairs > 0 ? pairs : size_;
-        for (int i = 0; i < m_; ++i) {
-            for (int j = 0; j < m_; ++j)
-                at(i, j) = Scalar(-J(n_ + i, n_ + j)) - (n_ > 0 ? J(n_ + i, j) * over_ : Scalar(0));
-            at(i, i) += sigma;
-            order_[i] = i;
-        }
-        for (int k = 0; k < m_; ++k) {
-            int pivot = k;
-            for (int i = k + 1; i < m_; ++i)
-                if (size_of(at(i, k)) > size_of(at(pivot, k))) pivot = i;
-            if (pivot != k) {
-                for (int j = 0; j < m_; ++j) std::swap(at(k, j), at(pivot, j));
-                std::swap(order_[k], order_[pivot]);
-            }
-            reciprocal_[k] = inverse(at(k, k));
-            for (int i = k + 1; i < m_; ++i) {
-                const Scalar factor = product(at(i, k), reciprocal_[k]);
-                at(i, k) = factor;
-                for (int j = k + 1; j < m_; ++j) at(i, j) -= product(factor, at(k, j));
-            }
-        }
+        with_size([&](auto m) { factor_of(m, sigma); });
     }
 
     /// x must not be b itself.
     void solve(const Scalar* b, Scalar* x) {
-        for (int i = 0; i < m_; ++i) side_[i] = b[n_ + i];
-        for (int j = 0; j < n_; ++j) {
-            const Scalar q = product(b[j], over_);
-            for (int i = 0; i < n_; ++i) side_[i] += (*J_)(n_ + i, j) * q;
-        }
-        Scalar* const u = x + n_;
-        for (int i = 0; i < m_; ++i) {
-            Scalar sum = side_[order_[i]];
-            for (int j = 0; j < i; ++j) sum -= product(at(i, j), u[j]);
-            u[i] = sum;
-        }
-        for (int i = m_; i-- > 0;) {
-            Scalar sum = u[i];
-            for (int j = i + 1; j < m_; ++j) sum -= product(at(i, j), u[j]);
-            u[i] = product(sum, reciprocal_[i]);
-        }
-        for (int i = 0; i < n_; ++i) x[i] = product(b[i] + u[i], over_);
+        with_size([&](auto m) { solve_of(m, b, x + n_); });
+        for (int i = 0; i < n_; ++i) x[i] = product(b[i] + x[n_ + i], over_);
         for (int i = 2 * n_; n_ > 0 && i < size_; ++i) {
             Scalar sum = b[i];
             for (int j = 0; j < 2 * n_; ++j) sum += (*J_)(i, j) * x[j];
@@ -101,7 +67,68 @@ public:
     }
 
 private:
-    Scalar& at(int i, int j) { return entries_[static_cast<std::size_t>(i * m_ + j)]; }
+    /// Calls `function` with the size of the eliminated system; up to four it is a constant, so that loops are
+    /// unrolled.
+    template <class Function>
+    void with_size(Function function) {
+        switch (m_) {
+            case 1:
+                return function(std::integral_constant<int, 1>());
+            case 2:
+                return function(std::integral_constant<int, 2>());
+            case 3:
+                return function(std::integral_constant<int, 3>());
+            case 4:
+                return function(std::integral_constant<int, 4>());
+            default:
+                return function(m_);
+        }
+    }
+
+    void factor_of(auto m, Scalar sigma) {
+        const auto at = [&](int i, int j) -> Scalar& { return entries_[static_cast<std::size_t>(i * m + j)]; };
+        for (int i = 0; i < m; ++i) {
+            for (int j = 0; j < m; ++j)
+                at(i, j) = Scalar(-(*J_)(n_ + i, n_ + j)) - (n_ > 0 ? (*J_)(n_ + i, j) * over_ : Scalar(0));
+            at(i, i) += sigma;
+            order_[i] = i;
+        }
+        for (int k = 0; k < m; ++k) {
+            int pivot = k;
+            for (int i = k + 1; i < m; ++i)
+                if (size_of(at(i, k)) > size_of(at(pivot, k))) pivot = i;
+            if (pivot != k) {
+                for (int j = 0; j < m; ++j) std::swap(at(k, j), at(pivot, j));
+                std::swap(order_[k], order_[pivot]);
+            }
+            reciprocal_[k] = inverse(at(k, k));
+            for (int i = k + 1; i < m; ++i) {
+                const Scalar factor = product(at(i, k), reciprocal_[k]);
+                at(i, k) = factor;
+                for (int j = k + 1; j < m; ++j) at(i, j) -= product(factor, at(k, j));
+            }
+        }
+    }
+
+    void solve_of(auto m, const Scalar* b, Scalar* u) {
+        const auto at = [&](int i, int j) { return entries_[static_cast<std::size_t>(i * m + j)]; };
+        for (int i = 0; i < m; ++i) side_[i] = b[n_ + i];
+        for (int j = 0; j < n_; ++j) {
+            const Scalar q = product(b[j], over_);
+            for (int i = 0; i < m; ++i) side_[i] += (*J_)(n_ + i, j) * q;
+        }
+        for (int i = 0; i < m; ++i) {
+            Scalar sum = side_[order_[i]];
+            for (int j = 0; j < i; ++j) sum -= product(at(i, j), u[j]);
+            u[i] = sum;
+        }
+        for (int i = m; i-- > 0;) {
+            Scalar sum = u[i];
+            for (int j = i + 1; j < m; ++j) sum -= product(at(i, j), u[j]);
+            u[i] = product(sum, reciprocal_[i]);
+        }
+    }
+
     static double size_of(double a) { return std::abs(a); }
     static double size_of(const std::complex<double>& a) { return std::abs(a.real()) + std::abs(a.imag()); }
     static double product(double a, double b) { return a * b; }
