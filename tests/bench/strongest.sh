@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The hard cases against the strongest rivals, in one run: Verner's 9(8) pair inlined around right-hand sides written by hand
-# (verner_peer.cpp, compiled here with c++ -O3 -march=native), and heyoka where it is found.
+# (verner_peer.cpp, compiled here with c++ -O3 -march=native), heyoka where it is found, and for the stiff governor RADAU5 and RADAU
+# of Hairer and Wanner with our right-hand side and Jacobian, compiled, where alembert-peers was built with them (HAIRER_PREFIX).
 #
 #   tests/bench/strongest.sh [--case NAME]... [--errors "1e-6 1e-9 1e-11"] [--rounds N] [--reference-seconds S] [--json FILE] [PROGRAM]
 #
@@ -33,7 +34,8 @@ parser.add_argument("--reference-seconds", default="5")
 parser.add_argument("--code", default="memory", choices=["memory", "compiled"])
 parser.add_argument("--json")
 wishes = parser.parse_args(sys.argv[2:])
-CASES = ["double_pendulum_chaotic", "kepler", "outer_solar_system", "pleiades", "andrews"]
+STIFF = ["flyball_governor"]
+CASES = ["double_pendulum_chaotic", "kepler", "outer_solar_system", "pleiades", "andrews", *STIFF]
 cases = wishes.case or CASES
 for name in cases:
     if name not in CASES:
@@ -64,10 +66,10 @@ def python_with_heyoka():
     return None
 
 
-def ours(name):
+def ours(name, *options):
     scene = os.path.join(root, "scenes/benchmark", name + ".toml")
-    done = subprocess.run([wishes.program, "bench", scene, "--json", "--code", wishes.code, "--reference-seconds",
-                           wishes.reference_seconds, "--run-seconds", "0.05"], capture_output=True, text=True)
+    done = subprocess.run([wishes.program, "bench", scene, "--json", "--reference-seconds", wishes.reference_seconds,
+                           "--run-seconds", "0.05", *options], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"{name}: {done.stderr}")
     return json.loads(done.stdout)
@@ -129,15 +131,20 @@ heyoka = python_with_heyoka()
 model, flags = processor()
 print(f"processor: {model} ({' '.join(flags)}); code: {wishes.code}; heyoka: {'yes' if heyoka else 'not found'}",
       flush=True)
-print(f"{'case':24} {'error':>6} {'ours, us':>9} {'by':>10} {'auto, us':>9} {'verner':>9} {'heyoka':>9} {'ours/best':>10} {'auto/best':>10}")
+print(f"{'case':24} {'error':>6} {'ours, us':>9} {'by':>10} {'auto, us':>9} {'verner':>9} {'heyoka':>9} {'radau5':>9} {'radau':>9} {'ours/best':>10} {'auto/best':>10}")
 listed = []
 for name in cases:
     own, rivals, reference = [], {}, None
     for _ in range(wishes.rounds):
-        result = ours(name)
+        result = ours(name, "--code", wishes.code)
         final = result["reference"]["final"]
         reference = [*final["coordinates"].values(), *final["rates"].values()]
         own.append(result["runs"])
+        if name in STIFF:
+            for run in ours(name, "--peers", "--method", "radau5")["runs"]:
+                if run["who"] == "hairer":
+                    rivals.setdefault(run["method"], []).append([run])
+            continue
         commands = {"verner": [peer, name, "2"]}
         if heyoka and name != "andrews":
             commands["heyoka"] = [heyoka, os.path.join(bench, "heyoka_peer.py"), name]
@@ -154,7 +161,7 @@ for name in cases:
         least = min((time for time in rival.values() if time), default=None)
         ratio = lambda time: f"{time / least:10.2f}" if time and least else f"{'-':>10}"
         print(f"{name:24} {error:6.0e} {told(best[0])} {best[1]:>10} {told(auto)} {told(rival.get('verner'))} "
-              f"{told(rival.get('heyoka'))} {ratio(best[0])} {ratio(auto)}", flush=True)
+              f"{told(rival.get('heyoka'))} {told(rival.get('radau5'))} {told(rival.get('radau'))} {ratio(best[0])} {ratio(auto)}", flush=True)
         listed.append({"case": name, "error": error, "best": best[1], "best_seconds": best[0], "auto_seconds": auto,
                        "rivals": rival, "processor": model, "flags": flags})
 if wishes.json:
