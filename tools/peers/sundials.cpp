@@ -16,6 +16,13 @@
 #include "peers.hpp"
 #include "plugins/sundials_context.hpp"
 
+// What the explicit methods of ARKODE are set and asked by: from SUNDIALS 7.1 on the functions of all its methods.
+#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
+#define ALEMBERT_ARK(verb) ARKode##verb
+#else
+#define ALEMBERT_ARK(verb) ERKStep##verb
+#endif
+
 namespace alembert::peers {
 
 namespace {
@@ -101,17 +108,17 @@ Answer arkode(const Task& task) {
     Common common(task);
     void* memory = ERKStepCreate(rate, task.start, common.y, common.context);
     ALEMBERT_QUIET(ERKStep, memory);
-    ERKStepSetOrder(memory, 8);
-    ERKStepSStolerances(memory, task.tolerance, task.tolerance);
-    ERKStepSetUserData(memory, &common.calls);
-    ERKStepSetMaxNumSteps(memory, task.budget);
-    ERKStepSetStopTime(memory, task.end);
+    ALEMBERT_ARK(SetOrder)(memory, 8);
+    ALEMBERT_ARK(SStolerances)(memory, task.tolerance, task.tolerance);
+    ALEMBERT_ARK(SetUserData)(memory, &common.calls);
+    ALEMBERT_ARK(SetMaxNumSteps)(memory, task.budget);
+    ALEMBERT_ARK(SetStopTime)(memory, task.end);
     sunrealtype reached = 0;
-    const int flag = ERKStepEvolve(memory, task.end, common.y, &reached, ARK_NORMAL);
+    const int flag = ALEMBERT_ARK(Evolve)(memory, task.end, common.y, &reached, ARK_NORMAL);
     long steps = 0;
-    ERKStepGetNumSteps(memory, &steps);
+    ALEMBERT_ARK(GetNumSteps)(memory, &steps);
     const Answer answer = common.answer(flag, steps);
-    ERKStepFree(&memory);
+    ALEMBERT_ARK(Free)(&memory);
     return answer;
 }
 
