@@ -40,15 +40,14 @@ public:
     std::optional<MethodTrial> among(const std::vector<Method>& rivals) {
         // First steps may be longer than later ones; what is looked at more closely costs a hundredth of the run.
         if (!(8 * predicted_by_first_step() > shortest_run_with_trial)) return std::nullopt;
-        const double first_look = predicted(fewest_steps / 2 * work_of_step());
-        if (!(2 * first_look > shortest_run_with_trial)) return std::nullopt;
+        const double first_look = fewest_steps / 2 * work_of_step();
+        if (!follow(first_look)) return std::nullopt;
         const double stretch =
-            std::max(std::clamp(stretch_of_run * first_look, shortest_stretch, longest_stretch) / effort_of_work(),
-                     fewest_steps * work_of_step());
-        if (stretch * effort_of_work() > most_of_run * first_look) return std::nullopt;
+            std::max(std::clamp(stretch_of_run * whole_, shortest_stretch, longest_stretch) / effort_of_work(),
+                     2 * first_look);
+        if (stretch * effort_of_work() > most_of_run * whole_) return std::nullopt;
         if (stretch > most_of_run * static_cast<double>(options_.budget)) return std::nullopt;
-        whole_ = predicted(stretch);
-        if (!(whole_ > shortest_run_with_trial)) return std::nullopt;
+        if (!follow(stretch)) return std::nullopt;
         options_.duration = until_ - options_.start;
         options_.budget = 40 * work_ + 1000;  // a method that needs so much is no rival
         return compared(rivals);
@@ -82,18 +81,32 @@ private:
         return options_.duration / first * evaluations * effort_of_work();
     }
 
-    /// The effort of the whole run by that of its first part, which is `work` evaluations long. 0 if the run ends
-    /// before, or fails.
-    double predicted(double work) {
-        Options part = options_;
-        part.budget = static_cast<long>(std::min(work, 1e9));
-        begin();
-        const Trajectory motion = integrate(with_series(part.method), initial_, part);
-        if (!motion.failure || motion.failure->kind != FailureKind::budget_used_up) return 0;
-        until_ = motion.times.back();
-        work_ = motion.statistics.work;
-        if (!(until_ > options_.start)) return 0;
-        return effort_of_work() * static_cast<double>(work_) * (options_.duration / (until_ - options_.start));
+    /// Follows the motion from where it has come until `work` evaluations have been made in all, piece by piece,
+    /// and predicts the effort of the whole run after each. False as soon as that is too little for a trial, as
+    /// that of an orbit which begins where it is quickest; or if the run ends before, or fails.
+    bool follow(double work) {
+        if (state_.empty()) {
+            begin();
+            state_ = initial_;
+            until_ = options_.start;
+        }
+        while (static_cast<double>(work_) < work) {
+            Options part = options_;
+            part.start = until_;
+            part.duration = options_.start + options_.duration - until_;
+            const double piece = std::max(fewest_steps / 2 * work_of_step(), static_cast<double>(work_) / 3);
+            part.budget = static_cast<long>(std::min(piece, 1e9));
+            const Trajectory motion = integrate(with_series(part.method), state_, part);
+            if (!motion.failure || motion.failure->kind != FailureKind::budget_used_up) return false;
+            if (!(motion.times.back() > until_)) return false;
+            until_ = motion.times.back();
+            state_.assign(motion.final_state().begin(), motion.final_state().end());
+            work_ += motion.statistics.work;
+            whole_ =
+                effort_of_work() * static_cast<double>(work_) * (options_.duration / (until_ - options_.start));
+            if (!(whole_ > shortest_run_with_trial)) return false;
+        }
+        return true;
     }
 
     std::optional<MethodTrial> compared(const std::vector<Method>& rivals) {
@@ -191,8 +204,9 @@ private:
     const std::vector<double>& initial_;
     Options options_;
     const TrialSettings& settings_;
-    double until_ = 0, whole_ = 0;
-    long work_ = 0;
+    std::vector<double> state_ = {};  ///< at until_, to where the motion has been followed
+    double until_ = 0, whole_ = 0;    ///< the latter the predicted effort of the run
+    long work_ = 0;                   ///< until then
 };
 
 }  // namespace
