@@ -132,6 +132,27 @@ TEST_CASE("trial: a short run tries nothing and looks at no clock") {
     CHECK(looks == 0);
 }
 
+// Ten orbits of eccentricity 0.99 look like thousands by their first steps. To follow a third of one orbit before
+// that is seen is enough; all of it was followed once, which doubled the time of the run.
+TEST_CASE(
+    "trial: a run that begins where the motion is quickest is given up as too short within a few of its steps") {
+    Orbit orbit;
+    orbit.initial = {0.01, 0, 0, std::sqrt(1.99 / 0.01)};
+    for (const Method usual : {Method::dop853, Method::verner98}) {
+        const Options run = orbits(10, usual, 1e-9);
+        *orbit.calls = 0;
+        REQUIRE(integrate(orbit.system(), orbit.initial, run).ending == Ending::completed);
+        const long whole = *orbit.calls;
+        *orbit.calls = 0;
+        CHECK_FALSE(method_trial(orbit.system(), orbit.initial, run, {Method::dop853, Method::verner98}));
+        CAPTURE(name(usual));
+        CAPTURE(whole);
+        CAPTURE(*orbit.calls);
+        CHECK(*orbit.calls > 50);  // it was followed for some steps
+        CHECK(*orbit.calls < whole / 10);
+    }
+}
+
 TEST_CASE("trial: taylor is no rival where there is no power series") {
     const Orbit orbit;
     const auto found = method_trial(orbit.system(), orbit.initial, orbits(3000, Method::dop853, 1e-9),
