@@ -153,6 +153,16 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("trial: of a very long run of cheap evaluations no more than a part of the budget is looked at") {
+    const Orbit orbit;
+    System system = orbit.system();
+    system.rhs.effort = 1;
+    const Options options = orbits(1e6, Method::dop853, 1e-9);
+    const auto found = method_trial(system, orbit.initial, options, {Method::verner98});
+    REQUIRE(found);
+    CHECK(*orbit.calls < options.budget / 10);
+}
+
 TEST_CASE("trial: taylor is no rival where there is no power series") {
     const Orbit orbit;
     const auto found = method_trial(orbit.system(), orbit.initial, orbits(3000, Method::dop853, 1e-9),

@@ -40,14 +40,12 @@ public:
     std::optional<MethodTrial> among(const std::vector<Method>& rivals) {
         // First steps may be longer than later ones; what is looked at more closely costs a hundredth of the run.
         if (!(8 * predicted_by_first_step() > shortest_run_with_trial)) return std::nullopt;
-        const double first_look = fewest_steps / 2 * work_of_step();
-        if (!follow(first_look)) return std::nullopt;
-        const double stretch =
-            std::max(std::clamp(stretch_of_run * whole_, shortest_stretch, longest_stretch) / effort_of_work(),
-                     2 * first_look);
-        if (stretch * effort_of_work() > most_of_run * whole_) return std::nullopt;
-        if (stretch > most_of_run * static_cast<double>(options_.budget)) return std::nullopt;
-        if (!follow(stretch)) return std::nullopt;
+        const double fewest = fewest_steps * work_of_step(),
+                     most = most_of_run * static_cast<double>(options_.budget);
+        if (fewest > most || !follow(fewest / 2)) return std::nullopt;
+        const double wished = std::clamp(stretch_of_run * whole_, shortest_stretch, longest_stretch);
+        const double stretch = std::clamp(wished / effort_of_work(), fewest, most);
+        if (stretch * effort_of_work() > most_of_run * whole_ || !follow(stretch)) return std::nullopt;
         options_.duration = until_ - options_.start;
         options_.budget = 40 * work_ + 1000;  // a method that needs so much is no rival
         return compared(rivals);
