@@ -10,14 +10,17 @@
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
+#include "shell.hpp"
 
 namespace commands_method {
 
 using alembert::test::Json;
 using alembert::test::json_of;
 using alembert::test::run;
+using alembert::test::run_shell;
 using alembert::test::source_path;
 using alembert::test::temporary;
+using alembert::test::temporary_folder;
 
 namespace {
 
@@ -165,6 +168,23 @@ TEST_CASE("auto: where the first steps show that a series is faster, taylor goes
     CHECK(text.out.find("it is predicted to take less time") != std::string::npos);
     // A run that is too short to pay for the series keeps its method.
     CHECK(!simulated(scene, {"--tolerance", "1e-4", "--duration", "0.3"}).contains("switched"));
+}
+
+// The factors are two positive numbers. What is in the file is not believed if it has been changed.
+TEST_CASE("auto: what steps take on this processor is measured once and kept, unless counts alone are asked for") {
+    if (!alembert::machine::can_run()) return;
+    const auto result = run_shell(R"sh(cd "$1"
+        simulate() { XDG_CACHE_HOME=$PWD/$1 "$ALEMBERT" simulate "$2" --method auto --no-estimate --duration 1 $3 >out || exit; }
+        simulate counts "$2" --no-tuning; ls counts/alembert 2>/dev/null | grep -c step_times
+        simulate one "$2"; cp one/alembert/step_times* first
+        head -n 1 first | awk '{ print NF, ($1 > 0), ($2 > 0) }'
+        simulate one "$2"; cmp first one/alembert/step_times* && echo kept
+        sed -i '1s/.*/1e9 1e-9/' one/alembert/step_times*; simulate one "$2"
+        grep -c '^1e9' one/alembert/step_times*
+        head -n 1 one/alembert/step_times* | awk '{ print NF, ($1 > 0), ($2 > 0) }'
+        : >blocked; XDG_CACHE_HOME=$PWD/blocked HOME= "$ALEMBERT" simulate "$2" --method auto --no-estimate --duration 1 >out; echo $?)sh",
+                                  {temporary_folder("step_times"), source_path("scenes/benchmark/kepler.toml")});
+    CHECK(result.out == "0\n2 1 1\nkept\n0\n2 1 1\n0\n");
 }
 
 // Predicted to take 100 ms with AVX-512 and longer without, at a tolerance at which the choice is open.

@@ -27,6 +27,7 @@
 #include "simulate/peers.hpp"
 #include "simulate/separable.hpp"
 #include "simulate/solver_code.hpp"
+#include "simulate/step_times.hpp"
 
 namespace alembert {
 
@@ -166,7 +167,7 @@ public:
                              .initial = initial,
                              .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
                              .effort = effort_of(program),
-                             .slowness = wishes_.tuning ? slowness_of(registers()) : Slowness{},
+                             .slowness = wishes_.tuning ? slowness_here() : Slowness{},
                              .conserved = energy.conserved});
         const Options options{.start = start_.t,
                               .duration = duration,

@@ -20,6 +20,7 @@
 #include "simulate/regularization.hpp"
 #include "simulate/separable.hpp"
 #include "simulate/solver_code.hpp"
+#include "simulate/step_times.hpp"
 #include "simulate/sundials_methods.hpp"
 
 namespace alembert {
@@ -124,7 +125,7 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         return {.method = Method::rk4, .why = say("chosen for a fixed step")};
     }
     const bool constrained = !d.mechanism.constraints.empty(), linked = is_linked(d.mechanism);
-    const Slowness slowness = request.tuning ? slowness_of(registers()) : Slowness{};
+    const Slowness slowness = request.tuning ? slowness_here() : Slowness{};
     const Strict& strict = needs_compiler_for_series(request) ? by_compiler : in_memory;
     const bool is_strict = tolerance < (linked ? strict.linked : strict.free);
     const bool linear = is_linear(program, d, request);

@@ -22,11 +22,11 @@
 ///
 /// With constraints, dop853 goes on where the steps of taylor become very short, as at flat poses of linkages.
 /// Runs that begin with dop853 or verner98 below 3e-4 go over to taylor where the lengths of their steps show that
-/// it is faster (taylor_switch.hpp). What this predicts is multiplied by what is known of the registers of this
-/// processor, and runs of more than some ten milliseconds try the methods first (method_trial.hpp), unless
-/// RunOptions::tuning is false. Where the series has to be compiled, which takes longer than most runs, it is
-/// taken below 1e-10 alone; with constraints of position that and verner98 below 1e-12. Methods that choose their
-/// steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
+/// it is faster (taylor_switch.hpp). What this predicts is multiplied by what steps were measured to take on this
+/// processor (step_times.hpp), and runs of more than some ten milliseconds try methods first (method_trial.hpp),
+/// unless RunOptions::tuning is false. Where the series has to be compiled, which takes longer than most runs, it
+/// is taken below 1e-10 alone; with constraints of position that and verner98 below 1e-12. Methods that choose
+/// their steps watch for stiffness while they run (stiffness.hpp), change to radau, and come back.
 
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/method_trial.hpp"

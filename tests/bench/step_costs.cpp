@@ -24,25 +24,11 @@
 #include "program/switches.hpp"
 #include "simulate/loaded_modes.hpp"
 #include "simulate/method.hpp"
+#include "simulate/step_times.hpp"
 
 namespace {
 
 using namespace alembert;
-
-/// ns for each of what `count` counts, the least of runs of 40 ms in all; nothing if a run fails.
-std::optional<double> least_of(const Rhs& rhs, const std::vector<double>& state, Options options,
-                               const std::function<long(const Statistics&)>& count) {
-    double least = HUGE_VAL, all = 0;
-    options.sample = options.duration;
-    for (int round = 0; round < 400 && (round < 5 || all < 0.04); ++round) {
-        const Trajectory motion = integrate(rhs, state, options);
-        if (motion.failure && motion.failure->kind != FailureKind::budget_used_up) return std::nullopt;
-        if (motion.statistics.steps < 8) return std::nullopt;  // the start would count too much
-        least = std::min(least, 1e9 * motion.statistics.seconds / static_cast<double>(count(motion.statistics)));
-        all += motion.statistics.seconds;
-    }
-    return least;
-}
 
 void tell(const std::string& file) {
     const Derived derived = alembert::derived(read_scene(file), {.use = Use::run});
@@ -73,7 +59,7 @@ void tell(const std::string& file) {
     for (const Method method : {Method::dop853, Method::verner98}) {
         options.method = method;
         options.tolerance = 1e-9;
-        if (const auto ns = least_of(rhs, state, options, usual))
+        if (const auto ns = least_time(rhs, state, options, usual, 0.04))
             fmt::print(", \"{}\": {{\"ns\": {:.5g}, \"predicted\": {:.5g}}}", name(method), *ns,
                        effort_of_evaluation(rhs, false));
     }
@@ -85,7 +71,7 @@ void tell(const std::string& file) {
         options.tolerance = tolerance;
         const int order = taylor_order(tolerance, table.order_cost, table.product_cost);
         const double predicted = taylor_effort(table.order_cost, table.product_cost, order, rhs.dimension);
-        if (const auto ns = least_of(rhs, state, options, steps))
+        if (const auto ns = least_time(rhs, state, options, steps, 0.04))
             fmt::print("{}{{\"order\": {}, \"ns\": {:.5g}, \"predicted\": {:.5g}}}", std::exchange(between, ", "),
                        order, *ns, predicted);
     }

@@ -165,13 +165,19 @@ bool is_usable(const fs::path& folder) {
     return S_ISDIR(info.st_mode) && access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-fs::path cache_folder(const fs::path& wanted) {
+/// The folder named by the user or the environment, if it can be written to; else an empty path.
+fs::path lasting_folder(const fs::path& wanted) {
     fs::path folder = wanted;
     const char* const xdg = std::getenv("XDG_CACHE_HOME");
     const char* const home = std::getenv("HOME");
     if (folder.empty() && xdg != nullptr && fs::path(xdg).is_absolute()) folder = fs::path(xdg) / "alembert";
     if (folder.empty() && home != nullptr && *home != '\0') folder = fs::path(home) / ".cache" / "alembert";
-    return !folder.empty() && is_usable(folder) ? folder : private_folder();
+    return !folder.empty() && is_usable(folder) ? folder : fs::path();
+}
+
+fs::path cache_folder(const fs::path& wanted) {
+    const fs::path folder = lasting_folder(wanted);
+    return folder.empty() ? private_folder() : folder;
 }
 
 /// The bytes of a regular file that belongs to the user; nothing for anything else, including a link to such a
@@ -309,6 +315,36 @@ Compiled compile(const std::string& source_text, const std::string& name, const 
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     return {.object = object, .from_cache = from_cache, .seconds = elapsed.count()};
+}
+
+namespace {
+
+/// Empty without a lasting cache.
+fs::path file_about_processor(const std::string& name) {
+    const fs::path folder = lasting_folder({});
+    return folder.empty() ? folder : folder / (file_stem(name, fingerprint(processor())) + ".txt");
+}
+
+}  // namespace
+
+std::optional<std::string> kept_about_processor(const std::string& name) try {
+    const fs::path file = file_about_processor(name);
+    if (file.empty() || !is_intact(file)) return std::nullopt;
+    const std::optional<std::string> text = read_own_file(file);
+    return text && text->size() > digits ? std::optional(text->substr(0, text->size() - digits)) : std::nullopt;
+} catch (const std::exception&) {
+    return std::nullopt;
+}
+
+void keep_about_processor(const std::string& name, const std::string& text) try {
+    const fs::path file = file_about_processor(name);
+    if (file.empty()) return;
+    const Leftover part(fs::path(file) += fmt::format(".{}", getpid()));
+    write_file(part.path(), text + fingerprint(text), std::ios::trunc);
+    chmod(part.path().c_str(), S_IRUSR | S_IWUSR);
+    move_into_place(part.path(), file);
+} catch (const std::exception&) {
+    // It is measured anew next time.
 }
 
 std::string shared_object(const std::vector<CSource>& files, const CompileOptions& options) {

@@ -29,6 +29,7 @@
 /// compiler reports errors or if the disk is full. No command goes through a shell.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,12 @@ struct Compiled {
 /// `name` only makes files in the cache recognizable; each of its characters that is not a letter, digit, `-` or
 /// `_` becomes `_`.
 Compiled compile(const std::string& source_text, const std::string& name, const CompileOptions& options);
+
+/// What is known about this processor, kept as a text beside compiled solvers: that which was kept under this name
+/// on a processor like this, if it is still there and whole. Both throw nothing; where there is no lasting cache,
+/// or another user's, nothing is kept.
+std::optional<std::string> kept_about_processor(const std::string& name);
+void keep_about_processor(const std::string& name, const std::string& text);
 
 struct CSource {
     std::string name, text;  ///< of a .c file, or of a header that these include

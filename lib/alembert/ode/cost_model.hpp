@@ -24,9 +24,9 @@
 
 namespace alembert {
 
-/// By the registers that a processor has. With AVX2 alone 41 systems took 2.2 and 3.7 times as long on an AMD
-/// EPYC (tests/bench/step_costs.sh); after that their times differ from the laws by 19 % and 10 % (root mean
-/// square).
+/// By the registers that a processor has, where the factors are not measured. With AVX2 alone 41 systems took 2.2
+/// and 3.7 times as long on an AMD EPYC (tests/bench/step_costs.sh); after that their times differ from the laws
+/// by 19 % and 10 % (root mean square).
 inline constexpr Slowness slowness_of(Registers kind) {
     return kind == Registers::wide ? Slowness{.evaluation = 2.2, .series = 3.7} : Slowness{};
 }
