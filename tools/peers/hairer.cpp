@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// RADAU5 (order 5) and RADAU (orders 5, 9 and 13) of Hairer and Wanner, Solving Ordinary Differential Equations II, §IV.8, in
-// Fortran, where the user has their sources. They get the emitted Jacobian where there is one, and are told that the first half
-// of the rates is the second half of the state, where it is (parameters M1 and M2), which halves their linear systems.
+// RADAU5 (order 5) and RADAU (orders 5, 9 and 13) of Hairer and Wanner, Solving Ordinary Differential Equations
+// II, §IV.8, in Fortran, where the user has their sources. They get the emitted Jacobian where there is one, and
+// are told that the first half of the rates is the second half of the state, where it is (parameters M1 and M2),
+// which halves their linear systems.
 #include <algorithm>
 #include <array>
 
@@ -15,13 +16,13 @@ extern "C" {
 using Function = void (*)(const int*, const double*, const double*, double*, double*, int*);
 using Jacobian = void (*)(const int*, const double*, const double*, double*, const int*, double*, int*);
 using Mass = void (*)(const int*, double*, const int*, double*, int*);
-using Output = void (*)(const int*, const double*, const double*, const double*, const double*, const int*, const int*,
-                        double*, int*, int*);
-using Solver = void(const int* n, Function, double* x, double* y, const double* end, double* h,
-                    double* relative, double* absolute, const int* tolerances_are_lists, Jacobian,
-                    const int* has_jacobian, const int* lower, const int* upper, Mass, const int* has_mass,
-                    const int* mass_lower, const int* mass_upper, Output, const int* has_output, double* work,
-                    const int* work_size, int* counts, const int* counts_size, double* reals, int* integers, int* verdict);
+using Output = void (*)(const int*, const double*, const double*, const double*, const double*, const int*,
+                        const int*, double*, int*, int*);
+using Solver = void(const int* n, Function, double* x, double* y, const double* end, double* h, double* relative,
+                    double* absolute, const int* tolerances_are_lists, Jacobian, const int* has_jacobian,
+                    const int* lower, const int* upper, Mass, const int* has_mass, const int* mass_lower,
+                    const int* mass_upper, Output, const int* has_output, double* work, const int* work_size,
+                    int* counts, const int* counts_size, double* reals, int* integers, int* verdict);
 Solver radau5_, radau_;
 }
 
@@ -49,8 +50,8 @@ void jacobian(const int* n, const double* t, const double* y, double* out, const
 
 void no_mass(const int*, double*, const int*, double*, int*) {}
 
-void after_step(const int*, const double*, const double*, const double*, const double*, const int*, const int*, double*,
-                int*, int* verdict) {
+void after_step(const int*, const double*, const double*, const double*, const double*, const int*, const int*,
+                double*, int*, int* verdict) {
     *verdict = calls.count > calls.budget ? -1 : 0;
 }
 
@@ -71,7 +72,8 @@ int rates_among_state(const Rhs& rhs, const Task& task) {
 
 Answer solve(const Task& task, Solver& solver) {
     constexpr int most_stages = 7, no = 0, yes = 1;
-    const int n = static_cast<int>(task.initial.size()), half = rates_among_state(task.rhs, task), below = n - half;
+    const int n = static_cast<int>(task.initial.size()), half = rates_among_state(task.rhs, task),
+              below = n - half;
     calls = {.rhs = &task.rhs, .count = 0, .budget = task.budget, .above = half};
     calls.jacobian.resize(task.initial.size() * task.initial.size());
     // As the sources ask for it; RADAU5 needs what three stages need.
@@ -82,12 +84,13 @@ Answer solve(const Task& task, Solver& solver) {
     counts[1] = static_cast<int>(std::min(task.budget, 100'000'000L));
     counts[8] = counts[9] = half;
     const int has_jacobian = task.rhs.jacobian != nullptr ? yes : no;
-    double t = task.start, h = 1e-6, relative = task.tolerance, absolute = task.tolerance, nothing = 0;  // both change them
+    double t = task.start, h = 1e-6, relative = task.tolerance, absolute = task.tolerance,
+           nothing = 0;  // both change them
     int none = 0, verdict = 0;
     Answer answer{.failed = false, .state = task.initial, .evaluations = 0, .steps = 0};
-    solver(&n, rate, &t, answer.state.data(), &task.end, &h, &relative, &absolute, &no, jacobian,
-           &has_jacobian, &below, &below, no_mass, &no, &below, &below, after_step, &yes, work.data(), &work_size,
-           counts.data(), &counts_size, &nothing, &none, &verdict);
+    solver(&n, rate, &t, answer.state.data(), &task.end, &h, &relative, &absolute, &no, jacobian, &has_jacobian,
+           &below, &below, no_mass, &no, &below, &below, after_step, &yes, work.data(), &work_size, counts.data(),
+           &counts_size, &nothing, &none, &verdict);
     answer.failed = verdict != 1;
     answer.evaluations = calls.count;
     answer.steps = counts[15];

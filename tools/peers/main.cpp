@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
                             times[times.size() / 2], answer.evaluations, answer.steps, answer.failed ? 1 : 0);
                 for (const double y : answer.state) std::printf(" %.17g", y);
                 std::printf("\n");
-                std::fflush(stdout);  // Fortran writes its messages there, too
+                std::fflush(stdout);                     // Fortran writes its messages there, too
                 if (answer.failed || sum > most) break;  // a stricter tolerance takes longer
             }
         }
