@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "alembert/native/compile.hpp"
+#include "alembert/native/cpu_features.hpp"
 #include "alembert/ode/cost_model.hpp"
 #include "alembert/ode/integrate.hpp"
 #include "alembert/ode/taylor.hpp"
@@ -138,6 +139,7 @@ std::optional<double> least_time(const Rhs& rhs, const std::vector<double>& stat
 }
 
 std::optional<Slowness> measured_slowness() {
+    if (registers() == Registers::usual) return std::nullopt;  // WebAssembly too, where nothing is kept
     const auto one = slowness_on(double_pendulum()), other = slowness_on(four_bodies());
     if (!one || !other) return std::nullopt;
     return Slowness{.evaluation = std::sqrt(one->evaluation * other->evaluation),
