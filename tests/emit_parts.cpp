@@ -31,14 +31,29 @@ TEST_CASE("parts: a value that one part makes and a later one uses is carried on
                                          2, CodeLanguage::cpp);
     REQUIRE(parts.list.size() == 3);
     CHECK(parts.carried == 2);
-    CHECK(parts.list[0].lines == std::vector<std::string>{"const Real a = x + 1.5e3;", "const Real b = 2 * a;",
-                                                          "carried[0] = a;", "carried[1] = b;"});
+    CHECK(parts.list[0].lines == std::vector<std::string>{"const Real a = x + 1.5e3;", "carried[0] = a;",
+                                                          "const Real b = 2 * a;", "carried[1] = b;"});
     CHECK(parts.list[1].lines == std::vector<std::string>{"const Real& a = carried[0];",
                                                           "const Real& b = carried[1];", "const Real c = a * b;",
                                                           "out[0] = c + b;"});
     CHECK(parts.list[2].lines == std::vector<std::string>{"const Real& a = carried[0];", "out[1] = a;"});
     CHECK(parts.list[0].names.contains("x"));
     CHECK_FALSE(parts.list[1].names.contains("x"));
+}
+
+TEST_CASE(
+    "parts: the place of a value that no later part needs is used again, but not in the part that reads it last") {
+    const FunctionParts parts = in_parts({{.names = {"a"}, .uses = {"x"}, .text = "const Real a = x + 1;"},
+                                          {.names = {"b"}, .uses = {"a"}, .text = "const Real b = 2 * a;"},
+                                          {.names = {"c"}, .uses = {"b"}, .text = "const Real c = 3 * b;"},
+                                          {.uses = {"out", "c"}, .text = "out[0] = c;"}},
+                                         1, CodeLanguage::cpp);
+    REQUIRE(parts.list.size() == 4);
+    CHECK(parts.carried == 2);
+    CHECK(parts.list[1].lines ==
+          std::vector<std::string>{"const Real& a = carried[0];", "const Real b = 2 * a;", "carried[1] = b;"});
+    CHECK(parts.list[2].lines ==
+          std::vector<std::string>{"const Real& b = carried[1];", "const Real c = 3 * b;", "carried[0] = c;"});
 }
 
 TEST_CASE("parts: all names of a statement can be carried") {

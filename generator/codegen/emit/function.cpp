@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
 #include "codegen/emit/layout.hpp"
 #include "codegen/emit/parts.hpp"
@@ -77,15 +79,40 @@ std::set<std::string> used_in(const std::vector<Passage>& passages, const std::v
     return used;
 }
 
+/// All statements, each result as soon as it is known, so that it need not be carried to the last part. Rates come
+/// last, since a caller may have one array for state and rate.
+std::vector<CodeStatement> with_early_results(const FunctionTask& task, const std::vector<Passage>& passages) {
+    std::vector<CodeStatement> statements, late;
+    for (std::size_t k = 0; k + 1 < passages.size(); ++k)
+        statements.insert(statements.end(), passages[k].statements.begin(), passages[k].statements.end());
+    std::map<std::string, std::size_t> made_at;
+    for (std::size_t k = 0; k < statements.size(); ++k)
+        for (const std::string& name : statements[k].names) made_at.emplace(name, k);
+    std::vector<std::vector<CodeStatement>> after(statements.size());
+    const std::vector<CodeStatement>& results = passages.back().statements;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        std::optional<std::size_t> last;
+        for (const std::string& name : results[k].uses)
+            if (const auto made = made_at.find(name); made != made_at.end())
+                last = std::max(last.value_or(0), made->second);
+        const bool is_rate = k < task.copies.size() || task.results[k - task.copies.size()].array == "rate";
+        (is_rate || !last ? late : after[*last]).push_back(results[k]);
+    }
+    std::vector<CodeStatement> list;
+    for (std::size_t k = 0; k < statements.size(); ++k) {
+        list.push_back(std::move(statements[k]));
+        list.insert(list.end(), after[k].begin(), after[k].end());
+    }
+    list.insert(list.end(), late.begin(), late.end());
+    return list;
+}
+
 std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vector<ArrayInput>& items,
                                        const std::vector<Passage>& passages, const EmitOptions& options) {
     const CodeLanguage language = options.language;
     const std::string unused = language == CodeLanguage::cpp ? "[[maybe_unused]] " : "";
-    std::vector<CodeStatement> statements;
-    for (const Passage& passage : passages)
-        statements.insert(statements.end(), passage.statements.begin(), passage.statements.end());
-    const FunctionParts parts =
-        in_parts(statements, std::min(processor::part_length, options.longest_function), language);
+    const FunctionParts parts = in_parts(with_early_results(task, passages),
+                                         std::min(processor::part_length, options.longest_function), language);
     std::string given, of_parts;
     std::set<std::string> all;
     for (const FunctionArgument& a : task.arguments) {
@@ -96,6 +123,8 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
     std::vector<EmittedFunction> result;
     const char* const room =
         language == CodeLanguage::javascript ? "const carried = new Float64Array({});" : "Real carried[{}];";
+    const char* const own_room =
+        language == CodeLanguage::c ? "Real* restrict" : "Real* __restrict";  // nothing else points there
     Passage calls{"Parts", {{.text = fmt::format(fmt::runtime(room), std::max(parts.carried, 1))}}};
     for (const FunctionPart& part : parts.list) {
         std::vector<ArrayInput> used;
@@ -106,7 +135,7 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
         const std::string own = fmt::format("{}_{}", task.name, result.size());
         EmittedFunction piece{.name = own,
                               .about = "A part.",
-                              .arguments = of_parts + unused + typed(language, {"Real*", "carried"}),
+                              .arguments = of_parts + unused + typed(language, {own_room, "carried"}),
                               .unpacked = unpacked(used, language),
                               .passages = {lines},
                               .is_part = true};
@@ -129,7 +158,8 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
 std::vector<EmittedFunction> written(const Program& program, const Vocabulary& words, const FunctionTask& task,
                                      const EmitOptions& options) {
     if (task.results.empty() && task.copies.empty()) return {};
-    Writer writer(program, words.names(), words.leaves(), options.batch, options.language);
+    Writer writer(program, words.names(), words.leaves(), options.batch, options.language,
+                  options.longest_function);
     std::vector<Passage> passages = writer.write(task.goals);
     Passage last{.title = "Result"};
     for (const RateCopy& copy : task.copies) {

@@ -171,10 +171,39 @@ std::vector<Passage> Writer::in_order_of_time(const Sections& sections, const st
     const auto is_done = [&](int node) {
         return sections.of(node) == 0 || is_leaf(node) || named_.contains(node);
     };
-    for (const int id : scheduled(program_, *ready_, nodes, is_done))
+    const bool in_parts = wanted_.size() > longest_whole_;
+    for (const int id : in_parts ? depth_first(nodes, is_done) : scheduled(program_, *ready_, nodes, is_done))
         if (wanted_.contains(id) && !named_.contains(id)) statements.push_back(id);
-    for (const int id : in_registers(statements)) passages[1].statements.push_back(statement(id));
+    if (!in_parts) statements = in_registers(statements);
+    for (const int id : statements) passages[1].statements.push_back(statement(id));
     return passages;
+}
+
+/// The nodes that the roots need, those of the first root first, each soon before the first of its users. Of a
+/// large Jacobian, with rows as roots, parts of 400 statements exchange a fifth of the values that they exchange
+/// in the order of urgency.
+std::vector<int> Writer::depth_first(const std::vector<int>& roots,
+                                     const std::function<bool(int)>& is_done) const {
+    std::vector<int> order;
+    std::vector<char> is_met(static_cast<std::size_t>(program_.size()), 0);
+    std::vector<std::pair<int, std::size_t>> stack;  // a node, and how many of its arguments have been entered
+    const auto enter = [&](int id) {
+        if (std::exchange(is_met[static_cast<std::size_t>(id)], 1) == 0 && !is_done(id)) stack.emplace_back(id, 0);
+    };
+    for (const int root : roots) {
+        enter(root);
+        while (!stack.empty()) {
+            auto& [id, entered] = stack.back();
+            const std::vector<int>& args = program_[id].args;
+            if (entered < args.size()) {
+                enter(args[entered++]);
+                continue;
+            }
+            order.push_back(id);
+            stack.pop_back();
+        }
+    }
+    return order;
 }
 
 /// Adds notes for goals that are a number or a parameter, or whose value has another name.

@@ -11,6 +11,8 @@
 /// writer.cpp decides which nodes get statements, and where; writer_trigonometry.cpp writes sines and cosines,
 /// writer_text.cpp all other values.
 
+#include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -31,14 +33,17 @@ class Writer {
 public:
     /// `leaves` are the nodes that have names already (variables, and constants from `prepare`). With
     /// `adds_angles`, sin(a + b) is computed from the sines and cosines of a and b if these exist. That takes two
-    /// operations instead of 30 and is accurate to an ulp of 1, but is less like a book.
+    /// operations instead of 30 and is accurate to an ulp of 1, but is less like a book. More than `longest_whole`
+    /// statements will be divided into parts, and are ordered so that few values pass from one part to another.
     Writer(const Program& program, Names names, std::map<int, std::string> leaves, bool adds_angles = false,
-           CodeLanguage language = CodeLanguage::cpp)
+           CodeLanguage language = CodeLanguage::cpp,
+           std::size_t longest_whole = std::numeric_limits<std::size_t>::max())
         : program_(program),
           names_(std::move(names)),
           named_(std::move(leaves)),
           adds_angles_(adds_angles),
-          language_(language) {}
+          language_(language),
+          longest_whole_(longest_whole) {}
 
     /// The statements that lead to the goals, by section: trigonometry, values that several sections share, then
     /// the goals' own sections in their order.
@@ -76,6 +81,7 @@ private:
     std::vector<Passage> in_order_of_time(const Sections& sections, const std::vector<int>& nodes);
     void add_notes(std::vector<Passage>& passages, const std::vector<Goal>& goals);
     std::vector<int> in_registers(const std::vector<int>& nodes) const;
+    std::vector<int> depth_first(const std::vector<int>& roots, const std::function<bool(int)>& is_done) const;
 
     std::vector<CodeStatement> trigonometry(const std::vector<int>& nodes);
     CodeStatement sines_together(const std::vector<int>& arguments, const std::vector<AngleSum>& sums);
@@ -107,6 +113,7 @@ private:
     std::map<int, std::string> argument_names_, sine_names_, cosine_names_;
     bool adds_angles_;
     CodeLanguage language_;
+    std::size_t longest_whole_;
     std::map<int, std::pair<int, int>> sines_;  // argument → its sine and cosine, −1 where not needed
 
     std::set<std::string> reading_;  // the names in the current statement

@@ -1,0 +1,219 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Forward and inverse dynamics, mass matrices and their Jacobians beside Pinocchio's, in one run: Pinocchio's own functions (aba,
+# rnea, crba, computeABADerivatives, computeRNEADerivatives), and the code that CppADCodeGen writes from these.
+#
+#   tests/bench/pinocchio.sh [--robot NAME]... [--rounds N] [--flags "FLAGS"]... [--length N] [--json FILE] [PROGRAM]
+#
+# Robots are humanoid32, tree30, oblique20 and chain20 of robots.py, and arm7. Results agree to 1e-9 before anything is timed; then
+# all take turns, and a time is the least of N rounds (20), since others may use the processor. Ours is compiled with the flags of
+# `alembert simulate`, and also with -O3; the code of CppADCodeGen once with each of FLAGS ("-Ofast -march=native" and
+# "-O1 -march=native"), in functions of at most `--length` assignments (1000). The best of the builds counts on both sides. Ours for the
+# Jacobian of inverse dynamics is `inverse_jacobian` and `mass`, because theirs has d tau / d q'' too. computeABADerivatives gives the
+# inverse of the mass matrix besides; ours does not, and neither does the code written from it here.
+#
+# Pinocchio: PINOCCHIO_PREFIX (a folder with include/pinocchio and Boost's headers), or PINOCCHIO_PYTHON, an interpreter whose
+# environment has the package `pin`, or python3. CppADCodeGen: CPPADCG_PREFIX, a folder with include/cppad/cg.hpp and
+# include/cppad/cppad.hpp. Eigen: EIGEN_INCLUDE, or /usr/include/eigen3. PROGRAM: build/release/generator/alembert.
+set -eu
+root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
+exec python3 -B - "$root" "$@" <<'PYTHON'
+import argparse
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree as tree
+
+root = sys.argv[1]
+ROBOTS = ["humanoid32", "tree30", "oblique20", "chain20", "arm7"]
+parser = argparse.ArgumentParser(prog="pinocchio.sh")
+parser.add_argument("program", nargs="?", default=os.path.join(root, "build/release/generator/alembert"))
+parser.add_argument("--robot", action="append", choices=ROBOTS)
+parser.add_argument("--rounds", type=int, default=20)
+parser.add_argument("--flags", action="append")
+parser.add_argument("--length", type=int, default=1000)
+parser.add_argument("--json")
+wishes = parser.parse_args(sys.argv[2:])
+if not os.path.exists(wishes.program):
+    sys.exit(f"there is no {wishes.program}: build it first")
+bench = os.path.join(root, "tests/bench")
+folder = tempfile.mkdtemp(prefix="pinocchio-")
+compiler = os.environ.get("CXX", "c++")
+
+
+def processor():
+    """The name of the processor, and which of the registers that we use it has."""
+    listed = {}
+    for line in open("/proc/cpuinfo"):
+        key, _, value = line.partition(":")
+        listed.setdefault(key.strip(), value.strip())
+    flags = set(listed.get("flags", "").split())
+    return listed.get("model name", "?"), [flag for flag in ("sse2", "avx", "avx2", "fma", "avx512f") if flag in flags]
+
+
+def pinocchio():
+    """The folder above include/pinocchio."""
+    candidates = [os.environ.get("PINOCCHIO_PREFIX")]
+    where = "import pinocchio, os; print(os.path.abspath(os.path.join(os.path.dirname(pinocchio.__file__), *[os.pardir] * 4)))"
+    for python in (os.environ.get("PINOCCHIO_PYTHON"), "python3"):
+        if python:
+            candidates.append(subprocess.run([python, "-c", where], capture_output=True, text=True).stdout.strip())
+    for one in candidates:
+        if one and os.path.exists(os.path.join(one, "include/pinocchio/algorithm/aba.hpp")):
+            return one
+    sys.exit("Pinocchio is not found: name its folder with PINOCCHIO_PREFIX, or an interpreter that has the package "
+             "'pin' with PINOCCHIO_PYTHON (python3 -m venv FOLDER; FOLDER/bin/pip install pin)")
+
+
+def timed(command):
+    """The seconds of processor time that a command takes."""
+    before = os.times()
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command[:6])} …: {done.stderr[-2000:]}")
+    after = os.times()
+    return after.children_user - before.children_user + after.children_system - before.children_system, done.stdout
+
+
+def compiled_peer(prefix, codegen):
+    includes = [os.path.join(prefix, "include"), os.environ.get("EIGEN_INCLUDE", "/usr/include/eigen3")]
+    command = [compiler, "-std=c++17", "-O2", "-march=native", "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
+               "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30", "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
+               "-DBOOST_FUSION_INVOKE_MAX_ARITY=12", "-I" + os.path.join(root, "lib")]
+    for include in includes + ([os.path.join(codegen, "include")] if codegen else []):
+        command += ["-isystem", include]
+    peer = os.path.join(folder, "peer")
+    command += [os.path.join(bench, "pinocchio_peer.cpp"), "-o", peer, "-ldl"]
+    print(f"compiling the peer: {timed(command)[0]:.0f} s", flush=True)
+    if not codegen:
+        return peer, None
+    writer = os.path.join(folder, "writer")
+    command = [("-O1" if word == "-O2" else writer if word == peer else word) for word in command]
+    print(f"compiling the peer that writes code: {timed(command + ['-DWITH_CODEGEN'])[0]:.0f} s", flush=True)
+    return peer, writer
+
+
+def angles_of(R):
+    return [math.atan2(R[2][1], R[2][2]), math.asin(max(-1, min(1, -R[2][0]))), math.atan2(R[1][0], R[0][0])]
+
+
+def urdf_of_arm():
+    """systems/arm7.json as a URDF."""
+    system = json.load(open(os.path.join(bench, "systems/arm7.json")))
+    number = lambda list: " ".join(repr(float(x)) for x in list)
+    lines = ['<robot name="arm7">', '<link name="l0"/>']
+    for k, body in enumerate(system["bodies"], 1):
+        xx, xy, xz, yy, yz, zz = body["inertia"]
+        lines += [f'<link name="l{k}"><inertial><mass value="{body["mass"]}"/><origin xyz="{number(body["com"])}"/>'
+                  f'<inertia ixx="{xx}" iyy="{yy}" izz="{zz}" ixy="{xy}" ixz="{xz}" iyz="{yz}"/></inertial></link>',
+                  f'<joint name="j{k}" type="continuous"><origin xyz="{number(body["p"])}" rpy="{number(angles_of(body["R"]))}"/>'
+                  f'<parent link="l{body["parent"] + 1}"/><child link="l{k}"/><axis xyz="{number(body["axis"])}"/></joint>']
+    return "\n".join(lines + ["</robot>\n"])
+
+
+def table_of(urdf):
+    """The numbers of a URDF of robots.py as a table that the peer reads."""
+    robot = tree.parse(urdf).getroot()
+    links = {link.get("name"): link.find("inertial") for link in robot.findall("link")}
+
+    def inertia(link):
+        if links[link] is None:
+            return "0 0 0 0 0 0 0 0 0 0"
+        origin, I = links[link].find("origin"), links[link].find("inertia")
+        return " ".join([links[link].find("mass").get("value"), origin.get("xyz")] +
+                        [I.get(key) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")])
+
+    numbers = {robot.find("link").get("name"): 0}
+    lines = [inertia(robot.find("link").get("name"))]
+    for joint in robot.findall("joint"):
+        child, damping = joint.find("child").get("link"), joint.find("dynamics")
+        numbers[child] = len(numbers)
+        lines.append(" ".join([joint.get("name"), str(numbers[joint.find("parent").get("link")]), joint.find("axis").get("xyz"),
+                               joint.find("origin").get("xyz"), joint.find("origin").get("rpy"),
+                               "0" if damping is None else damping.get("damping"), inertia(child)]))
+    return "\n".join(lines) + "\n"
+
+
+def ours(name, urdf, floats):
+    """Our file, compiled as `alembert simulate` does and with -O3, and the seconds of both steps."""
+    scene, out = os.path.join(folder, name + ".toml"), os.path.join(folder, "ours")
+    timed([wishes.program, "import", urdf, "-o", scene] + (["--floating"] if floats else []))
+    emitted = timed([wishes.program, "emit", scene, "--jacobian", "--functions", "inverse,mass,inverse_jacobian", "-o", out])[0]
+    source = os.path.join(out, name + ".cpp")
+    flags = ["-std=c++20", "-shared", "-fPIC", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math",
+             "-fno-tree-slp-vectorize"]
+    large = ["-O1", "-fexpensive-optimizations", "-fno-tree-dse", "-fno-dse", "-fno-gcse",
+             "--param=lra-max-considered-reload-pseudos=10"] if os.path.getsize(source) > 200000 else ["-O2"]
+    objects = {}
+    for build, more in (("ours", large), ("ours -O3", ["-O3"])):
+        objects[build] = (source[:-4] + build.replace(" ", "") + ".so", 0)
+        objects[build] = (objects[build][0], timed([compiler, *flags, *more, source, "-o", objects[build][0]])[0])
+    return objects, emitted
+
+
+def theirs(name, table, floats, writer):
+    """Objects of the code that CppADCodeGen writes, and the seconds for writing and compiling them."""
+    words, seconds = [], {}
+    for function in ("forward", "inverse", "mass", "forward_jacobian", "inverse_jacobian"):
+        where = os.path.join(folder, name + "_" + function)
+        os.makedirs(where)
+        written = timed([writer, "generate", table, floats, function, str(wishes.length), where])[0]
+        sources = [os.path.join(where, one) for one in os.listdir(where) if one.endswith(".c")]
+        for flags in wishes.flags or ["-Ofast -march=native", "-O1 -march=native"]:
+            build, total = os.path.join(where, re.sub("[^A-Za-z0-9]", "", flags)), 0
+            os.makedirs(build)
+            objects = []
+            for source in sources:
+                objects.append(os.path.join(build, os.path.basename(source) + ".o"))
+                total += timed(["cc", "-std=gnu99", "-fPIC", *flags.split(), "-c", source, "-o", objects[-1]])[0]
+            timed(["cc", "-shared", *objects, "-o", build + ".so", "-lm"])
+            words.append(f"{function}:CppADCodeGen {flags}={build}.so")
+            seconds.setdefault(function, []).append((round(written, 2), flags, round(total, 2)))
+    return words, seconds
+
+
+prefix, codegen = pinocchio(), os.environ.get("CPPADCG_PREFIX")
+if codegen and not os.path.exists(os.path.join(codegen, "include/cppad/cg.hpp")):
+    sys.exit(f"there is no include/cppad/cg.hpp in CPPADCG_PREFIX, {codegen}")
+model, flags = processor()
+print(f"processor: {model} ({' '.join(flags)}); Pinocchio: {prefix}; CppADCodeGen: "
+      f"{codegen or 'left out, CPPADCG_PREFIX names none'}", flush=True)
+peer, writer = compiled_peer(prefix, codegen)
+subprocess.run([sys.executable, "-B", os.path.join(bench, "robots.py"), folder], check=True)
+open(os.path.join(folder, "arm7.urdf"), "w").write(urdf_of_arm())
+print(f"{'robot':11} {'function':17} {'operations':>10} {'ours, us':>9} {'Pinocchio':>10} {'ratio':>6} {'CppADCodeGen':>13} {'ratio':>6}")
+listed = []
+for name in wishes.robot or ROBOTS:
+    floats = name.startswith("humanoid")
+    urdf, table, kind = os.path.join(folder, name + ".urdf"), os.path.join(folder, name + ".table"), "floating" if floats else "fixed"
+    open(table, "w").write(table_of(urdf))
+    objects, emitted = ours(name, urdf, floats)
+    words, seconds = theirs(name, table, kind, writer) if writer else ([], {})
+    results = {build: json.loads(timed([peer, "time", table, kind, str(wishes.rounds), path, *words])[1])
+               for build, (path, _) in objects.items()}
+    for function in results["ours"]["ns"]:
+        times = {}
+        for build, result in results.items():
+            for who, ns in result["ns"][function].items():
+                who = build if who == "ours" else who
+                times[who] = min(ns, times.get(who, math.inf))
+        own = min(ns for who, ns in times.items() if who.startswith("ours"))
+        generated = min((ns for who, ns in times.items() if who.startswith("CppADCodeGen")), default=None)
+        cell = lambda ns: f"{ns / 1000:.2f}" if ns else "-"
+        ratio = lambda ns: f"{own / ns:.2f}" if ns else "-"
+        print(f"{name:11} {function:17} {results['ours']['operations'].get(function, ''):>10} {cell(own):>9} "
+              f"{cell(times['Pinocchio']):>10} {ratio(times['Pinocchio']):>6} {cell(generated):>13} {ratio(generated):>6}", flush=True)
+        listed.append({"robot": name, "function": function, "ns": times, "processor": model, "flags": flags,
+                       "codegen_seconds": seconds.get(function)})
+    print(f"{name:11} emitted in {emitted:.1f} s, compiled in "
+          f"{', '.join(f'{seconds:.1f} s ({build})' for build, (_, seconds) in objects.items())}"
+          + "".join(f"; {function}: written in {list[0][0]:.1f} s, compiled in {', '.join(f'{s:.1f} s ({f})' for _, f, s in list)}"
+                    for function, list in seconds.items()), flush=True)
+if wishes.json:
+    json.dump(listed, open(wishes.json, "w"), indent=1)
+PYTHON
