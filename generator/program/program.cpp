@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -44,6 +43,20 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t value) {  // the finalizer of s
     h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ULL;
     h = (h ^ (h >> 27)) * 0x94d049bb133111ebULL;
     return h ^ (h >> 31);
+}
+
+/// One item for each node, in the order of their numbers, with the sum of its weights.
+template <typename Item, typename Weight>
+void gather(std::vector<Item>& items, int Item::*node, Weight Item::*weight) {
+    std::sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return a.*node < b.*node; });
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        if (count > 0 && items[count - 1].*node == items[k].*node)
+            items[count - 1].*weight = items[count - 1].*weight + items[k].*weight;
+        else if (count++ != k)
+            items[count - 1] = items[k];
+    }
+    items.resize(count);
 }
 
 std::uint64_t hash_of(const Rational& r) {
@@ -134,7 +147,8 @@ int Program::scaled(const Rational& coefficient, int id) {
 
 int Program::sum(const Rational& constant, const std::vector<Term>& terms) {
     Rational rest = constant;
-    std::map<int, Rational> by_node;
+    std::vector<Term> by_node;
+    by_node.reserve(terms.size());
     for (auto [coefficient, id] : terms) {
         if (nodes_[id].is_scaled()) {
             coefficient = coefficient * nodes_[id].coefficients[0];
@@ -143,10 +157,11 @@ int Program::sum(const Rational& constant, const std::vector<Term>& terms) {
         if (nodes_[id].is_number())
             rest = rest + coefficient * nodes_[id].number;
         else
-            by_node[id] = by_node[id] + coefficient;
+            by_node.emplace_back(coefficient, id);
     }
+    gather(by_node, &Term::second, &Term::first);
     std::vector<Term> kept, constants;
-    for (const auto& [id, coefficient] : by_node)
+    for (const auto& [coefficient, id] : by_node)
         if (!cln::zerop(coefficient)) (nodes_[id].is_constant() ? constants : kept).emplace_back(coefficient, id);
     if (!kept.empty() && constants.size() + (cln::zerop(rest) ? 0 : 1) > 1) {
         const int gathered = sum(rest, constants);
@@ -178,7 +193,8 @@ int Program::sum(const Rational& constant, const std::vector<Term>& terms) {
 
 int Program::product(const Rational& coefficient, const std::vector<Factor>& factors) {
     Rational content = coefficient;
-    std::map<int, int> by_node;
+    std::vector<Factor> by_node;
+    by_node.reserve(factors.size());
     for (auto [id, exponent] : factors) {
         if (exponent == 0) continue;
         if (nodes_[id].is_scaled()) {
@@ -193,16 +209,17 @@ int Program::product(const Rational& coefficient, const std::vector<Factor>& fac
             if (cln::zerop(nodes_[id].number) && exponent < 0) throw std::domain_error("division by zero");
             content = content * cln::expt(nodes_[id].number, exponent);
         } else {
-            by_node[id] += exponent;
+            by_node.emplace_back(id, exponent);
         }
     }
+    gather(by_node, &Factor::first, &Factor::second);
     if (cln::zerop(content)) return number(0);
     // √x · √x = x
-    for (auto it = by_node.begin(); it != by_node.end(); ++it)
-        if (nodes_[it->first].op == Op::sqrt && (it->second > 1 || it->second < -1)) {
-            std::vector<Factor> again(by_node.begin(), by_node.end());
-            again.emplace_back(nodes_[it->first].args[0], it->second / 2);
-            again.emplace_back(it->first, -2 * (it->second / 2));
+    for (const auto& [id, exponent] : by_node)
+        if (nodes_[id].op == Op::sqrt && (exponent > 1 || exponent < -1)) {
+            std::vector<Factor> again = by_node;
+            again.emplace_back(nodes_[id].args[0], exponent / 2);
+            again.emplace_back(id, -2 * (exponent / 2));
             return product(content, again);
         }
     std::vector<Factor> kept, constants;
