@@ -74,7 +74,7 @@ std::string text_of(const Dimension& dimension) {
     return above;
 }
 
-Dimensions::Dimensions(const Scene& scene, Numbers numbers) : scene_(scene), numbers_(numbers) {
+Dimensions::Dimensions(const Scene& scene, Numbers numbers) : numbers_(numbers) {
     for (const Parameter& p : scene.parameters) know(p.name.text, p.unit);
     for (const Coordinate& q : scene.coordinates) know(q.name.text, q.unit);
     for (const Speed& u : scene.speeds) know(u.name.text, u.unit);

@@ -84,7 +84,6 @@ private:
     bool learn_factor(const Tree& product, const Dimension& wanted);
     std::string text(const Tree& tree) const;
 
-    const Scene& scene_;
     Numbers numbers_;
     std::map<std::string, Dimension> names_;
     std::map<std::string, const Expression*> definitions_;  ///< looked at when they are asked for
