@@ -86,7 +86,7 @@ ssize_t pass_on(void* cookie, const char* bytes, std::size_t size) {
     std::string text = way.held + std::string(bytes, size);
     const std::size_t keep = unfinished(text);
     way.held = text.substr(text.size() - keep);
-    text.resize(text.size() - keep);
+    text.erase(text.size() - keep);
     if (way.put(way.colours ? coloured(text) : harmless(text))) return static_cast<ssize_t>(size);
     errno = way.error;
     return 0;
