@@ -31,7 +31,7 @@ chmod +x slow
 export CXX="$PWD/slow" NOTE="$PWD/note" TMPDIR="$PWD/temporary" XDG_CACHE_HOME="$PWD/$4"
 mkdir temporary
 : >file
-"$ALEMBERT" simulate --code compiled "$2" >out 2>err &
+"$ALEMBERT" simulate --code compiled --no-tuning "$2" >out 2>err &
 program=$!
 until [ -s note ] || grep -q ') Z' /proc/$program/stat; do sleep 0.05; done
 [ -s note ] || { cat err >&2; exit 99; }
