@@ -108,6 +108,22 @@ TEST_CASE("derivations: letters are said by the scene and by the option, and a n
     CHECK(run({"check", scene, file, "--letters", "a"}).exit == 3);
 }
 
+TEST_CASE("check --json-file: one run prints for people and writes what --json prints") {
+    const std::string scene = temporary("pendulum.toml", pendulum), file = temporary("wrong.tex", wrong);
+    const std::string claims = temporary("claims.txt", "l*theta'' + g*sin(theta) = 0\ntheta = 1\n");
+    const std::string folder = temporary_folder("papers");
+    std::ofstream(folder + "/a.tex") << wrong;
+    const std::string object = temporary("verdicts.json", "");
+    for (const std::string& of : {file, claims, folder}) {
+        CAPTURE(of);
+        const Run both = run({"check", scene, of, "--json-file", object}), text = run({"check", scene, of});
+        CHECK(both.exit == text.exit);
+        CHECK(both.out == text.out);
+        CHECK(contents(object) == run({"check", scene, of, "--json"}).out);
+    }
+    CHECK(run({"check", scene, file, "--json-file", "verdicts.html"}).exit == 3);
+}
+
 TEST_CASE(
     "derivations: the page has each line with its verdict, the wrong term marked, and no markup of its author") {
     const std::string page = temporary("page.html", "");

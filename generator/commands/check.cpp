@@ -30,9 +30,19 @@ struct CheckOptions : SceneOptions {
     std::string claims;     ///< a file or a folder; if empty, the claims of the scene
     bool complete = false;  ///< whether the right claims must determine the motion
     std::vector<std::string> letters;
-    std::string page, csv;
+    std::string page, csv, json_file;
     bool drafts = false;  ///< whether `scene` is a derivation from which a scene is drafted
 };
+
+/// Text for people, or JSON with --json, which goes into a file too if one is named.
+template <typename AsJson, typename AsText>
+void tell(const CheckOptions& options, const AsJson& json, const AsText& text) {
+    if (!options.json_file.empty()) write_file(options.json_file, shown(json()), {options.scene, options.claims});
+    if (options.json)
+        show(json());
+    else
+        text();
+}
 
 int exit_code(const Checked& checked, bool must_be_complete) {
     bool open = must_be_complete && !checked.complete;
@@ -102,10 +112,9 @@ bool is_read_as_derivation(const CheckOptions& options, const std::string& text)
 int run_claims(Scene scene, const CheckOptions& options) {
     const CheckedScene checked = check(std::move(scene), options.by);
     warn(checked.warnings);
-    if (options.json)
-        show(as_json(checked));
-    else
-        show_formulas(as_text(checked, ink_for(STDOUT_FILENO)));
+    tell(
+        options, [&] { return as_json(checked); },
+        [&] { show_formulas(as_text(checked, ink_for(STDOUT_FILENO))); });
     return exit_code(checked.checked, options.complete);
 }
 
@@ -120,10 +129,8 @@ int run_folder(const Scene& scene, const CheckOptions& options) {
     const Gradebook book =
         grade(scene, derivations_in(options.claims), mark_options(options), !options.page.empty());
     write_book(book, options, scene);
-    if (options.json)
-        show(as_json(book));
-    else
-        show(as_text(book, ink_for(STDOUT_FILENO)));
+    tell(
+        options, [&] { return as_json(book); }, [&] { show(as_text(book, ink_for(STDOUT_FILENO))); });
     return exit_code(book);
 }
 
@@ -135,10 +142,9 @@ int run_derivation(const Scene& scene, const CheckOptions& options, std::string 
                    {options.scene, options.claims});
     if (!options.csv.empty())
         write_file(options.csv, as_csv(Gradebook{.rows = {graded(marked)}}), {options.scene, options.claims});
-    if (options.json)
-        show(as_json(marked));
-    else
-        show(as_text(marked, ink_for(STDOUT_FILENO), columns_of(STDOUT_FILENO).value_or(0)));
+    tell(
+        options, [&] { return as_json(marked); },
+        [&] { show(as_text(marked, ink_for(STDOUT_FILENO), columns_of(STDOUT_FILENO).value_or(0))); });
     return exit_code(marked, options.complete);
 }
 
@@ -158,22 +164,24 @@ int run_draft(const CheckOptions& options) {
     if (!options.page.empty())
         write_file(options.page, as_html(marked, {.title = scene.title, .version = ALEMBERT_VERSION}),
                    {options.scene});
-    if (options.json) {
-        Json json = as_json(marked);
-        json["scene"] = drafted.text;
-        json["assumed"] = drafted.assumed;
-        show(json);
-        return exit_code(marked, options.complete);
-    }
-    show(drafted.text + "\n");
-    std::istringstream report(as_text(marked, ink_for(STDOUT_FILENO), columns_of(STDOUT_FILENO).value_or(0)));
-    for (std::string line; std::getline(report, line);) show((line.empty() ? "#" : "# " + line) + "\n");
+    const auto json = [&] {
+        Json result = as_json(marked);
+        result["scene"] = drafted.text;
+        result["assumed"] = drafted.assumed;
+        return result;
+    };
+    tell(options, json, [&] {
+        show(drafted.text + "\n");
+        std::istringstream report(as_text(marked, ink_for(STDOUT_FILENO), columns_of(STDOUT_FILENO).value_or(0)));
+        for (std::string line; std::getline(report, line);) show((line.empty() ? "#" : "# " + line) + "\n");
+    });
     return exit_code(marked, options.complete);
 }
 
 int run(const CheckOptions& options) {
     check_output(options.page, FileForm::page, {options.scene, options.claims});
     check_output(options.csv, FileForm::csv, {options.scene, options.claims});
+    check_output(options.json_file, FileForm::json, {options.scene, options.claims});
     if (options.drafts) return run_draft(options);
     Scene scene = scene_of(options.scene);
     if (options.claims.empty()) {
@@ -205,12 +213,13 @@ void add_check(CLI::App& app, Chosen& chosen) {
             verb.add_flag("--complete", options.complete,
                           say("the exit code is 2 also if the claims that hold do not "
                               "determine the motion"));
-            verb.add_option("--letters", options.letters,
-                            say("for which name a letter of the derivation stands, as in \"\\\\ell=l\""))
+            verb.add_option("--letters", options.letters, say("what a letter stands for, as in \"\\\\ell=l\""))
                 .type_name(values::assignment);
             verb.add_flag("--scene-from", options.drafts,
                           say("SCENE is a derivation, from which a scene is drafted that judges its lines"));
             verb.add_option("--html", options.page, say("the marked derivation, or derivations, as a page"))
+                .type_name(values::file);
+            verb.add_option("--json-file", options.json_file, say("the JSON object too, into this file"))
                 .type_name(values::file);
             verb.take("--output", options.csv, say("a row for each derivation, as a table"));
             verb.take("--by", options.by);

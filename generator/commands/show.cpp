@@ -37,10 +37,14 @@ bool& are_warnings_errors() {
     return strict;
 }
 
-void show(const Json& result) {
+std::string shown(const Json& result) {
     Json whole = result;
     if (whole.is_object() && !whole.contains("warnings")) whole["warnings"] = as_json(told());
-    std::cout << whole.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void show(const Json& result) {
+    std::cout << shown(result);
 }
 
 void show(const std::string& text) {

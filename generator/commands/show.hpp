@@ -13,6 +13,8 @@ namespace alembert {
 
 /// Prints one JSON object, with the warnings of the scenes that were read, or text for people.
 void show(const Json& result);
+/// The text that this prints.
+std::string shown(const Json& result);
 void show(const std::string& text);
 
 /// Prints text with formulas; on a terminal its lines are wrapped to the width (wrap.hpp).

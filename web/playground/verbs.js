@@ -2,7 +2,7 @@
 // What the page asks of the program, and what it makes of the answers: messages and marks with their places.
 import { say } from "./strings.js";
 
-const SCENE = "scene.toml";
+const SCENE = "scene.toml", OBJECT = "verdicts.json";
 
 /// The messages of the error stream: `NAME:LINE:COLUMN: TEXT`, below each the line itself, set in.
 export function messages_of(stderr, warning_word) {
@@ -43,12 +43,12 @@ const SIGN = { proved: "good", refuted: "refuted", undecided: "open", vacuous: "
 export async function judged_scene(desk, text, tongue) {
     const claims_there = /^\s*\[\[\s*claim\s*\]\]/m.test(text);
     const verb = claims_there ? "check" : "derive";
-    const files = { [SCENE]: text };
-    const told = await desk.run([verb, SCENE, "--language", tongue], files);
+    const also = claims_there ? ["--json-file", OBJECT] : [];
+    const told = await desk.run([verb, SCENE, ...also, "--language", tongue], { [SCENE]: text });
     const messages = messages_of(told.stderr, warning_word(tongue));
     if (told.code === 3 || !claims_there || told.code > 3)
         return { faulty: told.code === 3, messages, marks: marks_of(messages, text) };
-    const { claims } = JSON.parse((await desk.run([verb, SCENE, "--json"], files)).stdout);
+    const { claims } = JSON.parse(told.files[OBJECT]);
     const blocks = blocks_of(told.stdout);
     const judged = claims.map(({ line, verdict, equation, likely, nearest }, k) => ({
         kind: SIGN[verdict], line, column: 0, verdict: say(verdict), text: equation, more: blocks[k]?.slice(1) ?? [],
@@ -73,13 +73,13 @@ const STATUS = { right: "good", right_near: "good", right_up_to_constant: "good"
 export async function judged_derivation(desk, scene, text, tongue) {
     const name = /\\[a-zA-Z]|\$/.test(text) ? "derivation.tex" : "derivation.md";
     const files = { [SCENE]: scene, [name]: text };
-    const told = await desk.run(["check", SCENE, name, "--html", "marked.html", "--language", tongue], files);
+    const told = await desk.run(["check", SCENE, name, "--html", "marked.html", "--json-file", OBJECT, "--language", tongue], files);
     if (told.code >= 3) {
         const messages = messages_of(told.stderr, warning_word(tongue));
         const own = messages.filter(({ file }) => file !== SCENE);
         return { scene_faulty: own.length === 0, messages: own, marks: marks_of(own, text) };
     }
-    const { lines } = JSON.parse((await desk.run(["check", SCENE, name, "--json"], files)).stdout);
+    const { lines } = JSON.parse(told.files[OBJECT]);
     const judged = lines.map(({ line, column, source, status, right, follows_from }) => ({
         kind: STATUS[status], line, column, text: source, right: status === "mistake" ? right : "", short: true,
         verdict: follows_from === null ? say(status) : say("follows_from", { n: lines[follows_from].line }) }));

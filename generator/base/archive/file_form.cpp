@@ -53,6 +53,9 @@ void need_form(const std::string& path, FileForm form) {
         case FileForm::scene:
             if (ending != ".toml") refuse(path, say("a scene in TOML"), ".toml");
             break;
+        case FileForm::json:
+            if (ending != ".json") refuse(path, say("a JSON object"), ".json");
+            break;
         case FileForm::unit:
             if (ending != ".fmu")
                 throw ModelError(say("'{}': other tools know a unit by its ending; call it NAME.fmu", path));

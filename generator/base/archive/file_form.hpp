@@ -16,6 +16,7 @@ enum class FileForm {
     picture,  ///< SVG
     page,     ///< HTML
     scene,    ///< TOML
+    json,     ///< one JSON object
     unit,     ///< a functional mock-up unit; other tools know it by its ending, which it needs
     csv,      ///< a table as CSV
     table     ///< a table as CSV, or by its ending for NumPy (.npz) or HDF5 (.h5, .hdf5)
