@@ -1,6 +1,6 @@
 // The program as a function. Every run is a process of its own: a new instance of the module, which is compiled once.
 
-let program = null;
+let program = null, next = null;
 
 /// Loads and compiles alembert.wasm, which stands beside this file. `run` does it where nobody has.
 export function load(bytes) {
@@ -21,6 +21,28 @@ async function compiled(bytes) {
     if (answer.headers.get("content-type") === "application/wasm")
         return WebAssembly.compileStreaming(answer);
     return WebAssembly.compile(await answer.arrayBuffer());
+}
+
+/// An instance that has not run yet, with its streams.
+async function fresh() {
+    const module = await load();
+    const streams = { out: collector(), err: collector(), read: () => null };
+    const instance = await started({
+        instantiateWasm(imports, done) {
+            WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
+            return {};
+        },
+        preRun(own) {
+            own.FS.init(() => streams.read(), (byte) => streams.out.put(byte), (byte) => streams.err.put(byte));
+        },
+    });
+    return { instance, streams };
+}
+
+/// Makes the instance of the next run now, where there is time, so that the run need not wait for it.
+export async function prepare() {
+    next ??= fresh();
+    await next;
 }
 
 /// Collects the bytes of a stream.
@@ -82,18 +104,10 @@ function as_text(bytes) {
 /// `folder` is the path of the command's folder, from which the names in `words` count, `folders` are others that are
 /// there too, and `stdin` is a text (or bytes). Files that are written outside of the folder are given by their paths.
 export async function run(words, files = {}, { folder = "/scene", folders = [], stdin = null } = {}) {
-    const module = await load();
-    const out = collector(), err = collector();
-    const instance = await started({
-        instantiateWasm(imports, done) {
-            WebAssembly.instantiate(module, imports).then((instance) => done(instance, module));
-            return {};
-        },
-        preRun(own) {
-            own.FS.init(reader(stdin), (byte) => out.put(byte), (byte) => err.put(byte));
-        },
-    });
-    const { FS } = instance;
+    const own = next ?? fresh();
+    next = null;
+    const { instance, streams } = await own, { out, err } = streams, { FS } = instance;
+    streams.read = reader(stdin);
     for (const path of [folder, ...folders]) FS.mkdirTree(path);
     FS.chdir(folder);
     write_files(FS, folder, files);

@@ -5,7 +5,7 @@ import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const before = performance.now();
-const { load, run } = await import(pathToFileURL(resolve(process.argv[2], "alembert.mjs")));
+const { load, prepare, run } = await import(pathToFileURL(resolve(process.argv[2], "alembert.mjs")));
 await load();
 const loaded = performance.now();
 const scene = `title = "A pendulum"
@@ -34,6 +34,13 @@ assert.equal(first.code, 0, first.stderr);
 assert.equal(JSON.parse(first.stdout).formalism.length > 0, true);
 assert.deepEqual(first.files, {});
 console.log(`loading ${(loaded - before).toFixed(0)} ms, first answer ${(answered - loaded).toFixed(0)} ms after it`);
+
+// What is made before it is needed runs as any other does, once.
+await Promise.all([prepare(), prepare()]);
+const prepared = await run(["check", "scene.toml", "-", "--json"], files, { stdin: "$l \\ddot\\theta + g \\sin\\theta = 0$\n" });
+assert.equal(prepared.code, 0, prepared.stderr);
+assert.equal(JSON.parse(prepared.stdout).lines[0].status, "right");
+assert.equal((await run(["derive", "scene.toml", "--json"], files)).stdout, first.stdout);
 
 const version = await run(["--version"]);
 assert.match(version.stdout, /^alembert \d/);

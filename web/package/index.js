@@ -4,7 +4,7 @@
 import { run } from "./alembert.mjs";
 import { aliases, verbs, version } from "./verbs.js";
 
-export { load, run } from "./alembert.mjs";
+export { load, prepare, run } from "./alembert.mjs";
 export { version };
 
 /// What the program says where it gives no result: exit codes 3 (the input), 4 (the numbers), 5 (the environment).

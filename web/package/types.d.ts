@@ -128,6 +128,8 @@ export interface Answer {
 export function run(words: readonly string[], files?: Files, more?: { folder?: string; folders?: readonly string[]; stdin?: Uint8Array | string | null }): Promise<Answer>;
 /** Compiles the program before it is needed; from bytes or a module, where they are at hand. */
 export function load(program?: BufferSource | WebAssembly.Module): Promise<WebAssembly.Module>;
+/** Makes the instance of the next run in this thread now, where there is time, so that the run need not wait for it. */
+export function prepare(): Promise<void>;
 export const version: string;
 
 /** All functions in a worker, until it is terminated. */
