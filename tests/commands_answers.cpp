@@ -3,6 +3,7 @@
 // place of a zero, quotients in lowest terms. The numbers are compared with closed forms.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -81,6 +82,29 @@ TEST_CASE("stability: modes whose coordinates pass zero together have a real sha
     scene += "[dissipation]\nrayleigh = \"x1'^2/10\"\n";
     for (const Json& mode : asked({"stability", temporary("damped.toml", scene), "--json"})["modes"])
         CHECK(!mode.contains("shape"));
+}
+
+// Three masses in a ring of springs: of the double eigenvalue 3 every shape without a sum is one.
+TEST_CASE(
+    "stability: of an eigenvalue that is there twice the vectors are shown that leave out most, and no others") {
+    const std::string ring = temporary("ring.toml", R"toml(
+[coordinates]
+x1 = 0
+x2 = 0
+x3 = 0
+[energy]
+kinetic = "(x1'^2 + x2'^2 + x3'^2)/2"
+potential = "((x2 - x1)^2 + (x3 - x2)^2 + (x1 - x3)^2)/2"
+)toml");
+    std::vector<Json> shapes;
+    for (const Json& mode : asked({"linearize", ring, "--json"})["modes"])
+        if (std::abs(mode["eigenvalue"][1].get<double>() - std::sqrt(3.0)) < 1e-9) shapes.push_back(mode["shape"]);
+    REQUIRE(shapes.size() == 2);
+    const std::vector<std::array<double, 3>> expected{{1, 0, -1}, {0, 1, -1}};
+    for (std::size_t k = 0; k < 2; ++k)
+        for (std::size_t i = 0; i < 3; ++i)
+            CHECK(shapes[k]["x" + std::to_string(i + 1)].get<double>() ==
+                  doctest::Approx(expected[k][i]).epsilon(1e-12));
 }
 
 TEST_CASE("stability: the period of coefficients that are sines of t is found") {

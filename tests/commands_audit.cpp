@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "json.hpp"
 #include "program.hpp"
@@ -160,6 +161,11 @@ position = ["r*cos(phi)", "r*sin(phi)"]
     CHECK(polar[0]["kind"] == "description");
     CHECK(std::abs(polar[0]["coordinates"]["r"].get<double>()) < 1e-4);  // the distance counts in M by its square
     CHECK(polar[0]["among"] == Json{"phi"});
+    // Of two that differ by a sign, that with the plus comes first, and right angles are exact.
+    const Json board = poses(source_path("scenes/textbook/snakeboard.toml"));
+    REQUIRE(board.size() == 2);
+    for (int k = 0; k < 2; ++k)
+        CHECK(board[k]["coordinates"]["phi"].get<double>() == (k == 0 ? 1 : -1) * std::numbers::pi / 2);
     const Json top = poses(source_path("scenes/textbook/heavy_top.toml"));
     REQUIRE(!top.empty());
     for (const Json& pose : top) {

@@ -80,7 +80,8 @@ public:
             q = simplified(q);
             if (near(q)) add(q, false);
         }
-        // If there are many poses, simple ones come first.
+        // If there are many poses, simple ones come first, and of those that differ by signs alone, that with the
+        // plus.
         const auto plain = [&](const SingularPose& pose) {
             int count = 0;
             for (const int i : moving_) {
@@ -89,15 +90,17 @@ public:
             }
             return count;
         };
-        const auto distance = [&](const SingularPose& pose) {
+        // In steps of 10⁻⁶, so that roundings decide nothing.
+        const auto far = [&](const SingularPose& pose) {
             double sum = 0;
             for (std::size_t i = 0; i < pose.q.size(); ++i) sum += std::pow(pose.q[i] - state_.q[i], 2);
-            return sum;
+            return std::round(1e6 * sum);
         };
         std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
             if (a.given != b.given) return a.given;
             if (plain(a) != plain(b)) return plain(a) > plain(b);
-            return distance(a) < distance(b);
+            if (const double d = far(a), e = far(b); d != e) return d < e;
+            return std::lexicographical_compare(b.q.begin(), b.q.end(), a.q.begin(), a.q.end());
         });
         if (found.size() > most) found.resize(most);
         return found;
@@ -216,8 +219,11 @@ private:
 
     /// The same pose with simpler numbers, if it is singular there too.
     std::vector<double> simplified(std::vector<double> q) {
+        constexpr double right_angle = std::numbers::pi / 2;
         for (const int i : moving_)
-            for (double other : {0.0, state_.q[i], std::remainder(q[i], 2 * std::numbers::pi)}) {
+            for (double other :
+                 {0.0, state_.q[i], right_angle * std::round(std::remainder(q[i], 4 * right_angle) / right_angle),
+                  std::remainder(q[i], 2 * std::numbers::pi)}) {
                 if (std::abs(other + std::numbers::pi) < 1e-6) other += 2 * std::numbers::pi;
                 std::vector<double> trial = q;
                 trial[i] = other;

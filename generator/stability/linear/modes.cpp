@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The vectors are the right singular vectors of A − λ that belong to its vanishing singular values.
+// The vectors span what the right singular vectors of A − λ do that belong to its vanishing singular values. Of an
+// eigenvalue that is there k times, they are those of which each has a 1 where the others have zeros, at the first
+// k states that allow it: no rounding decides which vectors are shown.
 #include "stability/linear/modes.hpp"
 
 #include <algorithm>
@@ -12,6 +14,34 @@ namespace alembert {
 namespace {
 
 constexpr double equal = 1e-7, vanishing = 1e-9;  // of the largest eigenvalue, of the largest singular value
+constexpr long double nothing_there = 1e-6L, as_large = 1e-9L;
+
+/// Gauss's and Jordan's elimination of columns of length 1 that are orthogonal.
+LongComplexMatrix reduced(LongComplexMatrix columns) {
+    const Eigen::Index k = columns.cols();
+    for (Eigen::Index row = 0, done = 0; row < columns.rows() && done < k; ++row) {
+        Eigen::Index best = 0;
+        if (columns.row(row).tail(k - done).cwiseAbs().maxCoeff(&best) < nothing_there) continue;
+        columns.col(done).swap(columns.col(done + best));
+        columns.col(done) /= std::complex<long double>(columns(row, done));
+        for (Eigen::Index j = 0; j < k; ++j)
+            if (j != done) columns.col(j) -= std::complex<long double>(columns(row, j)) * columns.col(done);
+        ++done;
+    }
+    return columns;
+}
+
+/// The first of the elements that are the largest but for rounding is 1.
+Eigen::VectorXcd shown(const LongComplexMatrix& column) {
+    const long double largest = column.cwiseAbs().maxCoeff();
+    Eigen::Index leading = 0;
+    while (!(std::abs(column(leading, 0)) >= (1 - as_large) * largest) && leading + 1 < column.rows()) ++leading;
+    Eigen::VectorXcd vector =
+        (column / std::complex<long double>(column(leading, 0))).cast<std::complex<double>>();
+    for (std::complex<double>& x : vector)
+        x = {std::abs(x.real()) < 1e-15 ? 0.0 : x.real(), std::abs(x.imag()) < 1e-15 ? 0.0 : x.imag()};
+    return vector;
+}
 
 }  // namespace
 
@@ -32,13 +62,10 @@ std::vector<LinearMode> modes_of(const Eigen::MatrixXd& A, const std::vector<std
         if (column < 0) continue;
         const long double size = std::max<long double>(svd.values[0], largest);
         if (before > 0 && svd.values[column] > vanishing * size) continue;  // a Jordan block
-        Eigen::VectorXcd vector = svd.right.col(column).cast<std::complex<double>>();
-        Eigen::Index leading = 0;
-        vector.cwiseAbs().maxCoeff(&leading);
-        vector /= std::complex<double>(vector[leading]);
-        for (std::complex<double>& x : vector)
-            x = {std::abs(x.real()) < 1e-15 ? 0.0 : x.real(), std::abs(x.imag()) < 1e-15 ? 0.0 : x.imag()};
-        result.push_back({eigenvalues[k], vector});
+        Eigen::Index vectors = 1;
+        while (vectors < n && svd.values[n - 1 - vectors] <= vanishing * size) ++vectors;
+        const LongComplexMatrix all = reduced(svd.right.rightCols(std::max(vectors, before + 1)));
+        result.push_back({eigenvalues[k], shown(all.col(before))});
     }
     return result;
 }
