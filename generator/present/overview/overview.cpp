@@ -140,7 +140,8 @@ JudgedEquilibria judged(const Scene& scene, const std::string& by) {
     const Mechanism& m = result.found.mechanism;
     for (const Equilibrium& one : result.found.list) {
         result.verdicts.emplace_back();
-        if (result.verdicts.size() > equilibria_judged) continue;
+        // Where inertia vanishes, whether numbers are near enough to judge at is a matter of their digits.
+        if (result.verdicts.size() > equilibria_judged || one.judgement.singular) continue;
         StabilityOptions options{.by = by};
         const auto give = [&](const std::string& name, double value) {
             options.at.emplace_back(name, value + 0.0);

@@ -151,7 +151,7 @@ StabilityHint judge(const SteadyProblem& problem, bool conservative, const Insta
     const SteadySystem here = problem.linearized_at(at, at.u);
     const Tangent<long double> t = tangent(residuals, here.split, at);
     if (!t.speed_rates_by.allFinite() || is_singular(problem, at, t.mass))
-        return {.because = say("the mass matrix is singular here")};
+        return {.because = say("the mass matrix is singular here"), .singular = true};
     const Reduced r = reduced(problem, here.split, t);
     if (r.A.rows() == 0)
         return {.stable = Stable::yes,

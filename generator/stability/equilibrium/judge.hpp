@@ -23,6 +23,7 @@ const char* name_of(Stable stable);
 struct StabilityHint {
     Stable stable = Stable::undecided;
     std::string because;
+    bool singular = false;  ///< whether some inertia vanishes here, as at a pole of spherical coordinates
     std::vector<std::complex<double>> eigenvalues =
         {};  ///< by real part, then imaginary part; a real part that is only rounding is 0
     std::vector<std::complex<long double>> exact = {};  ///< as they were computed
