@@ -2,6 +2,7 @@
 // `equilibrium` as a user runs it, against closed forms.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -186,25 +187,88 @@ damping = "c"
     CHECK(one["moving"] == Json{"phi"});
 }
 
-// V = (x² + y² − 1)²: a circle of equilibria.
-TEST_CASE("equilibrium: one state of a continuum is shown, with a note that it is one of many") {
-    const std::string ring = temporary("ring.toml", R"toml(
-[coordinates]
-x = 0.9
-y = 0.2
-[[particle]]
-name = "P"
-mass = 1
-position = ["x", "y"]
-[forces]
-x = "-4*x*(x^2 + y^2 - 1)"
-y = "-4*y*(x^2 + y^2 - 1)"
-)toml");
-    int isolated = 0, not_isolated = 0;
-    const Json result = found(ring);
-    for (const Json& one : result["equilibria"]) ++(one["isolated"].get<bool>() ? isolated : not_isolated);
-    CHECK(isolated == 1);  // the centre
-    CHECK(not_isolated == 1);
+/// A particle of mass 1 in a potential of these coordinates.
+std::string in_potential(const std::string& name, const std::vector<std::string>& coordinates,
+                         const std::string& potential) {
+    std::string scene = "[coordinates]\n", position;
+    for (const std::string& q : coordinates) {
+        scene += q + " = " + (position.empty() ? "0.9" : "0.2") + "\n";
+        position += (position.empty() ? "\"" : ", \"") + q + "\"";
+    }
+    return temporary(name, scene + "[[particle]]\nname = \"P\"\nmass = 1\nposition = [" + position +
+                               "]\n[energy]\npotential = \"" + potential + "\"\n");
+}
+
+std::vector<Json> families(const Json& result) {
+    std::vector<Json> list;
+    for (const Json& one : result["equilibria"]) {
+        CHECK(one.contains("family") == !one["isolated"].get<bool>());
+        if (one.contains("family")) list.push_back(one);
+    }
+    return list;
+}
+
+// The roots of f(r) for r² = x² + y² are circles; r = 0 is isolated.
+TEST_CASE("equilibrium: each continuum is shown once, with its dimension and the coordinates that choose in it") {
+    const auto squared_radius = [](const Json& one) {
+        return std::pow(one["coordinates"]["x"].get<double>(), 2) +
+               std::pow(one["coordinates"]["y"].get<double>(), 2);
+    };
+    const Json ring = found(in_potential("ring.toml", {"x", "y"}, "(x^2 + y^2 - 1)^2"));
+    REQUIRE(ring["equilibria"].size() == 2);
+    REQUIRE(families(ring).size() == 1);
+    CHECK(families(ring)[0]["family"] == Json{{"dimension", 1}, {"free", {"y"}}});
+    CHECK(squared_radius(families(ring)[0]) == doctest::Approx(1).epsilon(1e-14));
+
+    // dV/dr² is zero at r² = 1, 5/2 and 4.
+    const Json rings = found(in_potential("rings.toml", {"x", "y"}, "((x^2 + y^2 - 1)*(x^2 + y^2 - 4))^2"));
+    std::vector<double> squares;
+    for (const Json& one : families(rings)) squares.push_back(squared_radius(one));
+    std::sort(squares.begin(), squares.end());
+    CHECK(are_close(squares, {1, 2.5, 4}, 1e-13));
+    CHECK(rings["equilibria"].size() == 4);  // and the centre
+
+    const Json sphere = found(in_potential("sphere.toml", {"x", "y", "z"}, "(x^2 + y^2 + z^2 - 1)^2"));
+    REQUIRE(families(sphere).size() == 1);
+    CHECK(families(sphere)[0]["family"]["dimension"] == 2);
+    CHECK(families(sphere)[0]["family"]["free"].size() == 2);
+}
+
+TEST_CASE("equilibrium: a state whose derivative is singular, but which is alone, is isolated") {
+    const Json quartic = found(in_potential("quartic.toml", {"x", "y"}, "x^4 + y^2"));
+    REQUIRE(quartic["equilibria"].size() == 1);
+    CHECK(quartic["equilibria"][0]["isolated"] == true);
+    const Json two = found(in_potential("two.toml", {"x", "y"}, "(x^2 - 1)^2 + y^2"));
+    CHECK(families(two).empty());
+    CHECK(two["equilibria"].size() == 3);
+}
+
+TEST_CASE(
+    "equilibrium: continua of steady motions: a ball on a turntable and on another one, sleds, a disc, a puck") {
+    const auto family = [](const std::string& scene) {
+        std::vector<Json> list;
+        const Json all = found(textbook(scene));
+        for (const Json& one : all["equilibria"]) {
+            list.push_back(one.value("family", Json()));
+            for (const auto& [name, rate] : one["rates"].items()) CHECK(std::abs(rate.get<double>()) < 100);
+        }
+        return list;
+    };
+    // Wherever the ball is, it may turn so that its place rests.
+    CHECK(family("ball_on_turntable") == std::vector<Json>{{{"dimension", 2}, {"free", {"x", "y"}}}});
+    // Here coordinates are given rates, and the axis of the turn is that of phi alone. Of its parts some meet only
+    // where the ball rests, so that a way between them need not be found.
+    for (const Json& part : family("turntable_ball"))
+        CHECK(part == Json{{"dimension", 3}, {"free", {"x", "y", "theta"}}});
+    // The blade may point anywhere but across x, in which it has to move: that leaves two arcs.
+    for (const char* sled : {"sled", "sled_regular", "chaplygin_sleigh"})
+        CHECK(family(sled) == std::vector<Json>(2, {{"dimension", 1}, {"free", {"phi"}}}));
+    // A disc that rolls leans by what its rates ask for, upright or upside down.
+    CHECK(family("rolling_disc_in_space") == std::vector<Json>(2));
+    const Json puck = found(in_potential("puck.toml", {"x", "y"}, "0"));
+    REQUIRE(puck["equilibria"].size() == 1);
+    CHECK(puck["equilibria"][0]["isolated"] == true);
+    CHECK(puck["cyclic"] == Json{"x", "y"});
 }
 
 // Ω² R = g.

@@ -156,9 +156,14 @@ class _EquilibriumAlways(TypedDict):
     because: str
     eigenvalues: list[tuple[float, float]]
 
+class _Family(TypedDict):
+    dimension: int
+    free: list[str]
+
 class _Equilibrium(_EquilibriumAlways, total=False):
     exact: dict[str, str]
     where: list[str]
+    family: _Family
 
 class Equilibria(Result):
     equilibria: list[_Equilibrium]

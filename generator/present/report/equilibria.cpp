@@ -16,6 +16,12 @@ Json exact_of(const Mechanism& m, const ClosedRoot& root) {
     return result;
 }
 
+std::vector<std::string> free_of(const Mechanism& m, const SteadyFamily& family) {
+    std::vector<std::string> names;
+    for (const int i : family.free) names.push_back(m.q[i].get_name());
+    return names;
+}
+
 Json json_of(const Equilibria& found, const Equilibrium& one) {
     const Mechanism& m = found.mechanism;
     Json result;
@@ -30,7 +36,10 @@ Json json_of(const Equilibria& found, const Equilibrium& one) {
     for (std::size_t k = 0; k < one.multipliers.size(); ++k)
         result["multipliers"][found.equations.lambda[k].get_name()] = one.multipliers[k] + 0.0;
     result["residual"] = one.residual;
-    result["isolated"] = one.isolated;
+    result["isolated"] = !one.family;
+    if (one.family) {
+        result["family"] = {{"dimension", one.family->dimension}, {"free", free_of(m, *one.family)}};
+    }
     result["stable"] = name_of(one.judgement.stable);
     result["because"] = one.judgement.because;
     result["eigenvalues"] = Json::array();
@@ -70,11 +79,11 @@ std::string as_text(const Equilibria& found) {
     for (std::size_t k = 0; k < found.list.size(); ++k) {
         const Equilibrium& one = found.list[k];
         if (one.moving.empty())
-            say_on(page, "{}. Equilibrium{}\n", k + 1, one.isolated ? "" : say(", one of a continuum"));
+            say_on(page, "{}. Equilibrium{}\n", k + 1, one.family ? say(", one of a continuum") : "");
         else
             say_on(page, "{}. Steady motion in which {} {}{}\n", k + 1, fmt::join(one.moving, ", "),
                    one.moving.size() == 1 ? say("moves") : say("move"),
-                   one.isolated ? "" : say(", one of a continuum"));
+                   one.family ? say(", one of a continuum") : "");
         for (int i = 0; i < m.size(); ++i) {
             const ShownUnit unit(m.shown_units[static_cast<std::size_t>(i)]);
             const std::string name = m.q[i].get_name();
@@ -85,6 +94,9 @@ std::string as_text(const Equilibria& found) {
                 put(page, "  = {}", one.exact->text[i]);
             put(page, "\n");
         }
+        if (one.family)
+            put(page, "   {}\n",
+                say("beside it there is one for each value of {}", fmt::join(free_of(m, *one.family), ", ")));
         if (one.exact && !one.exact->where.empty())
             say_on(page, "   where {}\n", fmt::join(one.exact->where, ", "));
         say_on(page, "   stable: {} ({})\n\n", translated(name_of(one.judgement.stable)), one.judgement.because);
@@ -92,7 +104,8 @@ std::string as_text(const Equilibria& found) {
     if (!found.cyclic.empty())
         say_on(page, "Nothing depends on {}: any value will do.\n", fmt::join(found.cyclic, ", "));
     if (found.search.in_families > 1)
-        say_on(page, "{} roots belong to continua, of which one is shown.\n", found.search.in_families);
+        say_on(page, "{} roots belong to continua; of those that a way within a continuum joins, one is shown.\n",
+               found.search.in_families);
     for (const ClosedRoot& root : found.absent) {
         say_on(page, "Not at these parameters:");
         for (int i = 0; i < m.size(); ++i)

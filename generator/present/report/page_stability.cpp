@@ -60,7 +60,11 @@ std::string state_text(const Equilibria& found, const Equilibrium& one) {
             add(name, one.start.q[i], one.exact && one.exact->text[i] != "0" ? one.exact->text[i] : "");
         if (one.start.qdot[i] != 0) add(name + "'", one.start.qdot[i], "");
     }
-    return text.empty() ? say("any state") : text;
+    if (text.empty()) return say("any state");
+    if (!one.family) return text;
+    std::string free;
+    for (const int i : one.family->free) free += (free.empty() ? "" : ", ") + html_letters(m.q[i].get_name());
+    return text + "<br>" + say("beside it there is one for each value of {}", free);
 }
 
 void add_plane(PageParts& page, const std::vector<PageVerdict>& verdicts) {

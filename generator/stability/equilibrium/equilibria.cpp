@@ -131,7 +131,7 @@ std::vector<double> numbers(const Mechanism& m, const std::vector<GiNaC::ex>& li
 /// Compares the solutions in the parameters with those that Newton's method has found: each of the latter must be
 /// one of the former, and each solution that is real at these parameters must be a root.
 void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const Start& start,
-                      const std::function<void(const SteadyRoot&)>& add) {
+                      const std::function<void(const FoundRoot&)>& add) {
     constexpr long double same = 1e-9L, same_if_multiple = 1e-4L;
     const Mechanism& m = result.mechanism;
     const auto vanishes = [&](const GiNaC::ex& e) { return !(std::abs(numbers(m, {e}, start)[0]) > 1e-13); };
@@ -158,7 +158,7 @@ void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const St
         auto found = find(same);
         if (found == result.list.end()) found = find(same_if_multiple);
         if (found == result.list.end()) {
-            if (const auto more = problem.solve(at)) add(*more);
+            if (const auto more = problem.solve(at)) add({*more});
             found = find(same_if_multiple);
         }
         agrees = agrees && found != result.list.end();
@@ -183,11 +183,11 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
     for (int i = 0; i < result.mechanism.size(); ++i)
         if (!problem.essential()[i]) result.cyclic.push_back(result.mechanism.q[i].get_name());
     const bool conservative = is_conservative(result.mechanism, problem.residuals());
-    const auto add = [&](const SteadyRoot& root) {
+    const auto add = [&](const FoundRoot& root) {
         Equilibrium one{.start = problem.start_at(start, root.at),
                         .moving = {},
                         .residual = static_cast<double>(root.residual),
-                        .isolated = root.isolated,
+                        .family = root.family,
                         .multipliers = multipliers_at(problem, root.at),
                         .judgement = judge(problem, conservative, root.at)};
         if (penetrates(result, one.start)) return;
@@ -197,9 +197,11 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
             if (std::abs(one.start.qdot[i]) > 1e-12 ||
                 (problem.residuals().rates_are_speeds && std::abs(udot[i]) > 1e-9L))
                 one.moving.push_back(result.mechanism.q[i].get_name());
+            else
+                one.start.qdot[i] = 0;
         result.list.push_back(std::move(one));
     };
-    for (const SteadyRoot& root : result.search.roots) add(root);
+    for (const FoundRoot& root : result.search.roots) add(root);
     if (result.search.rates == Rates::given && result.mechanism.unilateral.empty())
         solve_in_symbols(result, problem, start, add);
     if (!result.list.empty()) return;

@@ -28,9 +28,9 @@ struct EquilibriumOptions {
 struct Equilibrium {
     Start start;                      ///< coordinates, angles in (−π, π]; rates
     std::vector<std::string> moving;  ///< coordinates that move: cyclic ones, and those that constraints drive
-    double residual = 0;   ///< the unbalanced forces, relative to the effect of a change of all unknowns by 1
-    bool isolated = true;  ///< false if it represents a continuum
-    std::vector<double> multipliers;  ///< of the constraints, in the order of Equations::lambda
+    double residual = 0;  ///< the unbalanced forces, relative to the effect of a change of all unknowns by 1
+    std::optional<SteadyFamily> family = {};  ///< if it represents a continuum
+    std::vector<double> multipliers;          ///< of the constraints, in the order of Equations::lambda
     StabilityHint judgement;
     std::optional<ClosedRoot> exact = {};  ///< in the parameters
 };

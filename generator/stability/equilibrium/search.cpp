@@ -16,7 +16,9 @@ namespace {
 constexpr long double pi = 3.14159265358979323846264338327950288L, turn = 2 * pi;
 constexpr long double same = 1e-9L, same_if_singular = 1e-5L;  // in units of the scales
 constexpr int most_starts = 1500, least_starts = 60;
-constexpr double most_work = 1.5e6;  // starts times nodes times unknowns: a second or two
+constexpr int most_of_families = 5,
+              most_ways_to_members = 60;  // then continua of one dimension are not told apart
+constexpr double most_work = 1.5e6;       // starts times nodes times unknowns: a second or two
 
 /// The k-th number, for the i-th coordinate, of a sequence that fills (0, 1) evenly. (Halton, Numer. Math. 2
 /// (1960) 84.)
@@ -51,27 +53,8 @@ std::vector<long double> scales_of(const Mechanism& m, const Start& start, const
     return result;
 }
 
-/// Does a root belong to a curve of roots? If so, a curve starts in the direction that the equations leave free.
-bool is_in_family(const SteadyProblem& problem, const std::vector<bool>& is_angle, const SteadyRoot& root,
-                  Rates rates) {
-    constexpr long double apart = 1e-3L;
-    const SteadySystem here = problem.linearized_at(root.at, root.at.u, rates);
-    const LongMatrix right = singular_values(here.by).right;
-    VectorOf<long double> local = VectorOf<long double>::Zero(here.tangent.along.cols());
-    for (std::size_t j = 0; j < here.unknowns.size(); ++j)
-        local[here.unknowns[j]] = right(static_cast<Eigen::Index>(j), right.cols() - 1);
-    const VectorOf<long double> whole = here.tangent.along * local;
-    const long double length = problem.size(whole.head(problem.residuals().n));
-    if (!(length > 0)) return false;
-    Instant<long double> beside = root.at;
-    for (std::size_t i = 0; i < beside.q.size(); ++i)
-        beside.q[i] += apart / length * whole[static_cast<Eigen::Index>(i)];
-    const auto other = problem.solve(beside, rates);
-    return other && distance(problem, is_angle, other->at, root.at) > apart / 3;
-}
-
-void sort_roots(std::vector<SteadyRoot>& roots) {
-    std::sort(roots.begin(), roots.end(), [](const SteadyRoot& a, const SteadyRoot& b) {
+void sort_roots(std::vector<FoundRoot>& roots) {
+    std::sort(roots.begin(), roots.end(), [](const FoundRoot& a, const FoundRoot& b) {
         for (std::size_t i = 0; i < a.at.q.size(); ++i)
             if (std::abs(a.at.q[i] - b.at.q[i]) > 1e-9L) return a.at.q[i] < b.at.q[i];
         return false;
@@ -180,25 +163,36 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
         return at;
     };
     const auto is_known = [&](const SteadyRoot& root) {
-        return std::any_of(found.roots.begin(), found.roots.end(), [&](const SteadyRoot& other) {
+        return std::any_of(found.roots.begin(), found.roots.end(), [&](const FoundRoot& other) {
             const bool sharp = root.isolated && other.isolated;
             return distance(problem, found.is_angle, root.at, other.at) < (sharp ? same : same_if_singular);
         });
     };
-    bool has_family = false;
+    int ways = 0;
+    const auto is_in_known_family = [&](const FoundRoot& root, Rates rates) {
+        int shown = 0;
+        for (const FoundRoot& other : found.roots) {
+            if (!other.family || other.family->dimension != root.family->dimension) continue;
+            if (++shown == most_of_families || ++ways > most_ways_to_members) return true;
+            if (leads_to(problem, found.is_angle, root, other, rates)) return true;
+            if (leads_to(problem, found.is_angle, other, root, rates)) return true;
+        }
+        return false;
+    };
     for (const Rates rates : {Rates::given, Rates::free}) {
         found.rates = rates;
         for (int k = 0; k < found.starts; ++k) {
             if (options.progress) options.progress(static_cast<double>(k) / found.starts);
-            auto root = problem.solve(from(k), rates);
-            if (!root) continue;
+            const auto solved = problem.solve(from(k), rates);
+            if (!solved) continue;
             ++found.converged;
-            wrap_angles(root->at, found.is_angle);
-            if (is_known(*root)) continue;
-            if (!root->isolated && !is_in_family(problem, found.is_angle, *root, rates)) root->isolated = true;
-            if (!root->isolated) ++found.in_families;
-            if (root->isolated || !has_family) found.roots.push_back(*root);
-            has_family = has_family || !root->isolated;
+            FoundRoot root{*solved};
+            wrap_angles(root.at, found.is_angle);
+            if (is_known(root)) continue;
+            if (!root.isolated) root.family = family_of(problem, found.is_angle, root, rates);
+            root.isolated = !root.family;
+            found.in_families += root.family ? 1 : 0;
+            if (root.isolated || !is_in_known_family(root, rates)) found.roots.push_back(root);
         }
         if (!found.roots.empty() || problem.kept_speeds().rows() == 0) break;
     }

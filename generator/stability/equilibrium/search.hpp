@@ -15,6 +15,7 @@
 
 #include <functional>
 
+#include "stability/equilibrium/family.hpp"
 #include "stability/linear/steady.hpp"
 
 namespace alembert {
@@ -24,12 +25,18 @@ struct SearchOptions {
     std::function<void(double)> progress = {};
 };
 
+struct FoundRoot : SteadyRoot {
+    std::optional<SteadyFamily> family = {};  ///< if it is not isolated: the continuum near it
+};
+
 struct SteadySearch {
-    std::vector<SteadyRoot> roots;  ///< ordered by coordinates; angles in (−π, π]
-    std::vector<bool> is_angle;     ///< for each coordinate
+    std::vector<FoundRoot> roots;  ///< ordered by coordinates; angles in (−π, π]
+    std::vector<bool> is_angle;    ///< for each coordinate
     int starts = 0, converged = 0;
     Rates rates = Rates::given;  ///< free: no root has the given rates of cyclic coordinates
-    int in_families = 0;         ///< roots that belong to a continuum of which `roots` has one
+    /// Roots that belong to continua. Of each continuum `roots` has the one that was found first, and so the one
+    /// that is reached from the scene's own state.
+    int in_families = 0;
     /// If nothing was found, the state with the smallest unbalanced forces, and these forces by speed.
     Instant<long double> nearest;
     std::vector<long double> left_over;

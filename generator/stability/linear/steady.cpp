@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
@@ -24,10 +25,11 @@ constexpr long double no_pivot = 1e-11L;
 constexpr long double small_step = 1e-16L;  // in units of the scales
 constexpr long double rounding = 1e-15L;
 constexpr long double longest_step = 0.5L;
-constexpr int most_long_steps = 30;     // where steps are that long after so many, hardly any search finds a root
-constexpr long double noise = 1e-17L;   // of the largest work that a force does in changes of the scales
-constexpr long double solved = 1e-13L;  // relative to the effect of a change of 1 in units of the scales
-constexpr long double stays = 1e-9L;    // likewise, of the equations with all that occurs in motion alone
+constexpr int most_long_steps = 30;      // where steps are that long after so many, hardly any search finds a root
+constexpr long double noise = 1e-17L;    // of the largest work that a force does in changes of the scales
+constexpr long double solved = 1e-13L;   // relative to the effect of a change of 1 in units of the scales
+constexpr long double smallest = 1e-6L;  // in units of the scales: what a state must tell apart
+constexpr long double stays = 1e-9L;     // likewise, of the equations with all that occurs in motion alone
 
 /// The least-squares solution of least length.
 Column least_step(const LongMatrix& J, const Column& r, bool& full_rank) {
@@ -154,21 +156,28 @@ bool SteadyProblem::settle_at(Instant<long double>& at, const Split* split) cons
 
 SteadySystem SteadyProblem::linearized_at(const Instant<long double>& at, const std::vector<long double>& given,
                                           Rates rates, const Split* split) const {
-    return system_of(residuals_, at, given, rates, split != nullptr ? *split : split_at(at));
+    SteadySystem result = system_of(residuals_, at, given, rates, split != nullptr ? *split : split_at(at));
+    leave_out_roundings(result);
+    return result;
+}
+
+void SteadyProblem::leave_out_roundings(SteadySystem& system) const {
+    const auto p = static_cast<Index>(system.split.u.size());
+    Column work = Column::Zero(p);
+    for (Index i = 0; i < p; ++i) {
+        const long double along = residuals_.rates_are_speeds ? scales_[system.split.u[i]] : 1;
+        for (Index j = 0; j < system.by.cols(); ++j)
+            work[i] = std::max(work[i], std::abs(system.by(i, j)) * scale_of(system, j) * along);
+    }
+    for (Index i = 0; i < p; ++i)
+        if (work[i] < noise * work.maxCoeff()) system.by.row(i).setZero();
 }
 
 SteadySystem SteadyProblem::resting_system(const Instant<long double>& at, const std::vector<long double>& given,
                                            Rates rates) const {
     SteadySystem result = system_of(*at_rest_, at, given, rates, split_at(at));
-    // A force that the forces of motion alone change has a row of roundings here.
+    leave_out_roundings(result);
     const auto p = static_cast<Index>(result.split.u.size());
-    Column work = Column::Zero(p);
-    for (Index i = 0; i < p; ++i)
-        for (Index j = 0; j < result.by.cols(); ++j)
-            work[i] =
-                std::max(work[i], std::abs(result.by(i, j)) * scale_of(result, j) * scales_[result.split.u[i]]);
-    for (Index i = 0; i < p; ++i)
-        if (work[i] < noise * work.maxCoeff()) result.by.row(i).setZero();
     const Index still = result.by.cols() - p;  // coordinates, whose rates have an equation each
     leave_out_kept(result, p, p + still);
     return result;
@@ -232,6 +241,13 @@ long double SteadyProblem::unbalanced(const SteadySystem& here) const {
     return worst;
 }
 
+bool SteadyProblem::is_resolved(const Instant<long double>& at) const {
+    constexpr long double most = smallest / std::numeric_limits<long double>::epsilon();
+    for (int i = 0; i < residuals_.n; ++i)
+        if (std::abs(at.q[i]) > most * scales_[i]) return false;
+    return std::all_of(at.u.begin(), at.u.end(), [](long double u) { return std::abs(u) <= most; });
+}
+
 std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates rates, int most) const try {
     const std::vector<long double> given = at.u;
     if (residuals_.rates_are_speeds)
@@ -256,6 +272,7 @@ std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates ra
         if (moved < small_step || (step > 8 && moved < 1e-14L && moved >= last)) {
             const long double worst = unbalanced(here);
             if (worst > solved) return {};
+            if (!is_resolved(at)) return {};
             // The full equations have the last word.
             if (at_rest_ && unbalanced(linearized_at(at, given, rates)) > stays) return {};
             for (int i = 0; i < residuals_.n; ++i)

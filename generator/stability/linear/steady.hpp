@@ -90,6 +90,12 @@ private:
     /// unknowns in it.
     SteadySystem resting_system(const Instant<long double>& at, const std::vector<long double>& given,
                                 Rates rates) const;
+    /// Sets to zero what equations of forces have of roundings alone: those of a force that nothing here changes.
+    void leave_out_roundings(SteadySystem& system) const;
+    /// Whether coordinates and rates are so small that a part of the scales, or of a rate 1, is more than a
+    /// rounding of theirs. They are not where Newton's method has gone to infinity: the given x' of a blade that
+    /// stands across x.
+    bool is_resolved(const Instant<long double>& at) const;
     /// The largest residual, relative to the sum of the effects of all unknowns.
     long double unbalanced(const SteadySystem& here) const;
     /// The size of an ordinary change of an unknown.

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Steps along the kernel of the derivative, each corrected by Newton's method. (Allgower & Georg, Introduction to
+// Numerical Continuation Methods (2003), ch. 15: manifolds of more than one dimension.)
+#include "stability/equilibrium/family.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stability/equilibrium/search.hpp"
+#include "stability/linear/dense_long.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr long double whole_turn = 2 * 3.14159265358979323846264338327950288L;
+constexpr long double free_below = 1e-10L;  // relative to the largest singular value
+constexpr long double beside_root = 1e-3L;  // of a root beside another, in units of the scales
+constexpr long double direction = 0.1L;     // how far changes of length 1 must differ to be different directions
+constexpr int most_ways = 100;
+constexpr long double arrived = 1e-6L, least_way = 1e-3L, usual_way = 0.25L, straight = 0.3L, bend = 0.1L;
+
+/// What a first-order change may be without a change of the equations.
+struct Tangents {
+    LongMatrix q, u;    ///< columns: changes of coordinates and speeds
+    LongMatrix scaled;  ///< those of essential coordinates, in units of the scales; columns are orthonormal
+};
+
+/// Columns in which essential coordinates change, orthonormal in these.
+Tangents tangents_at(const SteadyProblem& problem, const Instant<long double>& at, Rates rates) {
+    const SteadySystem here = problem.linearized_at(at, at.u, rates);
+    const Index n = problem.residuals().n, columns = here.by.cols();
+    LongMatrix by = here.by;
+    LongColumn unit = LongColumn::Ones(columns);
+    for (Index j = 0; j < columns; ++j) {
+        const Index unknown = here.unknowns[static_cast<std::size_t>(j)];
+        if (unknown < static_cast<Index>(here.split.q.size())) unit[j] = problem.scales()[here.split.q[unknown]];
+        by.col(j) *= unit[j];
+    }
+    for (Index i = 0; i < by.rows(); ++i)
+        if (const long double size = by.row(i).cwiseAbs().maxCoeff(); size > 0) by.row(i) /= size;
+    const LongSingularValues svd = singular_values(by);
+    Index rank = 0;
+    while (rank < svd.values.size() && svd.values[rank] > free_below * svd.values[0]) ++rank;
+    LongMatrix local = LongMatrix::Zero(here.tangent.along.cols(), columns - rank);
+    for (Index j = 0; j < columns; ++j)
+        local.row(here.unknowns[static_cast<std::size_t>(j)]) =
+            unit[j] * svd.right.row(j).rightCols(columns - rank);
+    const LongMatrix whole = here.tangent.along * local;
+    LongMatrix scaled = whole.topRows(n);
+    for (Index i = 0; i < n; ++i) scaled.row(i) *= problem.essential()[i] ? 1 / problem.scales()[i] : 0;
+    const LongSingularValues own = singular_values(scaled);
+    Index count = 0;
+    while (count < own.values.size() && own.values[count] > 1e-6L) ++count;
+    LongMatrix combine = own.right.leftCols(count);
+    for (Index k = 0; k < count; ++k) combine.col(k) /= own.values[k];
+    return {.q = whole.topRows(n) * combine,
+            .u = whole.bottomRows(whole.rows() - n) * combine,
+            .scaled = scaled * combine};
+}
+
+Instant<long double> moved(const Instant<long double>& at, const Tangents& along, const LongColumn& by) {
+    Instant<long double> result = at;
+    const LongColumn q = along.q * by, u = along.u * by;
+    for (std::size_t i = 0; i < result.q.size(); ++i) result.q[i] += q[static_cast<Index>(i)];
+    for (std::size_t i = 0; i < result.u.size(); ++i) result.u[i] += u[static_cast<Index>(i)];
+    return result;
+}
+
+/// The way from a state to another by essential coordinates, in units of the scales.
+LongColumn way(const SteadyProblem& problem, const std::vector<bool>& is_angle, const Instant<long double>& from,
+               const Instant<long double>& to) {
+    LongColumn result = LongColumn::Zero(static_cast<Index>(from.q.size()));
+    for (std::size_t i = 0; i < from.q.size(); ++i) {
+        if (!problem.essential()[i]) continue;
+        const long double d = to.q[i] - from.q[i];
+        result[static_cast<Index>(i)] = (is_angle[i] ? std::remainder(d, whole_turn) : d) / problem.scales()[i];
+    }
+    return result;
+}
+
+/// In units of the speeds themselves where these exceed 1, which tells the two sides of a pole apart.
+long double change_of_speeds(const Instant<long double>& from, const Instant<long double>& to) {
+    long double largest = 0, size = 1;
+    for (std::size_t i = 0; i < from.u.size(); ++i) {
+        largest = std::max(largest, std::abs(to.u[i] - from.u[i]));
+        size = std::max(size, std::abs(from.u[i]));
+    }
+    return largest / size;
+}
+
+/// Coordinates by which the directions differ: those that are written first, where they differ clearly.
+std::vector<int> coordinates_of(LongMatrix directions) {
+    std::vector<int> result;
+    const Index wanted = directions.cols();
+    for (const long double clear : {direction, 1e-6L})
+        for (Index i = 0; i < directions.rows() && static_cast<Index>(result.size()) < wanted; ++i) {
+            const long double length = directions.row(i).norm();
+            if (length < clear) continue;
+            const LongMatrix chosen = directions.row(i) / length;
+            directions -= LongMatrix(directions * chosen.transpose() * chosen);
+            result.push_back(static_cast<int>(i));
+        }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+/// Combination of the tangents by which to go next, where `left` is the straight way and `last` the step before:
+/// straight where the tangents allow it, else on in the same direction, for the way may bend.
+LongColumn next_step(const LongMatrix& tangents, const LongColumn& left, const LongColumn& last) {
+    LongColumn by = tangents.transpose() * left;
+    const long double longest = std::max(usual_way, left.norm() / 3);
+    const bool is_straight = by.norm() > straight * left.norm();
+    if (last.size() == 0) {
+        if (!is_straight)
+            by = by.norm() > 0 ? LongColumn(usual_way / by.norm() * by) : LongColumn::Unit(by.size(), 0);
+    } else if (left.norm() > 2 * last.norm()) {
+        const LongColumn on = tangents.transpose() * last;
+        if (on.norm() > 0 && (!is_straight || by.dot(on) < 0))
+            by = std::min(last.norm(), usual_way) / on.norm() * on;
+    }
+    return by.norm() > longest ? LongColumn(longest / by.norm() * by) : by;
+}
+
+}  // namespace
+
+std::optional<SteadyFamily> family_of(const SteadyProblem& problem, const std::vector<bool>& is_angle,
+                                      const SteadyRoot& root, Rates rates) {
+    const Tangents here = tangents_at(problem, root.at, rates);
+    const Index k = here.scaled.cols();
+    LongMatrix found(here.scaled.rows(), 0), directions = here.scaled;
+    Index least = k;
+    for (Index j = 0; j < k; ++j)
+        for (const long double step : {beside_root, -beside_root}) {
+            const auto beside = problem.solve(moved(root.at, here, step * LongColumn::Unit(k, j)), rates);
+            if (!beside) continue;
+            const LongColumn to = way(problem, is_angle, root.at, beside->at);
+            if (!(to.norm() > beside_root / 3 && to.norm() < 3 * beside_root)) continue;
+            found.conservativeResize(Eigen::NoChange, found.cols() + 1);
+            found.col(found.cols() - 1) = to / to.norm();
+            const Tangents there = tangents_at(problem, beside->at, rates);
+            if (there.scaled.cols() < least) least = there.scaled.cols(), directions = there.scaled;
+            break;
+        }
+    if (found.cols() == 0 || least == 0) return {};
+    const LongColumn sizes = singular_values(found).values;
+    const Index different = (sizes.array() > direction).count();
+    if (different < least) directions = singular_values(found).left.leftCols(different);
+    SteadyFamily family{.dimension = static_cast<int>(std::min(different, least)),
+                        .free = coordinates_of(directions)};
+    return family;
+}
+
+bool leads_to(const SteadyProblem& problem, const std::vector<bool>& is_angle, const SteadyRoot& from,
+              const SteadyRoot& to, Rates rates) {
+    Instant<long double> at = from.at;
+    LongColumn last;
+    long double shortened = 1;
+    bool was_away = false;
+    for (int step = 0; step < most_ways; ++step) {
+        const LongColumn left = way(problem, is_angle, at, to.at);
+        if (left.cwiseAbs().maxCoeff() < arrived) return true;
+        const Tangents here = tangents_at(problem, at, rates);
+        if (here.scaled.cols() == 0) return false;
+        const LongColumn by = shortened * next_step(here.scaled, left, last);
+        const Instant<long double> aim = moved(at, here, by);
+        const auto next = problem.solve(aim, rates);
+        const long double length = std::max(by.norm(), change_of_speeds(at, aim));
+        if (!next || !(way(problem, is_angle, aim, next->at).norm() < bend * length) ||
+            !(change_of_speeds(aim, next->at) < bend * length)) {
+            shortened /= 2;
+            if (by.norm() < least_way) return false;
+            continue;
+        }
+        last = way(problem, is_angle, at, next->at);
+        at = next->at;
+        shortened = std::min(1.0L, 2 * shortened);
+        const long double round = way(problem, is_angle, from.at, at).norm();
+        if (was_away && round < last.norm() / 2) return false;  // a circle that does not pass the other root
+        was_away = was_away || round > 2 * last.norm();
+    }
+    return false;
+}
+
+}  // namespace alembert
