@@ -80,8 +80,9 @@ TEST_CASE("stability: modes whose coordinates pass zero together have a real sha
     }
     // With damping that is not in proportion the coordinates do not pass zero together.
     scene += "[dissipation]\nrayleigh = \"x1'^2/10\"\n";
-    for (const Json& mode : asked({"stability", temporary("damped.toml", scene), "--json"})["modes"])
-        CHECK(!mode.contains("shape"));
+    const Json damped = asked({"stability", temporary("damped.toml", scene), "--json"});
+    CHECK(damped["modes"].size() == n);
+    for (const Json& mode : damped["modes"]) CHECK(!mode.contains("shape"));
 }
 
 // Three masses in a ring of springs: of the double eigenvalue 3 every shape without a sum is one.
@@ -97,7 +98,8 @@ kinetic = "(x1'^2 + x2'^2 + x3'^2)/2"
 potential = "((x2 - x1)^2 + (x3 - x2)^2 + (x1 - x3)^2)/2"
 )toml");
     std::vector<Json> shapes;
-    for (const Json& mode : asked({"linearize", ring, "--json"})["modes"])
+    const Json all = asked({"linearize", ring, "--json"});
+    for (const Json& mode : all["modes"])
         if (std::abs(mode["eigenvalue"][1].get<double>() - std::sqrt(3.0)) < 1e-9) shapes.push_back(mode["shape"]);
     REQUIRE(shapes.size() == 2);
     const std::vector<std::array<double, 3>> expected{{1, 0, -1}, {0, 1, -1}};
@@ -105,6 +107,16 @@ potential = "((x2 - x1)^2 + (x3 - x2)^2 + (x1 - x3)^2)/2"
         for (std::size_t i = 0; i < 3; ++i)
             CHECK(shapes[k]["x" + std::to_string(i + 1)].get<double>() ==
                   doctest::Approx(expected[k][i]).epsilon(1e-12));
+}
+
+TEST_CASE("stability: a molecule that nothing holds has a mode in which all atoms go alike") {
+    std::vector<Json> zero;
+    const Json all = asked({"linearize", source_path("scenes/textbook/triatomic_molecule.toml"), "--json"});
+    for (const Json& mode : all["modes"])
+        if (std::abs(mode["eigenvalue"][1].get<double>()) < 1e-6) zero.push_back(mode["shape"]);
+    REQUIRE(zero.size() == 1);
+    for (const char* atom : {"x1", "x2", "x3"})
+        CHECK(zero[0][atom].get<double>() == doctest::Approx(1).epsilon(1e-8));
 }
 
 TEST_CASE("stability: the period of coefficients that are sines of t is found") {
@@ -199,7 +211,8 @@ TEST_CASE("inertia: a rod has no moment about its axis, whichever way it lies") 
         "rod.toml",
         "[coordinates]\na = 0.7\n[[frame]]\nname = \"B\"\nrotate = [[\"z\", \"a\"]]\n[[body]]\nname = \"rod\"\n"
         "mass = 3\nframe = \"B\"\nposition = [0, 0, 0]\ninertia = { xx = 0, yy = 0.1, zz = 0.1 }\n");
-    for (const Json& one : asked({"inertia", scene, "--json"})["principal"]) {
+    const Json inertia = asked({"inertia", scene, "--json"});
+    for (const Json& one : inertia["principal"]) {
         const double moment = one["moment"];
         CHECK((moment == 0 || moment == doctest::Approx(0.1)));
     }

@@ -86,7 +86,8 @@ Json accelerations(const std::string& file, const std::vector<std::string>& opti
     const std::string scene = temporary("put_together.toml", "");
     std::vector<std::string> at{"eval", scene};
     double value = 0.1;
-    for (const Json& name : json_of({"import", file, "-o", scene, "--quaternion"}, options)["coordinates"]) {
+    const Json imported = json_of({"import", file, "-o", scene, "--quaternion"}, options);
+    for (const Json& name : imported["coordinates"]) {
         if (name.get<std::string>().find("_e") != std::string::npos) continue;
         for (const char* prime : {"", "'"}) {
             at.emplace_back("--at");

@@ -246,9 +246,12 @@ std::vector<RootOf> roots_of(CertainVector p, bool even) {
         else
             add_general(result, p, 1);
     }
-    std::sort(result.begin(), result.end(), [](const RootOf& a, const RootOf& b) {
-        return std::pair(a.value.real(), a.value.imag()) < std::pair(b.value.real(), b.value.imag());
-    });
+    // A real part of roundings alone decides nothing.
+    const auto place = [](const RootOf& root) {
+        const bool is_rounding = std::abs(root.value.real()) <= 1e-15 * std::abs(root.value);
+        return std::pair(is_rounding ? 0 : root.value.real(), root.value.imag());
+    };
+    std::sort(result.begin(), result.end(), [&](const RootOf& a, const RootOf& b) { return place(a) < place(b); });
     return result;
 }
 

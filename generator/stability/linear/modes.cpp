@@ -14,6 +14,9 @@ namespace alembert {
 namespace {
 
 constexpr double equal = 1e-7, vanishing = 1e-9;  // of the largest eigenvalue, of the largest singular value
+// Of the largest eigenvalue: how far roundings move two eigenvalues that are one with one vector, such as the
+// zeros of a body that nothing holds, apart.
+constexpr double moved_apart = 1e-8;
 constexpr long double nothing_there = 1e-6L, as_large = 1e-9L;
 
 /// Gauss's and Jordan's elimination of columns of length 1 that are orthogonal.
@@ -51,7 +54,7 @@ std::vector<LinearMode> modes_of(const Eigen::MatrixXd& A, const std::vector<std
     for (const auto& value : eigenvalues) largest = std::max(largest, std::abs(value));
     std::vector<LinearMode> result;
     for (std::size_t k = 0; k < eigenvalues.size() && n > 0; ++k) {
-        if (eigenvalues[k].imag() < 0) continue;
+        if (eigenvalues[k].imag() < -moved_apart * largest) continue;
         Eigen::Index before = 0;  // equal ones, whose vectors are taken
         for (std::size_t j = 0; j < k; ++j)
             before += std::abs(eigenvalues[j] - eigenvalues[k]) <= equal * largest ? 1 : 0;
