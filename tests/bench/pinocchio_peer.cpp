@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Dynamics of robots and their derivatives, by us, by Pinocchio's functions, and by the code that CppADCodeGen writes from
-// these. pinocchio.sh compiles this where Pinocchio is, with -DWITH_CODEGEN where CppADCodeGen and CppAD are.
+// Dynamics of robots and their derivatives, by us, by Pinocchio's functions, and by the code that CppADCodeGen
+// writes from these. pinocchio.sh compiles this where Pinocchio is, with -DWITH_CODEGEN where CppADCodeGen and
+// CppAD are.
 //
-//   pinocchio_peer generate ROBOT fixed|floating FUNCTION LENGTH FOLDER      writes C, in functions of LENGTH assignments
-//   pinocchio_peer time ROBOT fixed|floating ROUNDS OURS.so [FUNCTION:NAME=THEIRS.so]…     prints JSON
+//   pinocchio_peer generate ROBOT fixed|floating FUNCTION LENGTH FOLDER      writes C, in functions of LENGTH
+//   assignments pinocchio_peer time ROBOT fixed|floating ROUNDS OURS.so [FUNCTION:NAME=THEIRS.so]…     prints JSON
 //
-// A joint's torque is that of its damper, so that forward dynamics are those of the scene. A floating base has the coordinates
-// x, y, z and the angles of Rz Ry Rx. Results at all states agree to 1e-9 of the largest before anything is timed; then the
-// contenders take turns, and each one's time is the least of all rounds.
+// A joint's torque is that of its damper, so that forward dynamics are those of the scene. A floating base has the
+// coordinates x, y, z and the angles of Rz Ry Rx. Results at all states agree to 1e-9 of the largest before
+// anything is timed; then the contenders take turns, and each one's time is the least of all rounds.
 #include <dlfcn.h>
 #include <time.h>
 
@@ -56,9 +57,10 @@ struct Robot {
     Vector damping;
 };
 
-/// A table of pinocchio.sh: a first line with the mass, centre and inertia (xx xy xz yy yz zz about the centre) of the base,
-/// then for each joint its name, the number of its parent (0 for the base), axis, origin, roll, pitch and yaw, damping, and the same
-/// of its link. A floating base hangs on a translation and three angles, each a joint of its own kind.
+/// A table of pinocchio.sh: a first line with the mass, centre and inertia (xx xy xz yy yz zz about the centre) of
+/// the base, then for each joint its name, the number of its parent (0 for the base), axis, origin, roll, pitch
+/// and yaw, damping, and the same of its link. A floating base hangs on a translation and three angles, each a
+/// joint of its own kind.
 Robot robot_of(const std::string& path, bool floats) {
     std::ifstream file(path);
     const auto number = [&] {
@@ -97,11 +99,12 @@ Robot robot_of(const std::string& path, bool floats) {
                                    Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitX()))
                                       .toRotationMatrix();
         const pinocchio::SE3 at(R, origin);
-        const auto joint = axis == Eigen::Vector3d::UnitX() ? model.addJoint(parent, pinocchio::JointModelRX(), at, name)
-                           : axis == Eigen::Vector3d::UnitY() ? model.addJoint(parent, pinocchio::JointModelRY(), at, name)
-                           : axis == Eigen::Vector3d::UnitZ()
-                               ? model.addJoint(parent, pinocchio::JointModelRZ(), at, name)
-                               : model.addJoint(parent, pinocchio::JointModelRevoluteUnaligned(axis.normalized()), at, name);
+        const auto joint =
+            axis == Eigen::Vector3d::UnitX()   ? model.addJoint(parent, pinocchio::JointModelRX(), at, name)
+            : axis == Eigen::Vector3d::UnitY() ? model.addJoint(parent, pinocchio::JointModelRY(), at, name)
+            : axis == Eigen::Vector3d::UnitZ()
+                ? model.addJoint(parent, pinocchio::JointModelRZ(), at, name)
+                : model.addJoint(parent, pinocchio::JointModelRevoluteUnaligned(axis.normalized()), at, name);
         damping[model.joints[joint].idx_v()] = number();
         model.appendBodyToJoint(joint, inertia(), here);
         links.push_back(joint);
@@ -185,7 +188,12 @@ public:
         std::mt19937_64 random(1);
         std::uniform_real_distribution<double> turn(-1.2, 1.2), rate(-1, 1);
         for (int k = 0; k < states; ++k) {
-            At at{std::vector<double>(2 * n_), std::vector<double>(2 * n_), Vector(n_), Vector(n_), Vector(n_), Vector(n_)};
+            At at{std::vector<double>(2 * n_),
+                  std::vector<double>(2 * n_),
+                  Vector(n_),
+                  Vector(n_),
+                  Vector(n_),
+                  Vector(n_)};
             for (int i = 0; i < n_; ++i) {
                 at.q[place_[i]] = at.state[i] = turn(random);
                 at.v[place_[i]] = at.state[n_ + i] = at.rate[i] = rate(random);
@@ -252,29 +260,30 @@ private:
         return {"ours",
                 [this, &f, &mass](int k) {
                     f.call(0, at_[k].state.data(), at_[k].rate.data(), ours_.par.data(), out_.data());
-                    mass.call(0, at_[k].state.data(), at_[k].rate.data(), ours_.par.data(), out_.data() + 2 * n_ * n_);
+                    mass.call(0, at_[k].state.data(), at_[k].rate.data(), ours_.par.data(),
+                              out_.data() + 2 * n_ * n_);
                 },
                 [this](int) {
                     std::vector<double> list;
                     for (int i = 0; i < n_; ++i)
                         for (int j = 0; j < 3 * n_; ++j)
-                            list.push_back(j < 2 * n_ ? out_[i * 2 * n_ + j] : out_[2 * n_ * n_ + i * n_ + j - 2 * n_]);
+                            list.push_back(j < 2 * n_ ? out_[i * 2 * n_ + j]
+                                                      : out_[2 * n_ * n_ + i * n_ + j - 2 * n_]);
                     return list;
                 }};
     }
     Contender ours_forward_jacobian() {
-        return {"ours",
-                [this](int k) {
-                    ours_.derivatives->jacobian(0, at_[k].state.data(), ours_.par.data(), out_.data());
-                },
-                [this](int) {
-                    std::vector<double> list(static_cast<std::size_t>(2 * n_ * n_));
-                    for (int e = 0; e < ours_.derivatives->entries; ++e) {
-                        const int row = ours_.derivatives->rows[e] - n_;
-                        if (row >= 0 && row < n_) list[row * 2 * n_ + ours_.derivatives->columns[e]] = out_[e];
-                    }
-                    return list;
-                }};
+        return {
+            "ours",
+            [this](int k) { ours_.derivatives->jacobian(0, at_[k].state.data(), ours_.par.data(), out_.data()); },
+            [this](int) {
+                std::vector<double> list(static_cast<std::size_t>(2 * n_ * n_));
+                for (int e = 0; e < ours_.derivatives->entries; ++e) {
+                    const int row = ours_.derivatives->rows[e] - n_;
+                    if (row >= 0 && row < n_) list[row * 2 * n_ + ours_.derivatives->columns[e]] = out_[e];
+                }
+                return list;
+            }};
     }
 
     Contender plain_forward() {
@@ -287,7 +296,9 @@ private:
     }
     Contender plain_mass() {
         return {"Pinocchio", [this](int k) { pinocchio::crba(model_, data_, at_[k].q); },
-                [this](int) { return in_our_order(std::vector<Eigen::MatrixXd>{data_.M.selfadjointView<Eigen::Upper>()}); }};
+                [this](int) {
+                    return in_our_order(std::vector<Eigen::MatrixXd>{data_.M.selfadjointView<Eigen::Upper>()});
+                }};
     }
     Contender plain_forward_jacobian() {
         return {"Pinocchio",
@@ -302,7 +313,8 @@ private:
     Contender plain_inverse_jacobian() {
         return {"Pinocchio",
                 [this](int k) {
-                    pinocchio::computeRNEADerivatives(model_, data_, at_[k].q, at_[k].v, at_[k].a, Dq_, Dv_, dtau_da_);
+                    pinocchio::computeRNEADerivatives(model_, data_, at_[k].q, at_[k].v, at_[k].a, Dq_, Dv_,
+                                                      dtau_da_);
                 },
                 [this](int) {
                     return in_our_order({Dq_, Dv_ + Eigen::MatrixXd(damping_.asDiagonal()),
