@@ -7,14 +7,14 @@
 #
 # Robots are humanoid32, tree30, oblique20 and chain20 of robots.py, and arm7. Results agree to 1e-9 before anything is timed; then
 # all take turns, and a time is the least of N rounds (20), since others may use the processor. Ours is compiled with the flags of
-# `alembert simulate`, and also with -O3; the code of CppADCodeGen once with each of FLAGS ("-Ofast -march=native" and
-# "-O1 -march=native"), in functions of at most `--length` assignments (1000). The best of the builds counts on both sides. Ours for the
+# `alembert simulate`; the code of CppADCodeGen once with each of FLAGS ("-Ofast -march=native" and "-O1 -march=native"), in functions
+# of at most `--length` assignments (1000), of which the best counts. Ours for the
 # Jacobian of inverse dynamics is `inverse_jacobian` and `mass`, because theirs has d tau / d q'' too. computeABADerivatives gives the
 # inverse of the mass matrix besides; ours does not, and neither does the code written from it here.
 #
 # Pinocchio: PINOCCHIO_PREFIX (a folder with include/pinocchio and Boost's headers), or PINOCCHIO_PYTHON, an interpreter whose
-# environment has the package `pin`, or python3. CppADCodeGen: CPPADCG_PREFIX, a folder with include/cppad/cg.hpp and
-# include/cppad/cppad.hpp. Eigen: EIGEN_INCLUDE, or /usr/include/eigen3. PROGRAM: build/release/generator/alembert.
+# environment has the package `pin`, or python3. CppADCodeGen: CPPADCG_PREFIX, a folder with include/cppad/cg.hpp,
+# include/cppad/cppad.hpp and lib/libcppad_lib.so. Eigen: EIGEN_INCLUDE, or /usr/include/eigen3. PROGRAM: build/release/generator/alembert.
 set -eu
 root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
 exec python3 -B - "$root" "$@" <<'PYTHON'
@@ -82,7 +82,7 @@ def timed(command):
 
 def compiled_peer(prefix, codegen):
     includes = [os.path.join(prefix, "include"), os.environ.get("EIGEN_INCLUDE", "/usr/include/eigen3")]
-    command = [compiler, "-std=c++17", "-O2", "-march=native", "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
+    command = [compiler, "-std=c++17", "-O3", "-DNDEBUG", "-march=native", "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
                "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30", "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
                "-DBOOST_FUSION_INVOKE_MAX_ARITY=12", "-I" + os.path.join(root, "lib")]
     for include in includes + ([os.path.join(codegen, "include")] if codegen else []):
@@ -93,8 +93,9 @@ def compiled_peer(prefix, codegen):
     if not codegen:
         return peer, None
     writer = os.path.join(folder, "writer")
-    command = [("-O1" if word == "-O2" else writer if word == peer else word) for word in command]
-    print(f"compiling the peer that writes code: {timed(command + ['-DWITH_CODEGEN'])[0]:.0f} s", flush=True)
+    command = [("-O1" if word == "-O3" else writer if word == peer else word) for word in command]
+    command += ["-DWITH_CODEGEN", "-L" + os.path.join(codegen, "lib"), "-lcppad_lib", "-Wl,-rpath," + os.path.join(codegen, "lib")]
+    print(f"compiling the peer that writes code: {timed(command)[0]:.0f} s", flush=True)
     return peer, writer
 
 
@@ -128,10 +129,17 @@ def table_of(urdf):
         return " ".join([links[link].find("mass").get("value"), origin.get("xyz")] +
                         [I.get(key) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")])
 
-    numbers = {robot.find("link").get("name"): 0}
-    lines = [inertia(robot.find("link").get("name"))]
-    for joint in robot.findall("joint"):
+    base = robot.find("link").get("name")
+    numbers, lines, left = {base: 0}, [inertia(base)], []
+
+    def enter(link):
+        left.extend(joint for joint in reversed(robot.findall("joint")) if joint.find("parent").get("link") == link)
+
+    enter(base)
+    while left:  # depth first, as Pinocchio wants them
+        joint = left.pop()
         child, damping = joint.find("child").get("link"), joint.find("dynamics")
+        enter(child)
         numbers[child] = len(numbers)
         lines.append(" ".join([joint.get("name"), str(numbers[joint.find("parent").get("link")]), joint.find("axis").get("xyz"),
                                joint.find("origin").get("xyz"), joint.find("origin").get("rpy"),
@@ -140,7 +148,7 @@ def table_of(urdf):
 
 
 def ours(name, urdf, floats):
-    """Our file, compiled as `alembert simulate` does and with -O3, and the seconds of both steps."""
+    """Our file, compiled as `alembert simulate` does, and the seconds of both steps."""
     scene, out = os.path.join(folder, name + ".toml"), os.path.join(folder, "ours")
     timed([wishes.program, "import", urdf, "-o", scene] + (["--floating"] if floats else []))
     emitted = timed([wishes.program, "emit", scene, "--jacobian", "--functions", "inverse,mass,inverse_jacobian", "-o", out])[0]
@@ -150,10 +158,8 @@ def ours(name, urdf, floats):
     large = ["-O1", "-fexpensive-optimizations", "-fno-tree-dse", "-fno-dse", "-fno-gcse",
              "--param=lra-max-considered-reload-pseudos=10"] if os.path.getsize(source) > 200000 else ["-O2"]
     objects = {}
-    for build, more in (("ours", large), ("ours -O3", ["-O3"])):
-        objects[build] = (source[:-4] + build.replace(" ", "") + ".so", 0)
-        objects[build] = (objects[build][0], timed([compiler, *flags, *more, source, "-o", objects[build][0]])[0])
-    return objects, emitted
+    path = source[:-4] + ".so"
+    return path, emitted, timed([compiler, *flags, *large, source, "-o", path])[0]
 
 
 def theirs(name, table, floats, writer):
@@ -192,26 +198,19 @@ for name in wishes.robot or ROBOTS:
     floats = name.startswith("humanoid")
     urdf, table, kind = os.path.join(folder, name + ".urdf"), os.path.join(folder, name + ".table"), "floating" if floats else "fixed"
     open(table, "w").write(table_of(urdf))
-    objects, emitted = ours(name, urdf, floats)
+    path, emitted, compiled = ours(name, urdf, floats)
     words, seconds = theirs(name, table, kind, writer) if writer else ([], {})
-    results = {build: json.loads(timed([peer, "time", table, kind, str(wishes.rounds), path, *words])[1])
-               for build, (path, _) in objects.items()}
-    for function in results["ours"]["ns"]:
-        times = {}
-        for build, result in results.items():
-            for who, ns in result["ns"][function].items():
-                who = build if who == "ours" else who
-                times[who] = min(ns, times.get(who, math.inf))
-        own = min(ns for who, ns in times.items() if who.startswith("ours"))
+    result = json.loads(timed([peer, "time", table, kind, str(wishes.rounds), path, *words])[1])
+    for function, times in result["ns"].items():
+        own = times["ours"]
         generated = min((ns for who, ns in times.items() if who.startswith("CppADCodeGen")), default=None)
         cell = lambda ns: f"{ns / 1000:.2f}" if ns else "-"
         ratio = lambda ns: f"{own / ns:.2f}" if ns else "-"
-        print(f"{name:11} {function:17} {results['ours']['operations'].get(function, ''):>10} {cell(own):>9} "
+        print(f"{name:11} {function:17} {result['operations'].get(function, ''):>10} {cell(own):>9} "
               f"{cell(times['Pinocchio']):>10} {ratio(times['Pinocchio']):>6} {cell(generated):>13} {ratio(generated):>6}", flush=True)
         listed.append({"robot": name, "function": function, "ns": times, "processor": model, "flags": flags,
                        "codegen_seconds": seconds.get(function)})
-    print(f"{name:11} emitted in {emitted:.1f} s, compiled in "
-          f"{', '.join(f'{seconds:.1f} s ({build})' for build, (_, seconds) in objects.items())}"
+    print(f"{name:11} emitted in {emitted:.1f} s, compiled in {compiled:.1f} s"
           + "".join(f"; {function}: written in {list[0][0]:.1f} s, compiled in {', '.join(f'{s:.1f} s ({f})' for _, f, s in list)}"
                     for function, list in seconds.items()), flush=True)
 if wishes.json:

@@ -3,8 +3,8 @@
 // writes from these. pinocchio.sh compiles this where Pinocchio is, with -DWITH_CODEGEN where CppADCodeGen and
 // CppAD are.
 //
-//   pinocchio_peer generate ROBOT fixed|floating FUNCTION LENGTH FOLDER      writes C, in functions of LENGTH
-//   assignments pinocchio_peer time ROBOT fixed|floating ROUNDS OURS.so [FUNCTION:NAME=THEIRS.so]…     prints JSON
+//   pinocchio_peer generate ROBOT fixed|floating FUNCTION LENGTH FOLDER      writes C
+//   pinocchio_peer time ROBOT fixed|floating ROUNDS OURS.so [FUNCTION:NAME=THEIRS.so]…      prints JSON
 //
 // A joint's torque is that of its damper, so that forward dynamics are those of the scene. A floating base has the
 // coordinates x, y, z and the angles of Rz Ry Rx. Results at all states agree to 1e-9 of the largest before
@@ -36,9 +36,35 @@
 
 #include "alembert/native/abi.hpp"
 
+namespace alembert {
+
+/// The joints of these robots; all of Pinocchio's would take ten times as long to compile.
+template <typename Scalar, int options>
+struct RobotJoints {
+    static constexpr int Options = options;
+    using JointModelVariant = boost::variant<
+        pinocchio::JointModelRevoluteTpl<Scalar, options, 0>, pinocchio::JointModelRevoluteTpl<Scalar, options, 1>,
+        pinocchio::JointModelRevoluteTpl<Scalar, options, 2>,
+        pinocchio::JointModelRevoluteUnalignedTpl<Scalar, options>,
+        pinocchio::JointModelTranslationTpl<Scalar, options>,
+        boost::recursive_wrapper<pinocchio::JointModelMimicTpl<Scalar, options, ::alembert::RobotJoints>>>;
+    using JointDataVariant = boost::variant<
+        pinocchio::JointDataRevoluteTpl<Scalar, options, 0>, pinocchio::JointDataRevoluteTpl<Scalar, options, 1>,
+        pinocchio::JointDataRevoluteTpl<Scalar, options, 2>,
+        pinocchio::JointDataRevoluteUnalignedTpl<Scalar, options>,
+        pinocchio::JointDataTranslationTpl<Scalar, options>,
+        boost::recursive_wrapper<pinocchio::JointDataMimicTpl<Scalar, options, ::alembert::RobotJoints>>>;
+};
+
+}  // namespace alembert
+
 namespace {
 
-using Model = pinocchio::Model;
+template <typename Scalar>
+using ModelOf = pinocchio::ModelTpl<Scalar, 0, alembert::RobotJoints>;
+template <typename Scalar>
+using DataOf = pinocchio::DataTpl<Scalar, 0, alembert::RobotJoints>;
+using Model = ModelOf<double>;
 using Vector = Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -86,8 +112,10 @@ Robot robot_of(const std::string& path, bool floats) {
     const pinocchio::SE3 here = pinocchio::SE3::Identity();
     const pinocchio::Inertia base = inertia();
     if (floats) {
-        const auto shift = model.addJoint(0, pinocchio::JointModelTranslation(), here, "base_shift");
-        links[0] = model.addJoint(shift, pinocchio::JointModelSphericalZYX(), here, "base_angles");
+        links[0] = model.addJoint(0, pinocchio::JointModelTranslation(), here, "base_shift");
+        links[0] = model.addJoint(links[0], pinocchio::JointModelRZ(), here, "base_yaw");
+        links[0] = model.addJoint(links[0], pinocchio::JointModelRY(), here, "base_pitch");
+        links[0] = model.addJoint(links[0], pinocchio::JointModelRX(), here, "base_roll");
         model.appendBodyToJoint(links[0], base, here);
     }
     std::map<int, double> damping;
@@ -202,7 +230,7 @@ public:
             at.tau = -damping_.cwiseProduct(at.v);
             at_.push_back(std::move(at));
         }
-        Da_ = dtau_da_ = Dq_ = Dv_ = Eigen::MatrixXd::Zero(n_, n_);
+        Da_ = Dq_ = Dv_ = tau_q_ = tau_v_ = tau_a_ = Eigen::MatrixXd::Zero(n_, n_);
         out_.resize(static_cast<std::size_t>(4 * n_ * n_));
         theirs_.resize(static_cast<std::size_t>(3 * n_ * n_ + n_));
     }
@@ -313,12 +341,12 @@ private:
     Contender plain_inverse_jacobian() {
         return {"Pinocchio",
                 [this](int k) {
-                    pinocchio::computeRNEADerivatives(model_, data_, at_[k].q, at_[k].v, at_[k].a, Dq_, Dv_,
-                                                      dtau_da_);
+                    pinocchio::computeRNEADerivatives(model_, data_, at_[k].q, at_[k].v, at_[k].a, tau_q_, tau_v_,
+                                                      tau_a_);
                 },
                 [this](int) {
-                    return in_our_order({Dq_, Dv_ + Eigen::MatrixXd(damping_.asDiagonal()),
-                                         Eigen::MatrixXd(dtau_da_.selfadjointView<Eigen::Upper>())});
+                    return in_our_order({tau_q_, tau_v_ + Eigen::MatrixXd(damping_.asDiagonal()),
+                                         Eigen::MatrixXd(tau_a_.selfadjointView<Eigen::Upper>())});
                 }};
     }
 
@@ -335,7 +363,7 @@ private:
             return in_our_order({matrix(0), matrix(1) + Eigen::MatrixXd(damping_.asDiagonal()),
                                  Eigen::MatrixXd(matrix(2).selfadjointView<Eigen::Upper>())});
         // d q'' / d q' at a given torque lacks the part of the dampers, which is M^-1 times their constants.
-        pinocchio::Data data(model_);
+        DataOf<double> data(model_);
         Eigen::MatrixXd inverse = pinocchio::computeMinverse(model_, data, at_[k].q);
         inverse.triangularView<Eigen::StrictlyLower>() = inverse.transpose();
         return in_our_order({matrix(0), matrix(1) - inverse * damping_.asDiagonal()});
@@ -357,12 +385,13 @@ private:
     Robot robot_;
     const Model& model_ = robot_.model;
     const Vector& damping_ = robot_.damping;
-    pinocchio::Data data_{model_};
+    DataOf<double> data_{model_};
     Ours ours_;
     int n_;
     std::vector<int> place_;
     std::vector<At> at_;
-    Eigen::MatrixXd Dq_, Dv_, Da_, dtau_da_;
+    Eigen::MatrixXd Dq_, Dv_, Da_;
+    Eigen::MatrixXd tau_q_, tau_v_, tau_a_;  // zeros stay where computeRNEADerivatives writes nothing
     std::vector<double> out_, theirs_, input_;
     bool code_takes_a_ = false;
 };
@@ -451,8 +480,8 @@ RecordedVector in_a_row(const std::vector<RecordedMatrix>& blocks) {
 
 RecordedVector values(const std::string& function, const Model& of, const RecordedVector& x) {
     const int n = of.nv;
-    const pinocchio::ModelTpl<Recorded> model = of.cast<Recorded>();
-    pinocchio::DataTpl<Recorded> data(model);
+    const ModelOf<Recorded> model = of.cast<Recorded>();
+    DataOf<Recorded> data(model);
     const RecordedVector q = x.head(n), v = x.segment(n, n), last = x.tail(n);
     RecordedMatrix Dq = RecordedMatrix::Zero(n, n), Dv = Dq, Da = Dq;
     if (function == "forward") return pinocchio::aba(model, data, q, v, last);
