@@ -162,7 +162,7 @@ class Verbs(unittest.TestCase):
 
     def test_methods_take_the_options_of_their_verbs(self):
         """Every option of the program is a keyword, unless Python has another form for it; and no keyword is another's."""
-        ways = {"digits", "full", "output", "json", "strict", "language", "help", "format", "svg", "show", "html", "modes"}
+        ways = {"digits", "full", "output", "json", "json_file", "strict", "language", "help", "format", "svg", "show", "html", "modes"}
         others = {"derive": {"steps", "dimensions"},  # all steps are in .steps; Scene.draw is --svg
                   "check": {"complete", "letters", "scene_from", "formalisms"},  # Scene.mark, Scene.agree
                   "eval": {"kinematics", "inertia", "identify", "inverse", "impact"},  # methods of their own
