@@ -308,6 +308,26 @@ TEST_CASE("compile: $XDG_CACHE_HOME is where the cache is") {
     CHECK(compile(pendulum_source(), "pendulum", {}).object.parent_path() == cache.path / "alembert");
 }
 
+TEST_CASE(
+    "compile: of what is known about the processor the first text is kept, and none that somebody has changed") {
+    const Cache cache;
+    const Variable xdg("XDG_CACHE_HOME", cache.path.c_str());
+    CHECK(!kept_about_processor("times"));
+    keep_about_processor("times", "1 2\n");
+    keep_about_processor("times", "3 4\n");  // as another process that has measured at the same time
+    CHECK(kept_about_processor("times") == "1 2\n");
+    CHECK(!kept_about_processor("other"));
+    for (const fs::directory_entry& file : fs::directory_iterator(cache.path / "alembert"))
+        std::ofstream(file.path(), std::ios::app) << "5";
+    CHECK(!kept_about_processor("times"));
+    keep_about_processor("times", "3 4\n");
+    CHECK(kept_about_processor("times") == "3 4\n");
+    CHECK(std::distance(fs::directory_iterator(cache.path / "alembert"), {}) == 1);  // nothing else is left
+    const Variable nowhere("XDG_CACHE_HOME", "/dev/null");
+    keep_about_processor("times", "5 6\n");
+    CHECK(!kept_about_processor("times"));
+}
+
 TEST_CASE("compile: folders of the cache and their contents belong to the owner only, whatever the umask is") {
     const Cache cache;
     const mode_t before = umask(0);

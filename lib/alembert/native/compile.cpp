@@ -342,7 +342,10 @@ void keep_about_processor(const std::string& name, const std::string& text) try 
     const Leftover part(fs::path(file) += fmt::format(".{}", getpid()));
     write_file(part.path(), text + fingerprint(text), std::ios::trunc);
     chmod(part.path().c_str(), S_IRUSR | S_IWUSR);
-    move_into_place(part.path(), file);
+    // Of several processes the first one's text is kept, so that all of them read the same.
+    std::error_code failure;
+    fs::create_hard_link(part.path(), file, failure);
+    if (failure && !is_intact(file)) move_into_place(part.path(), file);
 } catch (const std::exception&) {
     // It is measured anew next time.
 }

@@ -55,8 +55,8 @@ struct Compiled {
 Compiled compile(const std::string& source_text, const std::string& name, const CompileOptions& options);
 
 /// What is known about this processor, kept as a text beside compiled solvers: that which was kept under this name
-/// on a processor like this, if it is still there and whole. Both throw nothing; where there is no lasting cache,
-/// or another user's, nothing is kept.
+/// on a processor like this, if it is still there and whole. What is kept first stays. Both throw nothing; where
+/// there is no lasting cache, or another user's, nothing is kept.
 std::optional<std::string> kept_about_processor(const std::string& name);
 void keep_about_processor(const std::string& name, const std::string& text);
 
