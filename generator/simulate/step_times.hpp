@@ -5,7 +5,7 @@
 ///
 ///     const Slowness here = slowness_here();                 // by which predicted times are multiplied
 ///
-/// It is measured once, which takes some milliseconds, on two small systems with code in memory: a double
+/// It is measured once, which takes 20 to 30 ms, on two small systems with code in memory: a double
 /// pendulum, which has sines, and four bodies that attract each other, which have roots and quotients. The factors
 /// are kept in the cache of compiled solvers for this processor, so that later runs choose alike. Where there is
 /// no such cache or no code in memory, they are those of processors with the same registers (cost_model.hpp).
