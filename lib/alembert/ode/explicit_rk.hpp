@@ -36,18 +36,10 @@
 
 #include "alembert/native/cpu_features.hpp"
 #include "alembert/ode/rhs.hpp"
+#include "alembert/ode/stage_sums.hpp"
 #include "alembert/ode/tableau.hpp"
 
 namespace alembert {
-
-/// Calls function<0>, function<1>, … function<count − 1>, one after the other.
-template <int count, class Function>
-void repeat(Function function) {
-    const auto all = [&]<int... i>(std::integer_sequence<int, i...>) {
-        (function.template operator()<i>(), ...);
-    };
-    all(std::make_integer_sequence<int, count>());
-}
 
 template <const auto& tableau>
 class Step {
@@ -185,37 +177,19 @@ private:
 
     template <int i>
     struct StageRow {
+        static constexpr int stages = tableau.all_stages;
         static constexpr double weight(int j) { return tableau.a[i][static_cast<std::size_t>(j)]; }
-    };
-    template <class Row, int fresh>
-    struct Without {
-        static constexpr double weight(int j) { return j == fresh ? 0 : Row::weight(j); }
     };
     template <int i>
     struct ErrorRow {
+        static constexpr int stages = tableau.all_stages;
         static constexpr double weight(int j) { return tableau.e[i][static_cast<std::size_t>(j)]; }
     };
     template <int i>
     struct DenseRow {
+        static constexpr int stages = tableau.all_stages;
         static constexpr double weight(int j) { return tableau.d[i][static_cast<std::size_t>(j)]; }
     };
-
-    template <class Row>
-    static constexpr int terms_of() {
-        int count = 0;
-        for (int j = 0; j < tableau.all_stages; ++j) count += Row::weight(j) != 0 ? 1 : 0;
-        return count;
-    }
-
-    /// The stages whose weights are not zero.
-    template <class Row, std::size_t count>
-    static constexpr std::array<int, count> places_of() {
-        std::array<int, count> places{};
-        std::size_t next = 0;
-        for (int j = 0; j < tableau.all_stages; ++j)
-            if (Row::weight(j) != 0) places[next++] = j;
-        return places;
-    }
 
     /// The arithmetic on registers of so many numbers. No function returns one: how that is done depends on the
     /// processor. `stride`, from one array to the next, is counted in registers.
@@ -236,54 +210,18 @@ private:
                 function(s.stride_ / width);
         }
 
-        /// Σ_j weight_j k_j, j running over the non-zero weights, `k` being the first stage; `Row` gives weight j
-        /// as a constant. The terms in one expression, because a function for each would take long to compile.
-        template <class Row, int... n>
-        [[gnu::always_inline]] static void sum_of_terms(const Lane* k, auto stride, Lane& sum,
-                                                        std::integer_sequence<int, n...>) {
-            constexpr std::array<int, sizeof...(n) + 1> at = places_of<Row, sizeof...(n) + 1>();
-            constexpr std::array<double, sizeof...(n) + 1> weight{Row::weight(at[0]), Row::weight(at[n + 1])...};
-            sum = weight[0] * k[at[0] * stride];
-            (..., (sum += weight[n + 1] * k[at[n + 1] * stride]));
-        }
-
         template <class Row>
         [[gnu::always_inline]] static void weighted_sum(const Lane* k, auto stride, Lane& sum) {
-            constexpr int count = terms_of<Row>();
-            if constexpr (count == 0)
-                sum = Lane{};
-            else
-                sum_of_terms<Row>(k, stride, sum, std::make_integer_sequence<int, count - 1>());
+            StageSums<width>::template weighted_sum<Row>(k, stride, sum);
         }
 
-        /// rest + h Σ_j weight_j k_j. Stage `fresh` has just been written, and everything else waits for it.
-        /// Therefore it enters last and is loaded number by number: a load of several numbers would wait until all
-        /// of them have reached the cache.
+        /// rest + h Σ_j weight_j k_j, of which stage `fresh` has just been written.
         template <class Row, int fresh>
         [[gnu::always_inline]] static void change(const Lane* k, auto stride, double h, const Lane& rest,
                                                   Lane& sum) {
             weighted_sum<Without<Row, fresh>>(k, stride, sum);
             sum = h * sum + rest;
-            constexpr double weight = Row::weight(fresh);
-            if constexpr (weight != 0) {
-                Lane last;
-                load_singly(reinterpret_cast<const double*>(k + fresh * stride), last);
-                sum += (h * weight) * last;
-            }
-        }
-
-        [[gnu::always_inline]] static void load_singly(const double* from, Lane& lane) {
-            if constexpr (width == 2)
-                lane = Lane{loaded(from), loaded(from + 1)};
-            else
-                lane = Lane{loaded(from), loaded(from + 1), loaded(from + 2), loaded(from + 3)};
-        }
-        [[gnu::always_inline]] static double loaded(const double* from) {
-            double one = *from;
-#if defined(__x86_64__)
-            __asm__("" : "+x"(one));
-#endif
-            return one;
+            StageSums<width>::template add_fresh<Row, fresh>(k, stride, h, sum);
         }
 
         template <int i>
@@ -384,21 +322,15 @@ private:
         }
     };
 
-    static void attempt_any(Step& step) {
-        Work<2>::attempt(step);
-    }
+    static void attempt_any(Step& step) { Work<2>::attempt(step); }
     static double misfit_any(Step& step) {
         if constexpr (has_fixed_step)
             return 0;
         else
             return Work<2>::misfit(step);
     }
-    static bool finite_any(const Step& step, const double* values) {
-        return Work<2>::is_finite(step, values);
-    }
-    ALEMBERT_WIDE_SAME_DIGITS static void attempt_256(Step& step) {
-        Work<4>::attempt(step);
-    }
+    static bool finite_any(const Step& step, const double* values) { return Work<2>::is_finite(step, values); }
+    ALEMBERT_WIDE_SAME_DIGITS static void attempt_256(Step& step) { Work<4>::attempt(step); }
     ALEMBERT_WIDE_SAME_DIGITS static double misfit_256(Step& step) {
         if constexpr (has_fixed_step)
             return 0;
