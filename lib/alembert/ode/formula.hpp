@@ -13,8 +13,11 @@
 #include <concepts>
 #include <functional>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "alembert/ode/end_sums.hpp"
 #include "alembert/ode/rhs.hpp"
 #include "alembert/ode/stepper.hpp"
 
@@ -73,6 +76,18 @@ struct Ends {
     long evaluations = 0;
 };
 
+/// Throws std::invalid_argument for a state that is not (q, v) with q' = v, quadratures left out.
+inline void need_coordinates_and_rates(const Ends& ends, const char* who, const char* instead) {
+    const auto n = static_cast<std::size_t>(ends.controlled / 2);
+    bool fits = ends.controlled % 2 == 0;
+    for (std::size_t i = 0; fits && i < n; ++i)
+        fits = ends.rate[i] == ends.y[n + i] || !std::isfinite(ends.rate[i]);
+    if (!fits)
+        throw std::invalid_argument(
+            std::string(who) + " need a state of coordinates followed by their rates; this is another: take " +
+            instead);
+}
+
 /// Writes the error of each component to Ends::error, for steps whose length is chosen.
 template <class F>
 concept EstimatesError = requires {
@@ -81,7 +96,7 @@ concept EstimatesError = requires {
 
 /// Has its own states within a step (Between::own).
 template <class F>
-concept Interpolates = requires(const F& now, const Ends& ends, double theta, double* out) {
+concept Interpolates = requires(F& now, Ends& ends, double theta, double* out) {
     now.interpolate(ends, theta, out);
 };
 
@@ -154,6 +169,7 @@ public:
     Stepper(const Rhs& rhs, double t, std::span<const double> state, double tolerance)
         : ends_(rhs, t, state),
           formula_(ends_, tolerance),
+          sums_(end_sums(ends_.size)),
           change_(state.size()),
           unused_(Formula::between == Between::shorter_step ? state.size() : 0) {}
 
@@ -184,25 +200,13 @@ public:
         ends_.h = end - ends_.t;
         ends_.knows_end_rate = false;
         solved_ = formula_.increment(ends_, ends_.h, change_.data(), ends_.end_rate.data());
-        for (std::size_t i = 0; i < change_.size(); ++i) {
-            const double change = change_[i] + ends_.rest[i];
-            const double next = ends_.y[i] + change;
-            const double taken = next - ends_.y[i];
-            ends_.next[i] = next;
-            ends_.next_rest[i] = (ends_.y[i] - (next - taken)) + (change - taken);
-        }
+        sums_.add(ends_.y.data(), ends_.rest.data(), change_.data(), ends_.size, ends_.next.data(),
+                  ends_.next_rest.data());
     }
 
     double misfit() {
         if (!solved_) return HUGE_VAL;
-        double largest = 0, zero = 0;
-        for (int i = 0; i < ends_.controlled; ++i) {
-            double& error = ends_.error[static_cast<std::size_t>(i)];
-            error = std::abs(error) / ends_.scale(i);
-            largest = std::max(largest, error);
-            zero += (error + end_state()[i]) * 0;
-        }
-        return zero == 0 ? largest : HUGE_VAL;
+        return sums_.largest(ends_.error.data(), ends_.y.data(), ends_.next.data(), ends_.controlled);
     }
 
     void correct(const std::function<void(double t, double* state)>& project) {
@@ -272,13 +276,12 @@ public:
 
 private:
     bool is_finite(const std::vector<double>& values) const {
-        double zero = 0;
-        for (int i = 0; i < ends_.controlled; ++i) zero += values[static_cast<std::size_t>(i)] * 0;
-        return zero == 0;
+        return sums_.is_finite(values.data(), ends_.controlled);
     }
 
     Ends ends_;
     Formula formula_;
+    EndSums sums_;
     std::vector<double> change_, unused_;
     bool solved_ = true;
 };

@@ -51,13 +51,7 @@ public:
             drift_.resize(state_.size());
             return;
         }
-        bool fits = ends.controlled % 2 == 0;
-        for (std::size_t i = 0; fits && i < n_; ++i)
-            fits = ends.rate[i] == ends.y[n_ + i] || !std::isfinite(ends.rate[i]);
-        if (!fits)
-            throw std::invalid_argument(
-                "verlet and kahanli8 need a state of coordinates followed by their rates; this is another: take "
-                "gauss or dop853");
+        need_coordinates_and_rates(ends, "verlet and kahanli8", "gauss or dop853");
     }
 
     int most_evaluations() const { return 2 * static_cast<int>(lengths.size()); }
