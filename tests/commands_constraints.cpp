@@ -252,6 +252,13 @@ TEST_CASE("commands: verlet and kahanli8 follow loads that are not in the energy
               tolerance);
         CHECK(motion["work_balance"].get<double>() < tolerance);
     }
+    for (const std::string method : {"rkn86", "rkn1210"}) {
+        const Json motion =
+            json_of({"simulate", driven, "--duration", "5"}, {"--method", method, "--tolerance", "1e-11"});
+        CHECK(std::abs(motion["final"]["coordinates"]["x"].get<double>() - (std::cos(5) - std::cos(10)) / 3) <
+              1e-10);
+        CHECK(motion["work_balance"].get<double>() < 1e-10);
+    }
 }
 
 TEST_CASE("commands: kahanli8 integrates a separable system and refuses the others with the reason") {
@@ -268,7 +275,9 @@ TEST_CASE("commands: kahanli8 integrates a separable system and refuses the othe
     const Json exact = end({"--tolerance", "1e-13"});
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"--method", "kahanli8", "--step", "0.05"},
-          {"--method", "gauss", "--step", "0.02"}}) {
+          {"--method", "gauss", "--step", "0.02"},
+          {"--method", "rkn86", "--tolerance", "1e-11"},
+          {"--method", "rkn1210", "--tolerance", "1e-11"}}) {
         const Json other = end(words);
         for (const char* name : {"x", "y"})
             CHECK(std::abs(other[name].get<double>() - exact[name].get<double>()) < 1e-9);
@@ -281,6 +290,10 @@ TEST_CASE("commands: kahanli8 integrates a separable system and refuses the othe
     refused(scene("x'^2/2 + (1 + x^2)*y'^2", ""), "the inertia of y changes with the motion");
     refused(scene("x'^2/2 + x*y' + y'^2", ""), "a rate occurs in the equation of");
     refused(source_path("scenes/textbook/cartesian_pendulum.toml"), "there are constraints");
+    const auto adaptive =
+        run({"simulate", scene("x'^2/2 + x*y' + y'^2", ""), "--duration", "1", "--method", "rkn1210"});
+    CHECK(adaptive.exit == 3);
+    CHECK(adaptive.err.find("a rate occurs in the equation of") != std::string::npos);
 }
 
 }  // namespace commands_constraints

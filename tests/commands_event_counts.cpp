@@ -189,8 +189,9 @@ TEST_CASE("events: all zeros of sin(20*x) along an oscillation, by every method"
                             "[forces]\nx = \"-x\"\n[[event]]\nname = \"e\"\nwhen = \"sin(20*x)\"\n[simulation]\n"
                             "duration = {}\n",
                             A, end));
-            for (const char* const method : {"auto", "taylor", "dop853", "dopri5", "verner76", "verner98", "abm",
-                                             "bdf", "radau", "rk4", "gauss", "verlet", "kahanli8", "euler"}) {
+            for (const char* const method :
+                 {"auto", "taylor", "dop853", "dopri5", "verner76", "verner98", "rkn86", "rkn1210", "abm", "bdf",
+                  "radau", "rk4", "gauss", "verlet", "kahanli8", "euler"}) {
                 CAPTURE(A);
                 CAPTURE(end);
                 CAPTURE(method);

@@ -60,8 +60,8 @@ TEST_CASE(
     const double half = std::sqrt(10 / 9.81), late = std::sqrt(14 / 9.81), end = std::sqrt(20 / 9.81);
     const std::vector<std::pair<std::string, double>> expected = {
         {"half", half}, {"abreast", half}, {"late", late}, {"end", end}, {"ground", end}};
-    for (const std::string method : {"dopri5", "dop853", "verner76", "verner98", "taylor", "abm", "radau", "rk4",
-                                     "gauss", "rattle", "kahanli8"}) {
+    for (const std::string method : {"dopri5", "dop853", "verner76", "verner98", "rkn86", "rkn1210", "taylor",
+                                     "abm", "radau", "rk4", "gauss", "rattle", "kahanli8"}) {
         std::vector<std::string> words = {"simulate", scene, "--json", "--no-estimate", "--method", method};
         if (method == "rk4" || method == "gauss" || method == "rattle" || method == "kahanli8")
             words.insert(words.end(), {"--step", "0.01"});

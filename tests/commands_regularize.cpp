@@ -155,6 +155,7 @@ duration = 12
 
 TEST_CASE("regularize: where it does not apply it says why") {
     check_refused(comet, {"--method", "taylor"}, "does not run regularized");
+    check_refused(comet, {"--method", "rkn1210"}, "does not run regularized");
     check_refused(comet, {"--max-step", "0.1"}, "no longest step");
     check_refused(source_path("scenes/textbook/cartesian_pendulum.toml"), {}, "there are constraints");
     check_refused(source_path("scenes/textbook/bouncing_ball.toml"), {}, "contacts");

@@ -28,7 +28,8 @@ TURNS = [
     ["--method", "verner76"], ["--method", "radau5"], ["--method", "rattle", "--step", "0.01"],
     ["--method", "kahanli8", "--step", "0.02"], ["--method", "radau9"], ["--budget", "700"], ["--tolerance", "1e-5"],
     ["--method", "rattle8", "--step", "0.02"], ["--method", "radau13"], ["--method", "euler", "--step", "0.002"],
-    ["--method", "rk2", "--step", "0.004"], ["--tolerance", "1e-12"], ["--budget", "150"],
+    ["--method", "rk2", "--step", "0.004"], ["--tolerance", "1e-12"], ["--budget", "150"], ["--method", "rkn1210"],
+    ["--method", "rkn86"],
 ]
 EACH = 4  # of these for each scene
 

@@ -96,7 +96,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     result.by = say(
         "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts and impulses");
     std::vector<Method> methods = all_methods();
-    std::erase_if(methods, [](Method one) { return has_fixed_step(one) || needs_series(one); });
+    std::erase_if(methods,
+                  [](Method one) { return has_fixed_step(one) || needs_series(one) || needs_separable(one); });
     for (std::size_t k = 0; k < methods.size(); ++k) {
         const Method method = methods[k];
         if (!request.method.empty() && name(method) != request.method) continue;

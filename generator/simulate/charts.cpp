@@ -26,7 +26,7 @@ std::optional<AnglesOfFrame> angles_of_frame(const Derived& d, const MethodChoic
         !m.speeds.empty() || !d.equations.speeds_are_rates())
         return std::nullopt;
     if (!method.sundials.empty() || has_fixed_step(method.method) || uses_jacobian(method.method) ||
-        needs_canonical(method.method))
+        needs_canonical(method.method) || needs_separable(method.method))
         return std::nullopt;
     const std::vector<AnglesOfFrame> found = angles_in(d.scene);
     return found.size() == 1 ? std::optional(found[0]) : std::nullopt;

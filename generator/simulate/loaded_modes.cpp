@@ -288,7 +288,9 @@ std::unique_ptr<LoadedMode> LoadedModes::bound(const std::vector<int>& closed) {
     }
     mode->contact.system.on_method = [self = mode.get()](Method running) { self->running = running; };
     // The work must balance the energy, so it is integrated with the same tolerance as the state, if there is one.
-    if (made.derived.mechanism.unilateral.empty() && !has_fixed_step(method.method))
+    // Methods for positions and their rates alone know no other components.
+    if (made.derived.mechanism.unilateral.empty() && !has_fixed_step(method.method) &&
+        !needs_separable(method.method))
         mode->contact.system.rhs.extra = 0;
     if (!method.sundials.empty())
         mode->contact.system.by = sundials_integrator(method.sundials, module, values, jumps.has_value());

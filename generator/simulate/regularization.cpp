@@ -30,7 +30,8 @@ Regularization regularization_of(const RunOptions& wishes, const Derived& d, con
     if (const auto why = obstacle_to_regularization(d.mechanism, energy))
         throw ModelError(say("this scene does not run regularized: {}", *why));
     const std::string method = choice.sundials.empty() ? std::string(name(choice.method)) : choice.sundials;
-    if (!choice.sundials.empty() || needs_series(choice.method) || needs_canonical(choice.method))
+    if (!choice.sundials.empty() || needs_series(choice.method) || needs_canonical(choice.method) ||
+        (needs_separable(choice.method) && !has_fixed_step(choice.method)))
         throw ModelError(
             say("method '{}' does not run regularized; take verner98, or kahanli8 or gauss with a step", method));
     if (longest_step(wishes, start) > 0)

@@ -20,6 +20,7 @@
 #include "alembert/ode/formula.hpp"
 #include "alembert/ode/gauss.hpp"
 #include "alembert/ode/methods.hpp"
+#include "alembert/ode/nystrom.hpp"
 #include "alembert/ode/radau.hpp"
 #include "alembert/ode/rattle.hpp"
 #include "alembert/ode/stepper.hpp"
@@ -68,6 +69,10 @@ inline constexpr std::tuple method_rows{
     row<dop853_tableau>({.method = Method::dop853, .name = "dop853", .stable_interval = 6.1}),
     row<verner76_tableau>({.method = Method::verner76, .name = "verner76", .stable_interval = 4.64}),
     row<verner98_tableau>({.method = Method::verner98, .name = "verner98", .stable_interval = 4.48}),
+    row<Nystrom<rkn86_tableau>>(
+        {.method = Method::rkn86, .name = "rkn86", .order = 8, .stable_interval = 3.3, .separable = true}),
+    row<Nystrom<rkn1210_tableau>>(
+        {.method = Method::rkn1210, .name = "rkn1210", .order = 12, .stable_interval = 8.33, .separable = true}),
     row<Verlet>({.method = Method::verlet, .name = "verlet", .order = 2, .separable = true}),
     row<KahanLi8>({.method = Method::kahanli8, .name = "kahanli8", .order = 8, .separable = true}),
     row<Gauss>({.method = Method::gauss, .name = "gauss", .order = 6, .jacobian = true}),

@@ -24,6 +24,8 @@ enum class Method {
     dop853,
     verner76,
     verner98,
+    rkn86,
+    rkn1210,
     verlet,
     kahanli8,
     gauss,

@@ -67,7 +67,8 @@ OwnTime own_time_of(const Rhs& rhs, const std::vector<double>& initial, const Op
     need(rhs.energies != nullptr && rhs.extra == 0,
          "a regularized run needs T and V of a system whose energy is conserved, without quadratures");
     need(
-        !needs_series(options.method) && !needs_canonical(options.method),
+        !needs_series(options.method) && !needs_canonical(options.method) &&
+            (!needs_separable(options.method) || has_fixed_step(options.method)),
         fmt::format("{} does not run in a time of its own; take kahanli8, gauss or dop853", name(options.method)));
     const bool canonical = options.regularization == Regularization::canonical;
     need(canonical || !needs_separable(options.method),
