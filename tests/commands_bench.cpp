@@ -71,7 +71,7 @@ TEST_CASE("bench: auto is measured too, with the method that it has chosen at ea
         CHECK(one["method"] == "auto");
         const double tolerance = one["tolerance"];
         const double strict = alembert::machine::can_run() ? 2e-5 : 0.9e-10;
-        CHECK(one["chosen"] == (tolerance > 3e-5 ? "dop853" : tolerance > strict ? "verner98" : "taylor"));
+        CHECK(one["chosen"] == (tolerance > 3e-5 ? "rkn86" : tolerance > strict ? "rkn1210" : "taylor"));
         CHECK(one["error"].get<double>() <= tolerance);
     }
 }

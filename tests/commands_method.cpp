@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codegen/machine/can_run.hpp"
+#include "files.hpp"
 #include "json.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
@@ -66,18 +67,18 @@ void check_choice(const std::vector<std::string>& options, const std::string& me
 }  // namespace
 
 TEST_CASE("auto: tolerance, step, structure and length choose the method, and the run says why") {
-    check_choice({"--tolerance", "1e-4", "--code", "compiled"}, "dop853", "the tolerance 0.0001");
+    check_choice({"--tolerance", "1e-4", "--code", "compiled"}, "rkn86", "the tolerance 0.0001");
     if (alembert::machine::can_run()) check_choice({"--tolerance", "1e-3"}, "taylor", "power series");
-    check_choice({"--tolerance", "1e-5", "--code", "compiled"}, "verner98", "the tolerance 1e-05");
+    check_choice({"--tolerance", "1e-5", "--code", "compiled"}, "rkn1210", "the tolerance 1e-05");
     if (alembert::machine::can_run()) check_choice({"--tolerance", "1e-5"}, "taylor", "power series");
-    check_choice({"--tolerance", "1e-9", "--code", "compiled"}, "verner98", "the tolerance 1e-09");
+    check_choice({"--tolerance", "1e-9", "--code", "compiled"}, "rkn1210", "the tolerance 1e-09");
     check_choice({"--tolerance", "1e-11"}, "taylor", "power series");
     check_choice({"--tolerance", "1e-14"}, "taylor", "power series");
     check_choice({"--step", "0.01"}, "rk4", "fixed step");
     check_choice({"--step", "0.001"}, "kahanli8", "20000 steps");
     const auto text = run({"simulate", temporary("oscillator.toml", oscillator), "--tolerance", "1e-4", "--code",
                            "compiled", "--no-estimate", "--no-tuning"});
-    CHECK(text.out.find("method: dop853, chosen for the tolerance 0.0001") != std::string::npos);
+    CHECK(text.out.find("method: rkn86, chosen for the tolerance 0.0001") != std::string::npos);
     // For a method given by name no reason is given.
     CHECK(!simulated(temporary("oscillator.toml", oscillator), {"--method", "dop853"}).contains("method_why"));
 }
@@ -95,6 +96,40 @@ TEST_CASE("auto: a linkage takes dop853 longer than a body that a quaternion tur
     CHECK(chosen["method"] == "verner98");
     CHECK(chosen["evaluations"].get<long>() < 0.7 * static_cast<double>(stages["evaluations"].get<long>()));
     CHECK(chosen["energy_drift"].get<double>() < 1e-11);
+}
+
+TEST_CASE(
+    "auto: bodies that attract each other take methods for accelerations of positions, at a third of the "
+    "evaluations") {
+    const std::string planets = source_path("scenes/benchmark/outer_solar_system.toml");
+    const std::vector<std::string> shorter = {"--duration", "20000", "--sample", "20000", "--no-tuning"};
+    const auto of = [&](const std::string& tolerance, const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"--tolerance", tolerance};
+        words.insert(words.end(), more.begin(), more.end());
+        words.insert(words.end(), shorter.begin(), shorter.end());
+        return simulated(planets, words);
+    };
+    const Json exact = of("1e-13", {"--method", "verner98"}), strict = of("1e-10", {}), loose = of("1e-4", {}),
+               others = of("1e-10", {"--method", "verner98"});
+    CHECK(loose["method"] == "rkn86");
+    CHECK(strict["method"] == "rkn1210");
+    CHECK(strict["evaluations"].get<long>() < others["evaluations"].get<long>() / 2);
+    for (const auto& [name, x] : exact["final"]["coordinates"].items()) {
+        CAPTURE(name);
+        CHECK(std::abs(strict["final"]["coordinates"][name].get<double>() - x.get<double>()) < 1e-8);
+        CHECK(std::abs(loose["final"]["coordinates"][name].get<double>() - x.get<double>()) < 1e-1);
+    }
+    // With loads whose work is integrated, or events, others cost less.
+    const std::string
+        driven =
+            temporary("driven.toml",
+                      "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^4/4\"\n[forces]\nx = "
+                      "\"cos(t)\"\n[simulation]\nduration = 5\n"),
+        watched = temporary("watched.toml",
+                            "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^4/4\"\n"
+                            "[[event]]\nname = \"turn\"\nwhen = \"x'\"\n[simulation]\nduration = 5\n");
+    for (const std::string& scene : {driven, watched})
+        CHECK(simulated(scene, {"--tolerance", "1e-4", "--code", "compiled"})["method"] == "dop853");
 }
 
 TEST_CASE(
@@ -149,10 +184,13 @@ TEST_CASE("auto: where a linkage comes to lie flat, dop853 goes on and keeps the
     }
 }
 
-// A bob on a spring of 1000 rad/s, whose steps are short though its series converges fast.
+// A bob on a spring of 1000 rad/s, whose steps are short though its series converges fast. With its drag
+// accelerations do not depend on positions alone.
 TEST_CASE("auto: where the first steps show that a series is faster, taylor goes on, and ends where dop853 ends") {
     if (!alembert::machine::can_run()) return;
-    const std::string scene = source_path("scenes/benchmark/stiff_spring_pendulum.toml");
+    const std::string scene = temporary(
+        "dragged.toml", alembert::test::contents(source_path("scenes/benchmark/stiff_spring_pendulum.toml")) +
+                            "[forces]\nx = \"-1e-3*x'\"\ny = \"-1e-3*y'\"\n");
     const Json exact = simulated(scene, {"--tolerance", "1e-12"}),
                result = simulated(scene, {"--tolerance", "1e-4"}),
                before = simulated(scene, {"--tolerance", "1e-4", "--method", "dop853"});

@@ -13,6 +13,7 @@
 #include "base/language/say.hpp"
 #include "codegen/emit/taylor.hpp"
 #include "codegen/machine/series_steps.hpp"
+#include "model/energy.hpp"
 #include "program/cost.hpp"
 #include "program/recurrence.hpp"
 #include "scene/advice.hpp"
@@ -79,13 +80,29 @@ SeriesCost cost_of_series(const Program& program, const RunOptions& request) {
                : machine::cost_in_memory(machine::series_steps(recurrences(program)));
 }
 
-/// Whether taylor is likely to be faster than verner98. A step of taylor has its order chosen by the tolerance, so
-/// that its length hardly depends on it, while a step of order 9 becomes shorter: the quotient of the lengths for
-/// the same error at the end grows in each decade, by 22 % in theory, with 24 orders. The numbers here are those
-/// with which the choice comes nearest to the best one on 85 systems (tests/bench/regret.sh). Against that stands
-/// the predicted cost of each step.
-bool is_series_faster(const Program& program, double tolerance, const SeriesCost& cost, const Slowness& slowness) {
-    const double longer = 1.5 * std::pow(1e-6 / tolerance, 0.08);
+/// Whether accelerations depend on positions alone in a free system whose energy is conserved, so that rkn86 and
+/// rkn1210 take its steps as they are: quadratures of work, and looks for events within steps, would cost them
+/// more than others.
+bool suits_nystrom(const Program& program, const Derived& d) {
+    const Mechanism& m = d.mechanism;
+    if (!m.constraints.empty() || !m.unilateral.empty() || !m.events.empty() || !program.speeds.empty())
+        return false;
+    const std::vector<int> needed = program.needed_state();
+    const auto n = static_cast<int>(program.coordinates.size());
+    return std::all_of(needed.begin(), needed.end(), [n](int i) { return 0 <= i && i < n; }) && !inseparable(d) &&
+           energy_of(m).conserved;
+}
+
+/// Whether taylor is likely to be faster than verner98, or than rkn1210 where that suits the system. A step of
+/// taylor has its order chosen by the tolerance, so that its length hardly depends on it, while a step of order 9
+/// becomes shorter: the quotient of the lengths for the same error at the end grows in each decade, by 22 % in
+/// theory, with 24 orders (12 % for order 12). The numbers here are those with which the choice comes nearest to
+/// the best one on 85 systems, and on five with rkn1210 (tests/bench/regret.sh). Against that stands the predicted
+/// cost of each step, of 16 evaluations.
+bool is_series_faster(const Program& program, double tolerance, const SeriesCost& cost, const Slowness& slowness,
+                      bool nystrom) {
+    const double decades = std::log10(1e-6 / tolerance);
+    const double longer = nystrom ? 1.6 * std::pow(10, 0.05 * decades) : 1.5 * std::pow(10, 0.08 * decades);
     const int order = taylor_order(tolerance, cost.order, cost.product);
     const auto components = static_cast<int>(
         program.coordinates.size() + (program.speeds.empty() ? program.coordinates : program.speeds).size());
@@ -97,9 +114,10 @@ bool is_series_faster(const Program& program, double tolerance, const SeriesCost
 
 /// What a long run tries. Whether there is a power series is found out then. Where it has to be compiled, the
 /// choice is left to the counts.
-std::vector<Method> rivals_in(const RunOptions& request, const Derived& d, double tolerance) {
+std::vector<Method> rivals_in(const RunOptions& request, const Derived& d, double tolerance, bool nystrom) {
     if (!request.tuning || !d.mechanism.unilateral.empty()) return {};
     std::vector<Method> rivals = {Method::dop853, Method::verner98};
+    if (nystrom) rivals.insert(rivals.end(), {Method::rkn86, Method::rkn1210});
     if (tolerance < loosest_of_series && !needs_compiler_for_series(request)) rivals.push_back(Method::taylor);
     return rivals;
 }
@@ -128,15 +146,15 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
     const Slowness slowness = request.tuning ? slowness_here() : Slowness{};
     const Strict& strict = needs_compiler_for_series(request) ? by_compiler : in_memory;
     const bool is_strict = tolerance < (linked ? strict.linked : strict.free);
-    const bool linear = is_linear(program, d, request);
+    const bool linear = is_linear(program, d, request), nystrom = suits_nystrom(program, d);
     if (is_strict || linear)
         if (const auto products = products_of_series(program, d);
             products && *products <= most_products_of(request) &&
-            (linear || is_series_faster(program, tolerance, cost_of_series(program, request), slowness)))
+            (linear || is_series_faster(program, tolerance, cost_of_series(program, request), slowness, nystrom)))
             return {.method = Method::taylor,
                     .when_stiff = Method::radau,
                     .when_stuck = constrained ? std::optional(Method::dop853) : std::nullopt,
-                    .rivals = rivals_in(request, d, tolerance),
+                    .rivals = rivals_in(request, d, tolerance, nystrom),
                     .slowness = slowness,
                     .why = say(
                         "chosen for the tolerance {:g} (the motion has a short power series; radau takes over if "
@@ -148,10 +166,10 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
                          : needs_compiler_for_series(request) ? by_compiler.linked
                                                               : verner98_below.linked;
     return {
-        .method = without_series(tolerance, below),
+        .method = nystrom ? of_positions(tolerance) : without_series(tolerance, below),
         .when_stiff = Method::radau,
         .when_cheaper = may_find_series ? std::optional(Method::taylor) : std::nullopt,
-        .rivals = rivals_in(request, d, tolerance),
+        .rivals = rivals_in(request, d, tolerance, nystrom),
         .slowness = slowness,
         .why = say("chosen for the tolerance {:g} (radau takes over if the system turns out stiff)", tolerance)};
 }
@@ -169,6 +187,10 @@ bool has_short_series(const Program& program, const Derived& derived) {
 
 Method without_series(double tolerance, double loosest) {
     return tolerance > loosest ? Method::dop853 : Method::verner98;
+}
+
+Method of_positions(double tolerance) {
+    return tolerance > loosest_of_verner98 ? Method::rkn86 : Method::rkn1210;
 }
 
 double effort_of(const Program& program) {

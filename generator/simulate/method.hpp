@@ -16,6 +16,7 @@
 /// | a step | rk4 |
 /// | 1e-5 or below, with a power series that is not too long and predicted to be faster | taylor |
 /// | likewise, at any tolerance, if the equations are linear with constant coefficients | taylor |
+/// | accelerations of positions alone, free, energy conserved, no events | rkn86 above 3e-5, rkn1210 |
 /// | any other above 3e-5 | dop853 |
 /// | any other with constraints of position, such as linkages | dop853 to 1e-8, verner98 below |
 /// | any other, norms of quaternions and rolling among them | verner98 |
@@ -66,6 +67,9 @@ inline constexpr double loosest_of_verner98 = 3e-5;
 /// What is taken at a tolerance where there is no series, or none that is faster: dop853 or, from `loosest` down,
 /// verner98.
 Method without_series(double tolerance, double loosest = loosest_of_verner98);
+
+/// What is taken instead for a free system whose accelerations depend on positions alone.
+Method of_positions(double tolerance);
 
 /// The predicted time of one right-hand side, ns (cost_model.hpp).
 double effort_of(const Program& program);

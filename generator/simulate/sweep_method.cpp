@@ -48,6 +48,8 @@ MethodChoice method_for_sweep(const RunOptions& wishes, const Derived& derived, 
              (needs_compiler_for_series(wishes) ||
               !is_series_faster_in_packs(program, energy_of(derived.mechanism).conserved, tolerance)))
         choice.method = without_series(tolerance);
+    else if (needs_separable(choice.method))  // whose members would not run side by side
+        choice.method = without_series(tolerance);
     return choice;
 }
 
