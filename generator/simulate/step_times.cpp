@@ -103,7 +103,7 @@ std::optional<Slowness> slowness_on(const Sample& sample) {
         .series = *series_time / taylor_effort(costs.order_cost, costs.product_cost, order, rhs.dimension)};
 }
 
-constexpr const char* kept_name = "step_times-1";  // another number for other laws
+constexpr const char* kept_name = "step_times-2";  // another number for other laws
 
 std::optional<Slowness> kept_slowness() {
     const auto text = kept_about_processor(kept_name);

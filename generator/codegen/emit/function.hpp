@@ -6,7 +6,9 @@
 ///     const std::vector<EmittedFunction> list = written(program, words, {.name = "energy", …}, options);
 ///     list.back();      // the function; its parts before it, where it is long
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "codegen/emit/emit.hpp"
@@ -37,6 +39,9 @@ struct FunctionTask {
     std::vector<Goal> goals;
     std::vector<FunctionResult> results;
     std::vector<RateCopy> copies = {};  ///< written before the results
+    /// The unknowns that do not stand in the array of unknowns, by their number: in which array, and where. For
+    /// machine code alone.
+    std::map<int, std::pair<std::string, int>> elsewhere = {};
 };
 
 struct EmittedFunction {

@@ -75,10 +75,11 @@ struct Packing {
 
 class Lining {
 public:
-    Lining(const Program& program, const Vocabulary& words, const Readiness& ready,
-           const std::vector<FunctionArgument>& arguments, bool constants_are_given, std::optional<Packing> packed)
+    Lining(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task,
+           bool constants_are_given, std::optional<Packing> packed)
         : p_(program),
           ready_(ready),
+          elsewhere_(task.elsewhere),
           value_(static_cast<std::size_t>(program.size())),
           is_leaf_(value_.size(), 0),
           uses_(value_.size(), 0) {
@@ -86,7 +87,7 @@ public:
             lines_.lanes = packed->lanes;
             sines_ = packed->sines;
         }
-        for (const FunctionArgument& a : arguments)
+        for (const FunctionArgument& a : task.arguments)
             if (a.name == "t")
                 lines_.takes_time = true;
             else
@@ -271,7 +272,10 @@ private:
 
     /// The value with its own sign.
     int whole(Signed x) {
-        return x.negative ? add({.kind = Line::Kind::negative, .of = {x.value, -1, -1}}) : x.value;
+        if (!x.negative) return x.value;
+        const auto [known, is_new] = negatives_.try_emplace(x.value, -1);
+        if (is_new) known->second = add({.kind = Line::Kind::negative, .of = {x.value, -1, -1}});
+        return known->second;
     }
 
     /// A number or a variable.
@@ -293,8 +297,13 @@ private:
                 return leaf({.kind = Home::Kind::argument, .argument = array("state"), .place = n + i});
             case Variable::Kind::acceleration:
                 return leaf({.kind = Home::Kind::argument, .argument = array("rate"), .place = n + i});
-            case Variable::Kind::unknown:
-                return leaf({.kind = Home::Kind::argument, .argument = array("given"), .place = i});
+            case Variable::Kind::unknown: {
+                const auto found = elsewhere_.find(i);
+                const bool is_given = found == elsewhere_.end();
+                return leaf({.kind = Home::Kind::argument,
+                             .argument = array(is_given ? "given" : found->second.first),
+                             .place = is_given ? i : found->second.second});
+            }
         }
         throw std::logic_error("a variable without a value");
     }
@@ -442,12 +451,14 @@ private:
 
     const Program& p_;
     const Readiness& ready_;
+    std::map<int, std::pair<std::string, int>> elsewhere_;  ///< FunctionTask
     std::vector<std::string> arrays_;
     std::vector<Signed> value_;  // of each node
     std::vector<char> is_leaf_;
     std::vector<int> uses_;
     std::map<int, int> constant_place_;
     std::map<double, int> numbers_;
+    std::map<int, int> negatives_;  // of values
     Lines lines_;
     std::optional<Sines> sines_;                // of packs
     std::map<int, std::array<int, 2>> turned_;  // an angle, and the values of its sine and cosine
@@ -455,7 +466,7 @@ private:
 
 Lines lines_for(const Program& program, const Vocabulary& words, const Readiness& ready, const FunctionTask& task,
                 std::optional<Packing> packed) {
-    Lining lining(program, words, ready, task.arguments, true, packed);
+    Lining lining(program, words, ready, task, true, packed);
     std::vector<Lining::Wanted> wanted;
     for (const FunctionResult& result : task.results)
         wanted.push_back({lining.array(result.array), result.places, result.node});
@@ -464,7 +475,8 @@ Lines lines_for(const Program& program, const Vocabulary& words, const Readiness
 
 Lines constants_for(const Program& program, const Vocabulary& words, const Readiness& ready,
                     std::optional<Packing> packed) {
-    Lining lining(program, words, ready, {{"Real*", "par"}}, false, packed);
+    const FunctionTask task{.name = {}, .about = {}, .arguments = {{"Real*", "par"}}, .goals = {}, .results = {}};
+    Lining lining(program, words, ready, task, false, packed);
     std::vector<Lining::Wanted> wanted;
     for (std::size_t k = 0; k < words.constants().size(); ++k)
         wanted.push_back({0, {words.par().size() + k}, words.constants()[k]});

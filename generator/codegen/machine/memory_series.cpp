@@ -96,6 +96,7 @@ private:
         const auto count = [](std::size_t size) { return static_cast<int>(size); };
         Running& r = *running_;
         r.code.places = steps_.places;
+        r.code.place_of_factor = steps_.place_of_factor;
         r.code.fixed = count(steps_.at_order.parameters.size() + order_words_.constants().size());
         r.scene = ascii_identifier(p.name);
         for (const Quantity& parameter : p.parameters) r.values.push_back(parameter.value);

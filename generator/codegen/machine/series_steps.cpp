@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -134,7 +135,7 @@ public:
                 factors_.try_emplace({lane.a, lane.a_rate}, static_cast<int>(factors_.size()));
                 factors_.try_emplace({lane.b, lane.b_rate}, static_cast<int>(factors_.size()));
             }
-        if (!in_packs) places_.factors = static_cast<int>(factors_.size());
+        if (!in_packs) describe_rows();
         for (int id = 0; id < static_cast<int>(r_.nodes.size()); ++id) values_.push_back(value(id));
     }
 
@@ -150,13 +151,14 @@ public:
                               {"Real*", "out"}},
                 .goals = {},
                 .results = {}};
+        next.elsewhere = elsewhere_;
         const auto put = [&](const char* array, int place, int node) {
             next.results.push_back({array, {static_cast<std::size_t>(place)}, node});
             p_.roots.push_back({Group::output, fmt::format("{}{}", array, place), node});
         };
         for (int i = 0; i < places_.width; ++i) {
-            put("out", i, state(i));
-            put("next", places_.rates() + i, values_[rate_node(r_, i)]);
+            put("out", (is_packed_ ? 0 : places_.width) + i, state(i));
+            if (i >= places_.positions) put("next", places_.rates() + i, values_[rate_node(r_, i)]);
         }
         if (is_packed_) {
             for (const auto& [factor, place] : factors_)
@@ -164,14 +166,13 @@ public:
             for (const SeriesLane& lane : lanes_.lanes())
                 steps.pairs.push_back({factors_.at({lane.a, lane.a_rate}), factors_.at({lane.b, lane.b_rate})});
         } else {
-            for (const auto& [factor, place] : factors_)
-                put("next", places_.before() + place, now(factor.first, factor.second));
-            for (int l = 0; const SeriesLane& lane : lanes_.lanes()) {
+            for (int l = 2 * places_.lanes; const SeriesLane& lane : lanes_.lanes()) {
                 put("row", l, now(lane.a, lane.a_rate));
                 put("row", places_.lanes + l++, now(lane.b, lane.b_rate));
             }
         }
         steps.factors = static_cast<int>(factors_.size());
+        for (const auto& [factor, place] : place_before_) steps.place_of_factor.push_back(place);
         FunctionTask& first = steps.first;
         first = {.name = "first",
                  .about = {},
@@ -195,7 +196,34 @@ public:
     }
 
 private:
+    /// Where `next` finds what the order before has left in rows, and whether positions follow from rates there.
+    void describe_rows() {
+        places_.factors = static_cast<int>(factors_.size());
+        for (int l = 0; const SeriesLane& lane : lanes_.lanes()) {
+            if (places_.factors == 0) break;
+            place_before_.try_emplace(factors_.at({lane.a, lane.a_rate}), l);
+            place_before_.try_emplace(factors_.at({lane.b, lane.b_rate}), places_.lanes + l++);
+        }
+        const auto is_rate = [&](int i) {
+            const SeriesNode& rate = r_.nodes[rate_node(r_, i)];
+            return rate.kind == Of::speed && rate.index == i;
+        };
+        int count = 0;
+        while (count < n_ && is_rate(count)) ++count;
+        if (count == n_) places_.positions = n_;
+    }
+
     int given(int place) { return p_.variable({Variable::Kind::unknown, place}); }
+    /// What stands in another array; its number is behind those of what is given.
+    int given_elsewhere(const char* array, int place) {
+        const auto found = std::find_if(elsewhere_.begin(), elsewhere_.end(), [&](const auto& one) {
+            return one.second == std::pair(std::string(array), place);
+        });
+        if (found != elsewhere_.end()) return given(found->first);
+        const int number = places_.size() + static_cast<int>(elsewhere_.size());
+        elsewhere_.emplace(number, std::pair(array, place));
+        return given(number);
+    }
 
     /// A value of order 0.
     int fixed(int node) {
@@ -219,7 +247,10 @@ private:
         return rate ? p_.product(1, {{values_[id], 1}, {p_.variable({Variable::Kind::time, 0}), 1}}) : values_[id];
     }
 
-    int state(int i) { return p_.product(1, {{given(places_.inverse()), 1}, {given(places_.rates() + i), 1}}); }
+    int state(int i) {
+        const int rate = i < places_.positions ? given_elsewhere("out", n_ + i) : given(places_.rates() + i);
+        return p_.product(1, {{given(places_.inverse()), 1}, {rate, 1}});
+    }
 
     /// The sum of a product over all lower orders but 0.
     void add_inner(std::vector<Program::Term>& terms, const SeriesProduct& x) {
@@ -228,7 +259,7 @@ private:
         const SeriesLane lane = SeriesLanes::lane_of(x);
         const int a = factors_.at({lane.a, lane.a_rate}), b = factors_.at({lane.b, lane.b_rate});
         const auto one = [&](int factor) { return given(places_.ones() + factor); };
-        const auto before = [&](int factor) { return given(places_.before() + factor); };
+        const auto before = [&](int factor) { return given_elsewhere("row", place_before_.at(factor)); };
         terms.emplace_back(a == b ? 2 : 1, product(x.weight, {{one(a), 1}, {before(b), 1}}));
         if (a != b) terms.emplace_back(1, product(x.weight, {{one(b), 1}, {before(a), 1}}));
     }
@@ -319,7 +350,9 @@ private:
     Program p_;
     GivenPlaces places_;
     std::map<std::pair<int, bool>, int> factors_;  // a node, and whether its rate is meant
-    std::map<int, int> fixed_;                     // a node of order 0, and its place
+    std::map<int, int> place_before_;              // of a factor, in the row of the order before
+    std::map<int, std::pair<std::string, int>> elsewhere_;
+    std::map<int, int> fixed_;  // a node of order 0, and its place
     std::vector<int> values_, solution_;
 };
 
