@@ -40,7 +40,9 @@ public:
         if (step_ % 4 == 3 && dearer_ > 0) before_.assign(rate, rate + n);
         if (step_ % 4 != 0) return false;
         if (direction_.empty()) direction_.assign(rate, rate + n);
-        const double length = norm(direction_.data(), y, n);
+        shares_.resize(n);
+        for (std::size_t i = 0; i < n; ++i) shares_[i] = 1 / std::max(1.0, std::abs(y[i]));
+        const double length = norm(direction_.data());
         if (!(length > 0) || !std::isfinite(length)) {
             direction_.clear();
             return false;
@@ -51,16 +53,14 @@ public:
         rate_.resize(moved_.size());
         rhs(t, moved_.data(), rate_.data());
         ++evaluations_;
-        double along = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double difference = rate_[i] - rate[i], scale = std::max(1.0, std::abs(y[i]));
-            along += difference / scale * (direction_[i] / scale);
-            direction_[i] = difference;
-        }
-        const double now = norm(direction_.data(), y, n);
+        for (std::size_t i = 0; i < n; ++i) rate_[i] -= rate[i];
+        const double along =
+            sum_over(n, [this](std::size_t i) { return (rate_[i] * shares_[i]) * (direction_[i] * shares_[i]); });
+        std::copy_n(rate_.begin(), n, direction_.begin());
+        const double now = norm(direction_.data());
         rho_ = now / delta;
         const bool is_damped = along < -0.95 * length * now;
-        const bool is_quiet = dearer_ > 0 && is_damped && changes_little(rate, y, n);
+        const bool is_quiet = dearer_ > 0 && is_damped && changes_little(rate);
         return limit_.counts(h * rho_ > border_ && h * rho_ < HUGE_VAL, 15) ||
                quiet_.counts(is_quiet && h * rho_ > damped_border_, 10);
     }
@@ -79,25 +79,35 @@ private:
         }
     };
 
-    bool changes_little(const double* rate, const double* y, std::size_t n) {
-        if (before_.size() != n) return false;
-        for (std::size_t i = 0; i < n; ++i) before_[i] -= rate[i];
-        return norm(before_.data(), y, n) * 2 * dearer_ < norm(rate, y, n);
+    bool changes_little(const double* rate) {
+        if (before_.size() != shares_.size()) return false;
+        for (std::size_t i = 0; i < before_.size(); ++i) before_[i] -= rate[i];
+        return norm(before_.data()) * 2 * dearer_ < norm(rate);
     }
 
-    static double norm(const double* v, const double* y, std::size_t n) {
-        double sum = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double x = v[i] / std::max(1.0, std::abs(y[i]));
-            sum += x * x;
-        }
-        return std::sqrt(sum);
+    double norm(const double* v) const {
+        return std::sqrt(sum_over(shares_.size(), [&](std::size_t i) {
+            const double x = v[i] * shares_[i];
+            return x * x;
+        }));
+    }
+
+    /// Four sums side by side, so that few additions wait for each other.
+    template <class Term>
+    static double sum_over(std::size_t n, Term term) {
+        double part[4] = {};
+        std::size_t i = 0;
+        for (; i + 4 <= n; i += 4)
+            for (std::size_t k = 0; k < 4; ++k) part[k] += term(i + k);
+        for (; i < n; ++i) part[0] += term(i);
+        return (part[0] + part[1]) + (part[2] + part[3]);
     }
 
     double border_, damped_border_, dearer_, rho_ = 0;
     long step_ = 0, evaluations_ = 0;
     Sightings limit_, quiet_;
     std::vector<double> direction_, moved_, rate_, before_;
+    std::vector<double> shares_;  ///< 1 / max(1, |y|), by which components are measured
 };
 
 }  // namespace alembert
