@@ -10,10 +10,10 @@
 ///
 /// Efforts are nanoseconds of a processor with AVX-512 (Zen 5), on which they were fitted (by `bench`, on systems
 /// of 2 to 50 components): a right-hand side takes Rhs::effort; an explicit method adds 13 + 0.15 n for each
-/// evaluation of n components, and an implicit one 30 n, in which are its linear algebra and its Jacobians. The
-/// step of a power series has its own law (taylor.hpp). On other processors both are longer, and not by the same
-/// factor (Rhs::slowness): with AVX2 the sums of products, which are most of a series, have half as wide
-/// registers.
+/// evaluation of n components. An implicit one adds 10 n + 0.45 n², in which are its linear algebra and its
+/// Jacobians (fitted on a Zen 4, to six systems of 4 to 28 components). The step of a power series has its own law
+/// (taylor.hpp). On other processors both are longer, and not by the same factor (Rhs::slowness): with AVX2 the
+/// sums of products, which are most of a series, have half as wide registers.
 
 #include <array>
 #include <cstddef>
@@ -35,7 +35,7 @@ inline constexpr Slowness slowness_of(Registers kind) {
 /// (taylor.hpp).
 inline double effort_of_evaluation(const Rhs& rhs, bool implicit) {
     const double n = rhs.dimension, call = rhs.effort > 0 ? rhs.effort : 10 * n;
-    return rhs.slowness.evaluation * (call + (implicit ? 30 * n : 13 + 0.15 * n));
+    return rhs.slowness.evaluation * (call + (implicit ? n * (10 + 0.45 * n) : 13 + 0.15 * n));
 }
 
 /// The evaluations of a usual step of radau.
