@@ -3,14 +3,16 @@
 # Forward and inverse dynamics, mass matrices and their Jacobians beside Pinocchio's, in one run: Pinocchio's own functions (aba,
 # rnea, crba, computeABADerivatives, computeRNEADerivatives), and the code that CppADCodeGen writes from these.
 #
-#   tests/bench/pinocchio.sh [--robot NAME]... [--rounds N] [--flags "FLAGS"]... [--length N] [--json FILE] [PROGRAM]
+#   tests/bench/pinocchio.sh [--robot NAME]... [--rounds N] [--flags "FLAGS"]... [--length N]... [--compile-seconds S]
+#                            [--compile-gigabytes G] [--json FILE] [PROGRAM]
 #
 # Robots are humanoid32, tree30, oblique20 and chain20 of robots.py, and arm7. Results agree to 1e-9 before anything is timed; then
 # all take turns, and a time is the least of N rounds (20), since others may use the processor. Ours is compiled with the flags of
-# `alembert simulate`; the code of CppADCodeGen once with each of FLAGS ("-Ofast -march=native" and "-O1 -march=native"), in functions
-# of at most `--length` assignments (1000), of which the best counts. Ours for the
-# Jacobian of inverse dynamics is `inverse_jacobian` and `mass`, because theirs has d tau / d q'' too. computeABADerivatives gives the
-# inverse of the mass matrix besides; ours does not, and neither does the code written from it here.
+# `alembert simulate`. The code of CppADCodeGen is compiled with each of FLAGS ("-O3 -march=native"; -Ofast and -O1 were slower), whole
+# (--length 0) and in functions of at most N assignments (1000), and the best counts. What takes the compiler more than S seconds (600)
+# or G gigabytes (6) is left out, and said so. Ours for the Jacobian of inverse dynamics is `inverse_jacobian` and `mass`, because
+# theirs has d tau / d q'' too. computeABADerivatives gives the inverse of the mass matrix besides; ours does not, and neither does the
+# code written from it here.
 #
 # Pinocchio: PINOCCHIO_PREFIX (a folder with include/pinocchio and Boost's headers), or PINOCCHIO_PYTHON, an interpreter whose
 # environment has the package `pin`, or python3. CppADCodeGen: CPPADCG_PREFIX, a folder with include/cppad/cg.hpp,
@@ -19,14 +21,16 @@ set -eu
 root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
 exec python3 -B - "$root" "$@" <<'PYTHON'
 import argparse
+import atexit
 import json
 import math
 import os
 import re
+import resource
+import shutil
 import subprocess
 import sys
 import tempfile
-import time
 import xml.etree.ElementTree as tree
 
 root = sys.argv[1]
@@ -36,14 +40,18 @@ parser.add_argument("program", nargs="?", default=os.path.join(root, "build/rele
 parser.add_argument("--robot", action="append", choices=ROBOTS)
 parser.add_argument("--rounds", type=int, default=20)
 parser.add_argument("--flags", action="append")
-parser.add_argument("--length", type=int, default=1000)
+parser.add_argument("--length", action="append", type=int)
+parser.add_argument("--compile-seconds", type=int, default=600)
+parser.add_argument("--compile-gigabytes", type=float, default=6)
 parser.add_argument("--json")
 wishes = parser.parse_args(sys.argv[2:])
 if not os.path.exists(wishes.program):
     sys.exit(f"there is no {wishes.program}: build it first")
 bench = os.path.join(root, "tests/bench")
 folder = tempfile.mkdtemp(prefix="pinocchio-")
+atexit.register(shutil.rmtree, folder)
 compiler = os.environ.get("CXX", "c++")
+lengths = wishes.length or [0, 1000]
 
 
 def processor():
@@ -70,33 +78,40 @@ def pinocchio():
              "'pin' with PINOCCHIO_PYTHON (python3 -m venv FOLDER; FOLDER/bin/pip install pin)")
 
 
-def timed(command):
-    """The seconds of processor time that a command takes."""
+class TooLarge(Exception):
+    """A limit that a compiler would have passed."""
+
+
+def timed(command, limited=False):
+    """The seconds of processor time that a command takes, and what it writes."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (wishes.compile_seconds, wishes.compile_seconds + 5))
+        resource.setrlimit(resource.RLIMIT_AS, (int(wishes.compile_gigabytes * 2**30),) * 2)
+
     before = os.times()
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(command[:6])} …: {done.stderr[-2000:]}")
+    done = subprocess.run(command, capture_output=True, text=True, preexec_fn=limit if limited else None)
     after = os.times()
-    return after.children_user - before.children_user + after.children_system - before.children_system, done.stdout
+    took = after.children_user - before.children_user + after.children_system - before.children_system
+    if done.returncode != 0:
+        if limited and "CPU time limit" in done.stderr:
+            raise TooLarge(f"more than {wishes.compile_seconds} s")
+        if limited and re.search("memory exhausted|out of memory|bad_alloc", done.stderr):
+            raise TooLarge(f"more than {wishes.compile_gigabytes:g} GB")
+        sys.exit(f"{' '.join(command[:6])} …: {done.stderr[-2000:]}")
+    return took, done.stdout
 
 
-def compiled_peer(prefix, codegen):
-    includes = [os.path.join(prefix, "include"), os.environ.get("EIGEN_INCLUDE", "/usr/include/eigen3")]
-    command = [compiler, "-std=c++17", "-O3", "-DNDEBUG", "-march=native", "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
+def compiled(name, optimized, prefix, *more):
+    """A program of this folder that uses Pinocchio."""
+    command = [compiler, "-std=c++17", *optimized, "-DNDEBUG", "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
                "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30", "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
                "-DBOOST_FUSION_INVOKE_MAX_ARITY=12", "-I" + os.path.join(root, "lib")]
-    for include in includes + ([os.path.join(codegen, "include")] if codegen else []):
+    for include in (os.path.join(prefix, "include"), os.environ.get("EIGEN_INCLUDE", "/usr/include/eigen3")):
         command += ["-isystem", include]
-    peer = os.path.join(folder, "peer")
-    command += [os.path.join(bench, "pinocchio_peer.cpp"), "-o", peer, "-ldl"]
-    print(f"compiling the peer: {timed(command)[0]:.0f} s", flush=True)
-    if not codegen:
-        return peer, None
-    writer = os.path.join(folder, "writer")
-    command = [("-O1" if word == "-O3" else writer if word == peer else word) for word in command]
-    command += ["-DWITH_CODEGEN", "-L" + os.path.join(codegen, "lib"), "-lcppad_lib", "-Wl,-rpath," + os.path.join(codegen, "lib")]
-    print(f"compiling the peer that writes code: {timed(command)[0]:.0f} s", flush=True)
-    return peer, writer
+    path = os.path.join(folder, name)
+    took = timed([*command, os.path.join(bench, name + ".cpp"), "-o", path, *more])[0]
+    print(f"{name} is compiled with {' '.join(optimized)} in {took:.0f} s", flush=True)
+    return path
 
 
 def angles_of(R):
@@ -157,30 +172,49 @@ def ours(name, urdf, floats):
              "-fno-tree-slp-vectorize"]
     large = ["-O1", "-fexpensive-optimizations", "-fno-tree-dse", "-fno-dse", "-fno-gcse",
              "--param=lra-max-considered-reload-pseudos=10"] if os.path.getsize(source) > 200000 else ["-O2"]
-    objects = {}
     path = source[:-4] + ".so"
     return path, emitted, timed([compiler, *flags, *large, source, "-o", path])[0]
 
 
+def library_of(sources, flags, path):
+    """Compiles C; the seconds that this takes."""
+    total, objects = 0, []
+    for source in sources:
+        objects.append(f"{path}_{os.path.basename(source)}.o")
+        total += timed(["cc", "-std=gnu99", "-fPIC", *flags.split(), "-c", source, "-o", objects[-1]], limited=True)[0]
+        if total > wishes.compile_seconds:
+            raise TooLarge(f"more than {wishes.compile_seconds} s")
+    timed(["cc", "-shared", *objects, "-o", path, "-lm"])
+    return total
+
+
+def lines_in(path):
+    return sum(1 for _ in open(path))
+
+
 def theirs(name, table, floats, writer):
-    """Objects of the code that CppADCodeGen writes, and the seconds for writing and compiling them."""
-    words, seconds = [], {}
+    """The code that CppADCodeGen writes, as the peer's words; for each function, the seconds for writing and compiling each form."""
+    words, forms = [], {}
     for function in ("forward", "inverse", "mass", "forward_jacobian", "inverse_jacobian"):
-        where = os.path.join(folder, name + "_" + function)
-        os.makedirs(where)
-        written = timed([writer, "generate", table, floats, function, str(wishes.length), where])[0]
-        sources = [os.path.join(where, one) for one in os.listdir(where) if one.endswith(".c")]
-        for flags in wishes.flags or ["-Ofast -march=native", "-O1 -march=native"]:
-            build, total = os.path.join(where, re.sub("[^A-Za-z0-9]", "", flags)), 0
-            os.makedirs(build)
-            objects = []
-            for source in sources:
-                objects.append(os.path.join(build, os.path.basename(source) + ".o"))
-                total += timed(["cc", "-std=gnu99", "-fPIC", *flags.split(), "-c", source, "-o", objects[-1]])[0]
-            timed(["cc", "-shared", *objects, "-o", build + ".so", "-lm"])
-            words.append(f"{function}:CppADCodeGen {flags}={build}.so")
-            seconds.setdefault(function, []).append((round(written, 2), flags, round(total, 2)))
-    return words, seconds
+        for length in lengths:
+            where = os.path.join(folder, f"{name}_{function}_{length}")
+            os.makedirs(where)
+            written = timed([writer, table, floats, function, str(length or 10**9), where])[0]
+            sources = [os.path.join(where, one) for one in sorted(os.listdir(where)) if one.endswith(".c")]
+            if length and 0 in lengths and max(map(lines_in, sources)) < length:
+                continue  # it is whole
+            for flags in wishes.flags or ["-O3 -march=native"]:
+                form = f"{'whole' if length == 0 else f'by {length}'}, {flags}"
+                path = os.path.join(where, re.sub("[^A-Za-z0-9]", "", flags) + ".so")
+                told = {"written_s": round(written, 2), "lines": sum(map(lines_in, sources))}
+                try:
+                    told["compiled_s"] = round(library_of(sources, flags, path), 2)
+                    words += [function, f"CppADCodeGen {form}", path]
+                except TooLarge as limit:
+                    told["left_out"] = str(limit)
+                    print(f"{name:11} {function:17} {form}: left out, {told['lines']} lines take the compiler {limit}", flush=True)
+                forms.setdefault(function, {})[form] = told
+    return words, forms
 
 
 prefix, codegen = pinocchio(), os.environ.get("CPPADCG_PREFIX")
@@ -189,7 +223,9 @@ if codegen and not os.path.exists(os.path.join(codegen, "include/cppad/cg.hpp"))
 model, flags = processor()
 print(f"processor: {model} ({' '.join(flags)}); Pinocchio: {prefix}; CppADCodeGen: "
       f"{codegen or 'left out, CPPADCG_PREFIX names none'}", flush=True)
-peer, writer = compiled_peer(prefix, codegen)
+peer = compiled("pinocchio_peer", ["-O3", "-march=native"], prefix, "-ldl")
+writer = codegen and compiled("pinocchio_code", ["-O0"], prefix, "-isystem", os.path.join(codegen, "include"),
+                              "-L" + os.path.join(codegen, "lib"), "-lcppad_lib", "-ldl", "-Wl,-rpath," + os.path.join(codegen, "lib"))
 subprocess.run([sys.executable, "-B", os.path.join(bench, "robots.py"), folder], check=True)
 open(os.path.join(folder, "arm7.urdf"), "w").write(urdf_of_arm())
 print(f"{'robot':11} {'function':17} {'operations':>10} {'ours, us':>9} {'Pinocchio':>10} {'ratio':>6} {'CppADCodeGen':>13} {'ratio':>6}")
@@ -198,21 +234,21 @@ for name in wishes.robot or ROBOTS:
     floats = name.startswith("humanoid")
     urdf, table, kind = os.path.join(folder, name + ".urdf"), os.path.join(folder, name + ".table"), "floating" if floats else "fixed"
     open(table, "w").write(table_of(urdf))
-    path, emitted, compiled = ours(name, urdf, floats)
-    words, seconds = theirs(name, table, kind, writer) if writer else ([], {})
-    result = json.loads(timed([peer, "time", table, kind, str(wishes.rounds), path, *words])[1])
+    path, emitted, took = ours(name, urdf, floats)
+    print(f"{name:11} ours: emitted in {emitted:.1f} s, compiled in {took:.1f} s", flush=True)
+    words, forms = theirs(name, table, kind, writer) if writer else ([], {})
+    result = json.loads(timed([peer, table, kind, str(wishes.rounds), path, *words])[1])
     for function, times in result["ns"].items():
         own = times["ours"]
-        generated = min((ns for who, ns in times.items() if who.startswith("CppADCodeGen")), default=None)
+        generated, who = min(((ns, who) for who, ns in times.items() if who.startswith("CppADCodeGen")), default=(None, ""))
+        form = who.removeprefix("CppADCodeGen ")
         cell = lambda ns: f"{ns / 1000:.2f}" if ns else "-"
         ratio = lambda ns: f"{own / ns:.2f}" if ns else "-"
-        print(f"{name:11} {function:17} {result['operations'].get(function, ''):>10} {cell(own):>9} "
-              f"{cell(times['Pinocchio']):>10} {ratio(times['Pinocchio']):>6} {cell(generated):>13} {ratio(generated):>6}", flush=True)
+        by = f"  {form}, compiled in {forms[function][form]['compiled_s']:.1f} s" if form else ""
+        print(f"{name:11} {function:17} {result['operations'].get(function, ''):>10} {cell(own):>9} {cell(times['Pinocchio']):>10} "
+              f"{ratio(times['Pinocchio']):>6} {cell(generated):>13} {ratio(generated):>6}{by}", flush=True)
         listed.append({"robot": name, "function": function, "ns": times, "processor": model, "flags": flags,
-                       "codegen_seconds": seconds.get(function)})
-    print(f"{name:11} emitted in {emitted:.1f} s, compiled in {compiled:.1f} s"
-          + "".join(f"; {function}: written in {list[0][0]:.1f} s, compiled in {', '.join(f'{s:.1f} s ({f})' for _, f, s in list)}"
-                    for function, list in seconds.items()), flush=True)
+                       "codegen": forms.get(function)})
 if wishes.json:
     json.dump(listed, open(wishes.json, "w"), indent=1)
 PYTHON

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Dynamics of robots and their derivatives, by us, by Pinocchio's functions, and by the code that CppADCodeGen
-// writes from these. pinocchio.sh compiles this where Pinocchio is, with -DWITH_CODEGEN where CppADCodeGen and
-// CppAD are.
+// Times dynamics of robots and their derivatives: ours, Pinocchio's functions, and the code that CppADCodeGen
+// writes from these (pinocchio_code.cpp). pinocchio.sh compiles this.
 //
-//   pinocchio_peer generate ROBOT fixed|floating FUNCTION LENGTH FOLDER      writes C
-//   pinocchio_peer time ROBOT fixed|floating ROUNDS OURS.so [FUNCTION:NAME=THEIRS.so]…      prints JSON
+//   pinocchio_peer ROBOT fixed|floating ROUNDS OURS.so [FUNCTION NAME THEIRS.so]…      prints JSON
 //
-// A joint's torque is that of its damper, so that forward dynamics are those of the scene. A floating base has the
-// coordinates x, y, z and the angles of Rz Ry Rx. Results at all states agree to 1e-9 of the largest before
-// anything is timed; then the contenders take turns, and each one's time is the least of all rounds.
+// Results at all states agree to 1e-9 of the largest before anything is timed; then the contenders take turns, and
+// each one's time is the least of all rounds.
 #include <dlfcn.h>
 #include <time.h>
 
@@ -16,18 +13,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <iostream>
-#include <map>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#ifdef WITH_CODEGEN
-#include <pinocchio/codegen/cppadcg.hpp>
-#endif
 #include <pinocchio/algorithm/aba-derivatives.hpp>
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/crba.hpp>
@@ -35,36 +27,12 @@
 #include <pinocchio/algorithm/rnea.hpp>
 
 #include "alembert/native/abi.hpp"
-
-namespace alembert {
-
-/// The joints of these robots; all of Pinocchio's would take ten times as long to compile.
-template <typename Scalar, int options>
-struct RobotJoints {
-    static constexpr int Options = options;
-    using JointModelVariant = boost::variant<
-        pinocchio::JointModelRevoluteTpl<Scalar, options, 0>, pinocchio::JointModelRevoluteTpl<Scalar, options, 1>,
-        pinocchio::JointModelRevoluteTpl<Scalar, options, 2>,
-        pinocchio::JointModelRevoluteUnalignedTpl<Scalar, options>,
-        pinocchio::JointModelTranslationTpl<Scalar, options>,
-        boost::recursive_wrapper<pinocchio::JointModelMimicTpl<Scalar, options, ::alembert::RobotJoints>>>;
-    using JointDataVariant = boost::variant<
-        pinocchio::JointDataRevoluteTpl<Scalar, options, 0>, pinocchio::JointDataRevoluteTpl<Scalar, options, 1>,
-        pinocchio::JointDataRevoluteTpl<Scalar, options, 2>,
-        pinocchio::JointDataRevoluteUnalignedTpl<Scalar, options>,
-        pinocchio::JointDataTranslationTpl<Scalar, options>,
-        boost::recursive_wrapper<pinocchio::JointDataMimicTpl<Scalar, options, ::alembert::RobotJoints>>>;
-};
-
-}  // namespace alembert
+#include "pinocchio_robot.hpp"
 
 namespace {
 
-template <typename Scalar>
-using ModelOf = pinocchio::ModelTpl<Scalar, 0, alembert::RobotJoints>;
-template <typename Scalar>
-using DataOf = pinocchio::DataTpl<Scalar, 0, alembert::RobotJoints>;
-using Model = ModelOf<double>;
+using namespace alembert;
+
 using Vector = Eigen::VectorXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -75,71 +43,6 @@ double seconds() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// Damping constants of the joints besides.
-struct Robot {
-    Model model;
-    Vector damping;
-};
-
-/// A table of pinocchio.sh: a first line with the mass, centre and inertia (xx xy xz yy yz zz about the centre) of
-/// the base, then for each joint its name, the number of its parent (0 for the base), axis, origin, roll, pitch
-/// and yaw, damping, and the same of its link. A floating base hangs on a translation and three angles, each a
-/// joint of its own kind.
-Robot robot_of(const std::string& path, bool floats) {
-    std::ifstream file(path);
-    const auto number = [&] {
-        double x = NAN;
-        if (!(file >> x)) throw std::runtime_error(path + " ends too early");
-        return x;
-    };
-    const auto three = [&] {
-        const double x = number(), y = number(), z = number();
-        return Eigen::Vector3d(x, y, z);
-    };
-    const auto inertia = [&] {
-        const double mass = number();
-        const Eigen::Vector3d centre = three();
-        Eigen::Matrix3d I;
-        for (int i = 0; i < 3; ++i)
-            for (int j = i; j < 3; ++j) I(i, j) = I(j, i) = number();
-        return pinocchio::Inertia(mass, centre, I);
-    };
-    Robot robot;
-    Model& model = robot.model;
-    std::vector<pinocchio::JointIndex> links{0};
-    const pinocchio::SE3 here = pinocchio::SE3::Identity();
-    const pinocchio::Inertia base = inertia();
-    if (floats) {
-        links[0] = model.addJoint(0, pinocchio::JointModelTranslation(), here, "base_shift");
-        links[0] = model.addJoint(links[0], pinocchio::JointModelRZ(), here, "base_yaw");
-        links[0] = model.addJoint(links[0], pinocchio::JointModelRY(), here, "base_pitch");
-        links[0] = model.addJoint(links[0], pinocchio::JointModelRX(), here, "base_roll");
-        model.appendBodyToJoint(links[0], base, here);
-    }
-    std::map<int, double> damping;
-    for (std::string name; file >> name;) {
-        const auto parent = links.at(static_cast<std::size_t>(number()));
-        const Eigen::Vector3d axis = three(), origin = three(), angles = three();
-        const Eigen::Matrix3d R = (Eigen::AngleAxisd(angles[2], Eigen::Vector3d::UnitZ()) *
-                                   Eigen::AngleAxisd(angles[1], Eigen::Vector3d::UnitY()) *
-                                   Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitX()))
-                                      .toRotationMatrix();
-        const pinocchio::SE3 at(R, origin);
-        const auto joint =
-            axis == Eigen::Vector3d::UnitX()   ? model.addJoint(parent, pinocchio::JointModelRX(), at, name)
-            : axis == Eigen::Vector3d::UnitY() ? model.addJoint(parent, pinocchio::JointModelRY(), at, name)
-            : axis == Eigen::Vector3d::UnitZ()
-                ? model.addJoint(parent, pinocchio::JointModelRZ(), at, name)
-                : model.addJoint(parent, pinocchio::JointModelRevoluteUnaligned(axis.normalized()), at, name);
-        damping[model.joints[joint].idx_v()] = number();
-        model.appendBodyToJoint(joint, inertia(), here);
-        links.push_back(joint);
-    }
-    robot.damping = Vector::Zero(model.nv);
-    for (const auto& [place, value] : damping) robot.damping[place] = value;
-    return robot;
 }
 
 struct Ours {
@@ -442,13 +345,10 @@ void print_times(const Comparison& comparison, int rounds) {
 int time_all(int count, char** words) {
     Contest contest(words[0], std::string(words[1]) == "floating", words[3]);
     std::vector<Comparison> comparisons = contest.comparisons();
-    for (int k = 4; k < count; ++k) {
-        const std::string word = words[k], function = word.substr(0, word.find(':')),
-                          rest = word.substr(word.find(':') + 1), name = rest.substr(0, rest.find('='));
+    for (int k = 4; k + 2 < count; k += 3)
         for (Comparison& comparison : comparisons)
-            if (comparison.function == function)
-                comparison.list.push_back(contest.generated(function, name, rest.substr(rest.find('=') + 1)));
-    }
+            if (comparison.function == words[k])
+                comparison.list.push_back(contest.generated(words[k], words[k + 1], words[k + 2]));
     std::printf("{\"coordinates\": %d, \"operations\": {\"forward_jacobian\": %d", contest.size(),
                 contest.ours().derivatives->operations);
     for (const char* name : {"inverse", "mass", "inverse_jacobian"})
@@ -462,69 +362,11 @@ int time_all(int count, char** words) {
     return 0;
 }
 
-#ifdef WITH_CODEGEN
-
-using Code = CppAD::cg::CG<double>;
-using Recorded = CppAD::AD<Code>;
-using RecordedVector = Eigen::Matrix<Recorded, Eigen::Dynamic, 1>;
-using RecordedMatrix = Eigen::Matrix<Recorded, Eigen::Dynamic, Eigen::Dynamic>;
-
-RecordedVector in_a_row(const std::vector<RecordedMatrix>& blocks) {
-    RecordedVector result(static_cast<int>(blocks.size()) * blocks[0].size());
-    int at = 0;
-    for (const RecordedMatrix& block : blocks)
-        for (int i = 0; i < block.rows(); ++i)
-            for (int j = 0; j < block.cols(); ++j) result[at++] = block(i, j);
-    return result;
-}
-
-RecordedVector values(const std::string& function, const Model& of, const RecordedVector& x) {
-    const int n = of.nv;
-    const ModelOf<Recorded> model = of.cast<Recorded>();
-    DataOf<Recorded> data(model);
-    const RecordedVector q = x.head(n), v = x.segment(n, n), last = x.tail(n);
-    RecordedMatrix Dq = RecordedMatrix::Zero(n, n), Dv = Dq, Da = Dq;
-    if (function == "forward") return pinocchio::aba(model, data, q, v, last);
-    if (function == "inverse") return pinocchio::rnea(model, data, q, v, last);
-    if (function == "mass") {
-        pinocchio::crba(model, data, q);
-        data.M.triangularView<Eigen::StrictlyLower>() = RecordedMatrix::Zero(n, n);
-        return in_a_row({data.M});
-    }
-    if (function == "forward_jacobian") {
-        pinocchio::computeABADerivatives(model, data, q, v, last, Dq, Dv, Da);
-        return in_a_row({Dq, Dv});
-    }
-    pinocchio::computeRNEADerivatives(model, data, q, v, last, Dq, Dv, Da);
-    Da.triangularView<Eigen::StrictlyLower>() = RecordedMatrix::Zero(n, n);
-    return in_a_row({Dq, Dv, Da});
-}
-
-int generate(char** words) {
-    const Model model = robot_of(words[0], std::string(words[1]) == "floating").model;
-    RecordedVector x = RecordedVector::Zero(3 * model.nv);
-    CppAD::Independent(x);
-    const RecordedVector y = values(words[2], model, x);
-    CppAD::ADFun<Code> recorded(x, y);
-    recorded.optimize("no_compare_op");
-    CppAD::cg::ModelCSourceGen<double> source(recorded, words[2]);
-    source.setCreateForwardZero(true);
-    source.setMaxAssignmentsPerFunc(static_cast<std::size_t>(std::atoi(words[3])));
-    CppAD::cg::ModelLibraryCSourceGen<double> library(source);
-    CppAD::cg::SaveFilesModelLibraryProcessor<double>(library).saveSourcesTo(words[4]);
-    return 0;
-}
-
-#endif
-
 }  // namespace
 
 int main(int count, char** words) try {
-#ifdef WITH_CODEGEN
-    if (count == 7 && std::string(words[1]) == "generate") return generate(words + 2);
-#endif
-    if (count >= 6 && std::string(words[1]) == "time") return time_all(count - 2, words + 2);
-    std::cerr << "usage: pinocchio_peer time|generate ...; pinocchio.sh calls it\n";
+    if (count >= 5) return time_all(count - 1, words + 1);
+    std::cerr << "usage: pinocchio_peer ROBOT fixed|floating ROUNDS OURS.so [FUNCTION NAME THEIRS.so]…\n";
     return 3;
 } catch (const std::exception& error) {
     std::cerr << "pinocchio_peer: " << error.what() << '\n';
