@@ -20,7 +20,6 @@
 set -eu
 root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
 exec python3 -B - "$root" "$@" <<'PYTHON'
-import argparse
 import atexit
 import json
 import math
@@ -34,34 +33,23 @@ import tempfile
 import xml.etree.ElementTree as tree
 
 root = sys.argv[1]
+sys.path.append(os.path.join(root, "tests/bench"))
+from measuring import keep, options, processor, read
+
 ROBOTS = ["humanoid32", "tree30", "oblique20", "chain20", "arm7"]
-parser = argparse.ArgumentParser(prog="pinocchio.sh")
-parser.add_argument("program", nargs="?", default=os.path.join(root, "build/release/generator/alembert"))
+parser = options("pinocchio.sh", root)
 parser.add_argument("--robot", action="append", choices=ROBOTS)
 parser.add_argument("--rounds", type=int, default=20)
 parser.add_argument("--flags", action="append")
 parser.add_argument("--length", action="append", type=int)
 parser.add_argument("--compile-seconds", type=int, default=600)
 parser.add_argument("--compile-gigabytes", type=float, default=6)
-parser.add_argument("--json")
-wishes = parser.parse_args(sys.argv[2:])
-if not os.path.exists(wishes.program):
-    sys.exit(f"there is no {wishes.program}: build it first")
+wishes = read(parser, sys.argv[2:])
 bench = os.path.join(root, "tests/bench")
 folder = tempfile.mkdtemp(prefix="pinocchio-")
 atexit.register(shutil.rmtree, folder)
 compiler = os.environ.get("CXX", "c++")
 lengths = wishes.length or [0, 1000]
-
-
-def processor():
-    """The name of the processor, and which of the registers that we use it has."""
-    listed = {}
-    for line in open("/proc/cpuinfo"):
-        key, _, value = line.partition(":")
-        listed.setdefault(key.strip(), value.strip())
-    flags = set(listed.get("flags", "").split())
-    return listed.get("model name", "?"), [flag for flag in ("sse2", "avx", "avx2", "fma", "avx512f") if flag in flags]
 
 
 def pinocchio():
@@ -249,6 +237,5 @@ for name in wishes.robot or ROBOTS:
               f"{ratio(times['Pinocchio']):>6} {cell(generated):>13} {ratio(generated):>6}{by}", flush=True)
         listed.append({"robot": name, "function": function, "ns": times, "processor": model, "flags": flags,
                        "codegen": forms.get(function)})
-if wishes.json:
-    json.dump(listed, open(wishes.json, "w"), indent=1)
+keep(listed, wishes.json)
 PYTHON

@@ -4,7 +4,7 @@
 # least the true error that auto reaches, as `bench` measures both. 1 is the best choice.
 #
 #   tests/bench/regret.sh [--scenes "NAME …"] [--duration S] [--reference-seconds S] [--code KIND] [--cold] [--json FILE]
-#                         [BUILD]
+#                         [PROGRAM]
 #
 # A NAME is that of a scene without its folder, or a pattern (--scenes "kepler pend*"); without it, all scenes (hours).
 # Errors below 1e-14, or below the digits of the reference, count as equal; runs without a right digit (an error above
@@ -14,11 +14,10 @@
 # as long as those of auto. A second summary compares auto at 1e-9 and above with the methods that need no power series.
 # --cold adds, at 1e-6, 1e-9 and 1e-12, the process time of the whole of `simulate` with nothing cached (compilers
 # included) over the least among auto, the fastest method of the table, dop853 and verner98.
-# BUILD: the folder of the build (build/release).
+# PROGRAM: build/release/generator/alembert.
 set -eu
 root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
 exec python3 -B - "$root" "$@" <<'PYTHON'
-import argparse
 import fnmatch
 import glob
 import json
@@ -31,18 +30,17 @@ import sys
 import tempfile
 
 root = sys.argv[1]
-parser = argparse.ArgumentParser(prog="regret.sh")
-parser.add_argument("build", nargs="?", default=os.path.join(root, "build/release"))
+sys.path.append(os.path.join(root, "tests/bench"))
+from measuring import keep, options, read
+
+parser = options("regret.sh", root)
 parser.add_argument("--scenes", default="*")
 parser.add_argument("--duration")
 parser.add_argument("--reference-seconds", default="10")
 parser.add_argument("--code", default="memory", choices=["memory", "compiled"])
 parser.add_argument("--cold", action="store_true")
-parser.add_argument("--json")
-wishes = parser.parse_args(sys.argv[2:])
-program = os.path.join(wishes.build, "generator/alembert")
-if not os.path.exists(program):
-    sys.exit(f"there is no {program}: build it first (cmake --build {wishes.build} --target alembert)")
+wishes = read(parser, sys.argv[2:])
+program = wishes.program
 patterns = wishes.scenes.replace(",", " ").split()
 scenes = [path for path in sorted(glob.glob(root + "/scenes/**/*.toml", recursive=True))
           if any(fnmatch.fnmatch(os.path.basename(path)[:-5], pattern) for pattern in patterns)]
@@ -140,8 +138,7 @@ try:
         rows += found
 finally:
     shutil.rmtree(cache, ignore_errors=True)
-if wishes.json:
-    json.dump(rows, open(wishes.json, "w"), indent=1)
+keep(rows, wishes.json)
 print()
 if rows:
     summary("regret", [row["regret"] for row in rows])

@@ -16,7 +16,6 @@
 set -eu
 root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
 exec python3 -B - "$root" "$@" <<'PYTHON'
-import argparse
 import json
 import math
 import os
@@ -25,34 +24,23 @@ import sys
 import tempfile
 
 root = sys.argv[1]
-parser = argparse.ArgumentParser(prog="strongest.sh")
-parser.add_argument("program", nargs="?", default=os.path.join(root, "build/release/generator/alembert"))
+sys.path.append(os.path.join(root, "tests/bench"))
+from measuring import keep, options, processor, read
+
+parser = options("strongest.sh", root)
 parser.add_argument("--case", action="append")
 parser.add_argument("--errors", default="1e-6 1e-9 1e-11")
 parser.add_argument("--rounds", type=int, default=2)
 parser.add_argument("--reference-seconds", default="5")
 parser.add_argument("--code", default="memory", choices=["memory", "compiled"])
-parser.add_argument("--json")
-wishes = parser.parse_args(sys.argv[2:])
+wishes = read(parser, sys.argv[2:])
 STIFF = ["flyball_governor"]
 CASES = ["double_pendulum_chaotic", "kepler", "outer_solar_system", "pleiades", "andrews", *STIFF]
 cases = wishes.case or CASES
 for name in cases:
     if name not in CASES:
         sys.exit(f"there is no case {name}; expected {', '.join(CASES)}")
-if not os.path.exists(wishes.program):
-    sys.exit(f"there is no {wishes.program}: build it first")
 bench = os.path.join(root, "tests/bench")
-
-
-def processor():
-    """The name of the processor, and which of the registers that we use it has."""
-    listed = {}
-    for line in open("/proc/cpuinfo"):
-        key, _, value = line.partition(":")
-        listed.setdefault(key.strip(), value.strip())
-    flags = set(listed.get("flags", "").split())
-    return listed.get("model name", "?"), [flag for flag in ("sse2", "avx", "avx2", "fma", "avx512f") if flag in flags]
 
 
 def python_with_heyoka():
@@ -164,6 +152,5 @@ for name in cases:
               f"{told(rival.get('heyoka'))} {told(rival.get('radau5'))} {told(rival.get('radau'))} {ratio(best[0])} {ratio(auto)}", flush=True)
         listed.append({"case": name, "error": error, "best": best[1], "best_seconds": best[0], "auto_seconds": auto,
                        "rivals": rival, "processor": model, "flags": flags})
-if wishes.json:
-    json.dump(listed, open(wishes.json, "w"), indent=1)
+keep(listed, wishes.json)
 PYTHON
