@@ -88,11 +88,11 @@ void add_energies(Evaluation& e, const Program& program, const State<double>& st
     e.potential = single(Group::potential);
     e.energy = single(Group::energy);
     if (std::isfinite(e.kinetic) && std::isfinite(e.potential) && std::isfinite(e.energy)) return;
-    std::optional<std::string> what;
+    std::optional<NotFinite> what;
     for (const Group group : {Group::kinetic, Group::potential, Group::energy})
         if (!what) what = not_finite(program, state, group);
     e.warn("not_a_number", say("warning: the energy is not a number here, because of {}\n",
-                               what.value_or(say("numbers that overflow"))));
+                               what ? what->text : say("numbers that overflow")));
 }
 
 /// The reactions as outputs, of joints and of bodies that roll.

@@ -179,8 +179,10 @@ std::optional<Differentiated> derivatives_of(const Derived& d, const Program& pr
 namespace {
 
 struct Failure {
+    enum class Kind { massless, division_by_zero, other };
     std::string reason;
-    bool is_massless = false;
+    Kind kind = Kind::other;
+    bool is_massless() const { return kind == Kind::massless; }
 };
 
 std::optional<Failure> found_failure(const Derived& d, const State<double>& state) {
@@ -194,9 +196,12 @@ std::optional<Failure> found_failure(const Derived& d, const State<double>& stat
     const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism), options);
     if (const auto combination = massless_combination(program, state))
         return Failure{say("nothing has inertia along {}; give it a mass, or remove a coordinate", *combination),
-                       true};
+                       Failure::Kind::massless};
     if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return other(lost);
-    return other(not_finite(program, state, program.singular ? Group::forcing : Group::acceleration));
+    auto found = not_finite(program, state, program.singular ? Group::forcing : Group::acceleration);
+    if (!found) return std::nullopt;
+    return Failure{std::move(found->text),
+                   found->is_division ? Failure::Kind::division_by_zero : Failure::Kind::other};
 }
 
 }  // namespace
@@ -204,14 +209,19 @@ std::optional<Failure> found_failure(const Derived& d, const State<double>& stat
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
     auto failure = found_failure(d, state);
     if (!failure) return std::nullopt;
-    if (failure->is_massless) return say("the mass matrix is singular: {}", failure->reason);
+    if (failure->is_massless()) return say("the mass matrix is singular: {}", failure->reason);
     return std::move(failure->reason);
+}
+
+bool divides_by_zero_at(const Derived& d, const State<double>& state) {
+    const auto failure = found_failure(d, state);
+    return failure && failure->kind == Failure::Kind::division_by_zero;
 }
 
 std::string no_accelerations_at(const Derived& d, const State<double>& state) {
     const auto failure = found_failure(d, state);
     if (!failure) return say("there are no finite accelerations at t = {:.6g}: the numbers overflow", state.t);
-    return failure->is_massless
+    return failure->is_massless()
                ? say("the mass matrix is singular at t = {:.6g}: {}", state.t, failure->reason)
                : say("there are no finite accelerations at t = {:.6g}: {}", state.t, failure->reason);
 }

@@ -69,6 +69,9 @@ std::optional<Differentiated> derivatives_of(const Derived& derived, const Progr
 /// merged.)
 std::optional<std::string> failure_at(const Derived& derived, const State<double>& state);
 
+/// Whether the accelerations divide by zero at a state, and nothing that `failure_at` looks at before is the case.
+bool divides_by_zero_at(const Derived& derived, const State<double>& state);
+
 /// The message of a state without finite accelerations, with its time and the reason.
 std::string no_accelerations_at(const Derived& derived, const State<double>& state);
 

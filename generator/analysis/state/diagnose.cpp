@@ -119,7 +119,7 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
         m, left);
 }
 
-std::optional<std::string> not_finite(const Program& program, const State<double>& state, Group group) {
+std::optional<NotFinite> not_finite(const Program& program, const State<double>& state, Group group) {
     const std::vector<double> value = interpret(program, state);
     for (const int id : program.needed(program.nodes_of(group))) {
         if (std::isfinite(value[id])) continue;
@@ -135,7 +135,7 @@ std::optional<std::string> not_finite(const Program& program, const State<double
         std::string where;
         for (const int source : node.sources)
             where += (where.empty() ? " in " : ", ") + program.source_labels[source];
-        return what + where;
+        return NotFinite{.text = what + where, .is_division = node.is_reciprocal()};
     }
     return std::nullopt;
 }

@@ -27,8 +27,12 @@ std::optional<std::string> massless_combination(const Program& program, const St
 std::optional<std::string> lost_rank(const Program& program, const State<double>& state,
                                      const std::vector<int>& kept);
 
-/// The first value that is not finite in the computation of `group`, and the part from which it comes: "a division
-/// by zero in spring 1".
-std::optional<std::string> not_finite(const Program& program, const State<double>& state, Group group);
+struct NotFinite {
+    std::string text;          ///< what it is, and the part from which it comes: "a division by zero in spring 1"
+    bool is_division = false;  ///< by zero
+};
+
+/// The first value that is not finite in the computation of `group`.
+std::optional<NotFinite> not_finite(const Program& program, const State<double>& state, Group group);
 
 }  // namespace alembert
