@@ -71,7 +71,7 @@ public:
     Differentiation(const Program& program, long budget)
         : p_(program),
           n_(static_cast<int>(program.coordinates.size())),
-          s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())),
+          s_(static_cast<int>(speeds_of(program))),
           budget_(budget) {
         for (int i = 0; i < n_; ++i) state_.push_back(p_.variable({Variable::Kind::coordinate, i}));
         for (int i = 0; i < s_; ++i) state_.push_back(p_.variable({Variable::Kind::rate, i}));

@@ -3,6 +3,10 @@
 
 namespace alembert {
 
+std::size_t speeds_of(const Program& p) {
+    return p.speeds.empty() ? p.coordinates.size() : p.speeds.size();
+}
+
 MotionSystem motion_system(Program& p) {
     MotionSystem s{.K = p.nodes_of(Group::mass), .b = p.nodes_of(Group::forcing)};
     s.speeds = s.size();

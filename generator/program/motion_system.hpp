@@ -3,9 +3,10 @@
 
 /// The linear system K (u', −λ) = b of a program, with K = [M Aᵀ; A 0] and b = (f, γ).
 ///
-///     const MotionSystem system = motion_system(program);
+///     const MotionSystem system = motion_system(program);  // with speeds_of(program) speeds u
 ///     solve_for_sides(program, system.K, {system.b}, system.speeds);
 
+#include <cstddef>
 #include <vector>
 
 #include "program/program.hpp"
@@ -22,6 +23,9 @@ struct MotionSystem {
         return i < j ? entry(j, i) : K[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
     }
 };
+
+/// The number of speeds u in a state: the program's own, or the rates of the coordinates.
+std::size_t speeds_of(const Program& program);
 
 /// The program must have its mass matrix (Group::mass); zeros are added to it where K has them.
 MotionSystem motion_system(Program& program);

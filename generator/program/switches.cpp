@@ -8,6 +8,7 @@
 #include <map>
 
 #include "program/interpret.hpp"
+#include "program/motion_system.hpp"
 #include "program/partials.hpp"
 #include "program/rewriting.hpp"
 
@@ -81,7 +82,7 @@ private:
 std::optional<std::vector<int>> rates_of(Program& p, const std::vector<int>& conditions) {
     const std::vector<int> second = p.nodes_of(Group::rate);  // q' = h, if the speeds are not the rates
     const auto n = static_cast<int>(p.coordinates.size());
-    const auto s = static_cast<int>(p.speeds.empty() ? p.coordinates.size() : p.speeds.size());
+    const auto s = static_cast<int>(speeds_of(p));
     std::vector<int> inputs{p.variable({Variable::Kind::time, 0})}, directions{p.number(1)};
     for (int i = 0; i < n; ++i) {
         inputs.push_back(p.variable({Variable::Kind::coordinate, i}));
@@ -126,7 +127,7 @@ int ratio_of(const Program& p, int a, int b) {
             }
             return list;
         };
-        const std::size_t n = p.coordinates.size(), s = p.speeds.empty() ? n : p.speeds.size();
+        const std::size_t n = p.coordinates.size(), s = speeds_of(p);
         State<double> state{.parameters = numbers(p.parameters.size()),
                             .t = 0.3,
                             .q = numbers(n),

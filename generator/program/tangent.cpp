@@ -13,10 +13,6 @@ namespace alembert {
 
 namespace {
 
-std::size_t speeds_of(const Program& p) {
-    return p.speeds.empty() ? p.coordinates.size() : p.speeds.size();
-}
-
 class Tangent {
 public:
     explicit Tangent(const Program& program)

@@ -15,6 +15,7 @@
 #include "codegen/machine/series_steps.hpp"
 #include "model/energy.hpp"
 #include "program/cost.hpp"
+#include "program/motion_system.hpp"
 #include "program/recurrence.hpp"
 #include "scene/advice.hpp"
 #include "simulate/canonical.hpp"
@@ -104,8 +105,7 @@ bool is_series_faster(const Program& program, double tolerance, const SeriesCost
     const double decades = std::log10(1e-6 / tolerance);
     const double longer = nystrom ? 1.6 * std::pow(10, 0.05 * decades) : 1.5 * std::pow(10, 0.08 * decades);
     const int order = taylor_order(tolerance, cost.order, cost.product);
-    const auto components = static_cast<int>(
-        program.coordinates.size() + (program.speeds.empty() ? program.coordinates : program.speeds).size());
+    const auto components = static_cast<int>(program.coordinates.size() + speeds_of(program));
     const Rhs rhs{.dimension = components, .effort = effort_of(program), .slowness = slowness};
     const double explicit_step = verner98_tableau.stages * effort_of_evaluation(rhs, false);
     const double step = slowness.series * taylor_effort(cost.order, cost.product, order, components);

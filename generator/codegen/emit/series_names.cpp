@@ -7,6 +7,8 @@
 
 #include "codegen/emit/series_writer.hpp"
 
+#include "program/motion_system.hpp"
+
 namespace alembert {
 
 using Kind = SeriesNode::Kind;
@@ -27,7 +29,7 @@ SeriesWriter::SeriesWriter(const Recurrences& recurrences, const SeriesLanes& la
       p_(r_.program),
       lanes_(lanes),
       n_(static_cast<int>(p_.coordinates.size())),
-      s_(p_.speeds.empty() ? n_ : static_cast<int>(p_.speeds.size())) {
+      s_(static_cast<int>(speeds_of(p_))) {
     for (const char* name : own_names) names_.fresh(name);
     name_nodes();
     name_packs();

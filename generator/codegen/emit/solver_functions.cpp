@@ -7,6 +7,7 @@
 #include <set>
 
 #include "codegen/emit/layout.hpp"
+#include "program/motion_system.hpp"
 
 namespace alembert {
 
@@ -21,9 +22,6 @@ FunctionArgument to(const char* name) {
 
 bool has_speeds(const Program& p) {
     return !p.speeds.empty();
-}
-std::size_t speeds_of(const Program& p) {
-    return has_speeds(p) ? p.speeds.size() : p.coordinates.size();
 }
 
 void add_goals(std::vector<Goal>& goals, const Program& p, Group group, const std::string& section) {

@@ -10,6 +10,7 @@
 #include "codegen/emit/numbers.hpp"
 #include "codegen/emit/series_writer.hpp"
 #include "codegen/emit/templates.hpp"
+#include "program/motion_system.hpp"
 
 namespace alembert {
 
@@ -78,7 +79,7 @@ std::string straight_calls() {
 void describe(mustache::data& file, const Recurrences& r, std::size_t width) {
     const Program& p = r.program;
     const auto number = [&](const char* key, std::size_t value) { file.set(key, std::to_string(value)); };
-    const std::size_t n = p.coordinates.size(), s = p.speeds.empty() ? n : p.speeds.size();
+    const std::size_t n = p.coordinates.size(), s = speeds_of(p);
     file.set("scene", ascii_identifier(p.name));
     file.set("formulation", p.formulation);
     file.set("version", ALEMBERT_VERSION);

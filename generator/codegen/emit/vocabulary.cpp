@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "program/motion_system.hpp"
+
 namespace alembert {
 
 std::string ArrayInput::source() const {
@@ -15,7 +17,7 @@ std::string ArrayInput::source() const {
 Vocabulary::Vocabulary(const Program& program, CodeLanguage language)
     : p_(program),
       n_(static_cast<int>(program.coordinates.size())),
-      s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())),
+      s_(static_cast<int>(speeds_of(program))),
       names_(language) {
     for (const Quantity& q : p_.coordinates) {
         q_.push_back(names_.fresh(q.name));

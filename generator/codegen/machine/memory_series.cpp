@@ -8,6 +8,7 @@
 #include "codegen/emit/names.hpp"
 #include "codegen/machine/memory_code.hpp"
 #include "codegen/machine/series_steps.hpp"
+#include "program/motion_system.hpp"
 
 namespace alembert {
 
@@ -103,7 +104,7 @@ private:
         alembert_series_table& t = r.table;
         t.abi = series_abi_version;
         t.coordinates = count(p.coordinates.size());
-        t.speeds = p.speeds.empty() ? t.coordinates : count(p.speeds.size());
+        t.speeds = count(speeds_of(p));
         t.extra = r.code.places.width - t.coordinates - t.speeds;
         t.parameters = count(p.parameters.size());
         t.constants = count(zero_words_.constants().size());

@@ -14,6 +14,7 @@
 
 #include "analysis/derive/derived.hpp"
 #include "program/interpret.hpp"
+#include "program/motion_system.hpp"
 #include "simulate/fmu/free_inputs.hpp"
 
 namespace alembert {
@@ -29,7 +30,7 @@ struct UnitModel : Derived {
     double duration = 0, tolerance = 0, sample = 0;
 
     std::size_t coordinates() const { return program.coordinates.size(); }
-    std::size_t speeds() const { return program.speeds.empty() ? coordinates() : program.speeds.size(); }
+    std::size_t speeds() const { return speeds_of(program); }
     /// The place of a parameter in the program. The name must be one.
     std::size_t parameter(const std::string& name) const;
     /// Parameters of the scene itself, which come first.
