@@ -16,6 +16,7 @@
 #include "analysis/state/speeds.hpp"
 #include "analysis/state/touching.hpp"
 #include "base/language/say.hpp"
+#include "base/language/screens.hpp"
 #include "model/formalism/elements.hpp"
 #include "model/formalism/joint_tree.hpp"
 #include "model/formalism/needs.hpp"
@@ -38,9 +39,8 @@ Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     return formalism_in_rates(mechanism).derive(mechanism);
 }
 
-constexpr int many_pairs = 128;  // pairs of a body and one it is carried by: a chain of 16 has as many
-// Coordinates, and pairs, with more of which nobody reads the equations, in which both of a pair appear.
-constexpr int most_lines = 100, pairs_too_long = 1600;
+constexpr int many_pairs = 128;       // pairs of a body and one it is carried by: a chain of 16 has as many
+constexpr int pairs_too_long = 1600;  // with more nobody reads the equations, in which both of a pair appear
 // Joints; with more, most of the derivation, emission and compilation would be for M.
 constexpr int most_with_matrix = 80;
 
@@ -61,7 +61,7 @@ std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) 
         pairs += depth.back();
     }
     if (pairs < many_pairs) return {};
-    if (use == Use::shown_or_counted && m.size() <= most_lines && pairs < pairs_too_long) return {};
+    if (use == Use::shown_or_counted && m.size() <= lines_of_two_screens && pairs < pairs_too_long) return {};
     if (use != Use::asked && static_cast<int>(depth.size()) > most_with_matrix) return recursive_without_matrix(m);
     return recursive(m);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/derive/derive.hpp"
+#include "base/language/screens.hpp"
 #include "present/report/formula_page.hpp"
 #include "present/report/json.hpp"
 
@@ -23,7 +24,7 @@ std::vector<Block> blocks_of(const DerivedScene& derived, const Notation& notati
 /// What people may read at once: lines, and operations in all and in one of them. The usual ones are two screens,
 /// or 20 kB.
 struct Readable {
-    std::size_t lines = 100, operations = 3000, of_one = 800;
+    std::size_t lines = lines_of_two_screens, operations = 3000, of_one = 800;
 };
 
 /// What is too long to be read is named with its size in place of its equations.

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "base/language/say.hpp"
+#include "base/language/screens.hpp"
 
 namespace alembert {
 
 namespace {
 
-constexpr std::size_t most_rows = 100, columns = 100, longest_line = 10 * columns;
+constexpr std::size_t most_rows = lines_of_two_screens, columns = 100, longest_line = 10 * columns;
 
 struct FoldedLine {
     std::string text;
