@@ -18,6 +18,7 @@
 #include "program/lower/choose.hpp"
 #include "program/lower/perturbed_tree.hpp"
 #include "program/partials.hpp"
+#include "scene_programs.hpp"
 #include "scenes.hpp"
 
 namespace generator_derivatives {
@@ -352,32 +353,18 @@ TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and w
 TEST_CASE("derivatives: the Jacobians of the scenes are those of dual numbers") {
     std::mt19937_64 random(20240917);
     int checked = 0;
-    for (const char* folder : {"scenes/textbook", "scenes/gallery"})
-        for (const std::string& path : test::every_third(test::scenes_in(folder), 2)) {
-            const Mechanism m = prepared(read_scene(path)).mechanism;
-            for (const Formalism& f : formalisms()) {
-                if (f.name != std::string("routh") && f.name != std::string("kane")) continue;
-                if (f.obstacle(m)) continue;
-                const Equations equations = f.derive(m);
-                const Program program = choose(m, equations).program;
-                if (program.singular) continue;
-                const auto d = differentiated(program, {.parameters = true, .power = true});
-                REQUIRE(d);
-                const Start start = start_of(m);
-                State<double> s = state_of(start, m, equations);
-                std::uniform_real_distribution<double> near(-0.3, 0.3);
-                for (int k = 0; k < 4; ++k) {
-                    INFO(path << " by " << f.name << ", seed 20240917, state " << k << ": " << d->route);
-                    // Rounding: the accelerations' own, and that of the differences of large terms in their
-                    // derivatives.
-                    CHECK(misfit(program, *d, s) < 1e-10);
-                    ++checked;
-                    s.t += 0.1;
-                    for (double& q : s.q) q += near(random);
-                    for (double& u : s.qdot) u += near(random);
-                }
-            }
+    test::for_scene_programs(2, [&](const test::SceneProgram& one) {
+        const auto d = differentiated(one.program, {.parameters = true, .power = true});
+        REQUIRE(d);
+        State<double> s = one.start;
+        for (int k = 0; k < 4; ++k) {
+            INFO(one.name << ", seed 20240917, state " << k << ": " << d->route);
+            // Rounding: the accelerations' own, and that of the differences of large terms in their derivatives.
+            CHECK(misfit(one.program, *d, s) < 1e-10);
+            ++checked;
+            test::step_aside(s, random);
         }
+    });
     CHECK(checked > test::at_least(100));
 }
 
