@@ -297,6 +297,17 @@ TEST_CASE("state: the small changes of short steps to a large state are not lost
     CHECK(std::abs(motion.final_state()[0] - 1000001) <= 1.2e-10);  // one unit in the last place
 }
 
+TEST_CASE("steps: a run that may go over to a power series, but has none, keeps its steps") {
+    const Options alone{.method = Method::verner98, .duration = 200, .tolerance = 1e-9};
+    Options may_change = alone;
+    may_change.when_cheaper = Method::taylor;
+    const Trajectory motion = integrate(kepler(), kepler_start, alone),
+                     other = integrate(kepler(), kepler_start, may_change);
+    CHECK(!other.statistics.switched);
+    CHECK(other.statistics.steps == motion.statistics.steps);
+    CHECK(distance(other.final_state(), motion.final_state()) == 0);
+}
+
 // 4 components are summed in registers of two numbers, 12 and 36 in registers of four, where the processor has
 // them; past 16 the distance from stage to stage is no constant.
 TEST_CASE("state: copies of an orbit in one long state have the digits that one has alone") {

@@ -311,8 +311,9 @@ private:
         if (options_.when_stiff) {
             if (stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(), step_.length()))
                 change_to(*options_.when_stiff, Switch::Why::stiff, stiffness_.largest_eigenvalue());
-        } else if (const std::optional<Switch::Why> why = reason_to_come_back()) {
-            change_to(*piece_.turns.back, *why, largest_eigenvalue());
+        } else if (piece_.turns.back) {
+            if (const std::optional<Switch::Why> why = reason_to_come_back())
+                change_to(*piece_.turns.back, *why, largest_eigenvalue());
         }
     }
 
