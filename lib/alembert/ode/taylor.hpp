@@ -132,6 +132,9 @@ public:
 
     void advance(const Ends&) { std::swap(coefficients_, next_); }
 
+    /// The state of the ends is another one now.
+    void forget() { expanded_ = false; }
+
     double first_length(Ends& ends) {
         if (!expanded_) expand(ends, ends.t, ends.y, coefficients_, order_);
         expanded_ = true;

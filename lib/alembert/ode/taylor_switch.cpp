@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/ode/taylor_switch.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "alembert/ode/taylor.hpp"
 
@@ -15,6 +15,23 @@ constexpr int looks = 3, apart = 4;
 constexpr double clearly = 1.5;  // how much more the run must cost
 
 }  // namespace
+
+/// Its memory is used for all looks.
+struct SeriesPace::Look {
+    Ends ends;
+    Taylor taylor;
+
+    Look(const Rhs& rhs, const Place& here, double tolerance)
+        : ends(rhs, here.t, {here.y, static_cast<std::size_t>(rhs.dimension)}), taylor(ends, tolerance) {}
+
+    /// The length of a step from there.
+    double length(const Place& here) {
+        ends.t = here.t;
+        std::copy_n(here.y, ends.y.size(), ends.y.begin());
+        taylor.forget();
+        return taylor.first_length(ends);
+    }
+};
 
 bool SeriesPace::is_worth_making(const Place& here, double effort_per_time) {
     constexpr double gain = 0.5;
@@ -34,9 +51,12 @@ bool SeriesPace::is_worth_making(const Place& here, double effort_per_time) {
 bool SeriesPace::finds_cheaper(const Place& here, double effort_per_time) {
     if (pause_-- > 0 || !(effort_per_time > 0) || here.spent < until_) return false;
     if (!rhs_ && !is_worth_making(here, effort_per_time)) return false;
-    Stepper<Taylor> step(*rhs_, here.t, std::vector<double>(here.y, here.y + rhs_->dimension), tolerance_);
-    evaluations_ += 2;  // the series, and the rate with which a step begins
-    effort_ += step.effort() / step.first_length() * here.h;
+    if (!look_) {
+        look_ = std::make_shared<Look>(*rhs_, here, tolerance_);
+        ++evaluations_;  // the rate with which it begins
+    }
+    ++evaluations_;
+    effort_ += look_->taylor.effort() / look_->length(here) * here.h;
     time_ += here.h;
     pause_ = apart - 1;
     if (clearly * effort_ < effort_per_time * time_) return ++looked_ == looks;

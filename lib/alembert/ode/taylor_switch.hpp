@@ -16,6 +16,7 @@
 /// run. Throws what the making of the series throws.
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -43,6 +44,8 @@ public:
     long evaluations() const { return evaluations_; }
 
 private:
+    struct Look;
+
     bool is_worth_making(const Place& here, double effort_per_time);
 
     const Rhs& given_;
@@ -50,6 +53,7 @@ private:
     double effort_of_making_, tolerance_;
     std::optional<Rhs> made_ = {};
     const Rhs* rhs_ = nullptr;  ///< with the series, once it is known
+    std::shared_ptr<Look> look_ = {};
     double until_ = 0;          ///< no look before the run has spent this
     long pause_ = 0;            ///< steps before the next look
     long evaluations_ = 0;
