@@ -71,17 +71,19 @@ private:
     /// others.
     double predicted_by_first_step() const {
         constexpr double evaluations = 16;
+        const int order = needs_series(options_.method) ? 8 : std::max(8, traits(options_.method).order - 1);
         std::vector<double> rate(initial_.size());
         system_.rhs(options_.start, initial_.data(), rate.data());
         const double longest = options_.longest_step > 0 ? options_.longest_step : options_.duration;
         const double first = starting_step(system_.rhs, {options_.start, initial_.data(), rate.data()},
-                                           std::max(options_.tolerance, 1e-15), 8, longest);
+                                           std::max(options_.tolerance, 1e-15), order, longest);
         return options_.duration / first * evaluations * effort_of_work();
     }
 
     /// Follows the motion from where it has come until `work` evaluations have been made in all, piece by piece,
-    /// and predicts the effort of the whole run after each. False as soon as that is too little for a trial, as
-    /// that of an orbit which begins where it is quickest; or if the run ends before, or fails.
+    /// and predicts the effort of the whole run after each, by what that piece took for its time. False as soon as
+    /// that is too little for a trial, as that of an orbit which begins where it is quickest, or of one whose
+    /// first steps are too careful; or if the run ends before, or fails.
     bool follow(double work) {
         if (state_.empty()) {
             begin();
@@ -94,14 +96,18 @@ private:
             part.duration = options_.start + options_.duration - until_;
             const double piece = std::max(fewest_steps / 2 * work_of_step(), static_cast<double>(work_) / 3);
             part.budget = static_cast<long>(std::min(piece, 1e9));
+            if (!needs_series(part.method)) part.step = usual_step_;
             const Trajectory motion = integrate(with_series(part.method), state_, part);
             if (!motion.failure || motion.failure->kind != FailureKind::budget_used_up) return false;
-            if (!(motion.times.back() > until_)) return false;
+            const double time = motion.times.back() - until_;
+            if (!(time > 0)) return false;
             until_ = motion.times.back();
             state_.assign(motion.final_state().begin(), motion.final_state().end());
             work_ += motion.statistics.work;
-            whole_ =
-                effort_of_work() * static_cast<double>(work_) * (options_.duration / (until_ - options_.start));
+            usual_step_ = time / static_cast<double>(std::max(1L, motion.statistics.steps));
+            const double left = options_.start + options_.duration - until_;
+            whole_ = effort_of_work() *
+                     (static_cast<double>(work_) + static_cast<double>(motion.statistics.work) * (left / time));
             if (!(whole_ > shortest_run_with_trial)) return false;
         }
         return true;
@@ -203,6 +209,7 @@ private:
     Options options_;
     const TrialSettings& settings_;
     std::vector<double> state_ = {};  ///< at until_, to where the motion has been followed
+    double usual_step_ = 0;           ///< of the last piece
     double until_ = 0, whole_ = 0;    ///< the latter the predicted effort of the run
     long work_ = 0;                   ///< until then
 };
