@@ -54,8 +54,8 @@ private:
     std::optional<Rhs> made_ = {};
     const Rhs* rhs_ = nullptr;  ///< with the series, once it is known
     std::shared_ptr<Look> look_ = {};
-    double until_ = 0;          ///< no look before the run has spent this
-    long pause_ = 0;            ///< steps before the next look
+    double until_ = 0;  ///< no look before the run has spent this
+    long pause_ = 0;    ///< steps before the next look
     long evaluations_ = 0;
     int looked_ = 0;
     double effort_ = 0, time_ = 0;  ///< of the series over the steps at which it was looked at
