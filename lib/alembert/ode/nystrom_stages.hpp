@@ -40,8 +40,8 @@ public:
           size_(size),
           room_(rounded_up(n)),
           stride_(rounded_up(size) + pack),
-          memory_(static_cast<std::size_t>(((arrays + 1) * room_ + rounded_up(size) + pack + stages * stride_) /
-                                           pack)) {
+          first_((arrays + 1) * room_ + rounded_up(size) + pack),
+          memory_(static_cast<std::size_t>((first_ + stages * stride_) / pack)) {
         if (registers() != Registers::usual && n > least_for_wide) kernel_ = reach_256;
     }
 
@@ -78,17 +78,19 @@ private:
 
     static constexpr int rounded_up(int count) { return (count + pack - 1) / pack * pack; }
 
-    const double* array(int which) const {
+    [[gnu::always_inline]] const double* array(int which) const {
         return reinterpret_cast<const double*>(memory_.data()) + which * room_;
     }
-    double* array(int which) { return reinterpret_cast<double*>(memory_.data()) + which * room_; }
-    double* trial() { return array(arrays); }
-    /// Stages are rates as the right-hand side writes them, placed so that accelerations begin with a register.
-    const double* accelerations(int stage) const {
-        return array(arrays + 1) + rounded_up(size_) + pack + stage * stride_;
+    [[gnu::always_inline]] double* array(int which) {
+        return reinterpret_cast<double*>(memory_.data()) + which * room_;
     }
-    double* accelerations(int stage) { return const_cast<double*>(std::as_const(*this).accelerations(stage)); }
-    double* stage(int i) { return accelerations(i) - n_; }
+    [[gnu::always_inline]] double* trial() { return array(arrays); }
+    /// Stages are rates as the right-hand side writes them, placed so that accelerations begin with a register.
+    [[gnu::always_inline]] const double* accelerations(int stage) const {
+        return array(0) + first_ + stage * stride_;
+    }
+    [[gnu::always_inline]] double* accelerations(int stage) { return array(0) + first_ + stage * stride_; }
+    [[gnu::always_inline]] double* stage(int i) { return accelerations(i) - n_; }
 
     template <int i>
     struct StageRow {
@@ -166,6 +168,7 @@ private:
 
     int n_, size_;
     int room_, stride_;  ///< of an array of positions; from one stage to the next
+    int first_;          ///< where the accelerations of the first stage stand
     double t_ = 0;
     std::vector<Pack> memory_;
     void (*kernel_)(NystromStages&, Ends&, double) = reach_any;
