@@ -64,7 +64,7 @@ public:
             }
             case Op::unspecified: {
                 if (k == 0 || k % 2 == 1) break;  // the function, or an order
-                std::vector<int> args = node.args;
+                std::vector<int> args(node.args.begin(), node.args.end());
                 args[k - 1] = p_.sum(1, {{1, args[k - 1]}});
                 return p_.call(Op::unspecified, std::move(args));
             }
@@ -113,7 +113,7 @@ public:
         for (int id = 0; id < size; ++id) {
             if (!active[static_cast<std::size_t>(id)] || is_input(id)) continue;
             inner_.push_back(id);
-            const std::vector<int> args = program[id].args;
+            const std::span<const int> args = program[id].args;
             for (std::size_t k = 0; k < args.size(); ++k)
                 if (active[static_cast<std::size_t>(args[k])]) add(args[k], id, label(id, k));
         }
@@ -254,7 +254,7 @@ std::vector<int> tangents(Program& program, std::span<const int> outputs, const 
     Label label(program);
     for (const int id : program.needed({outputs.begin(), outputs.end()})) {
         if (direction.contains(id)) continue;
-        const std::vector<int> args = program[id].args;
+        const std::span<const int> args = program[id].args;
         std::vector<Program::Term> terms;
         for (std::size_t k = 0; k < args.size(); ++k)
             if (const auto found = tangent.find(args[k]); found != tangent.end())

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <memory_resource>
 #include <set>
 #include <stdexcept>
 
@@ -45,9 +47,19 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t value) {  // the finalizer of s
     return h ^ (h >> 31);
 }
 
+/// Memory for the lists of one call, on the stack as long as they are short.
+class ShortLists {
+public:
+    std::pmr::memory_resource* operator&() { return &memory_; }
+
+private:
+    std::array<std::byte, 1536> room_;
+    std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+};
+
 /// One item for each node, in the order of their numbers, with the sum of its weights.
 template <typename Item, typename Weight>
-void gather(std::vector<Item>& items, int Item::*node, Weight Item::*weight) {
+void gather(std::pmr::vector<Item>& items, int Item::*node, Weight Item::*weight) {
     std::sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return a.*node < b.*node; });
     std::size_t count = 0;
     for (std::size_t k = 0; k < items.size(); ++k) {
@@ -64,15 +76,17 @@ std::uint64_t hash_of(const Rational& r) {
 }
 
 bool same(const Node& a, const Node& b) {
-    return a.op == b.op && a.variable == b.variable && a.args == b.args && a.exponents == b.exponents &&
-           cln::equal(a.number, b.number) && a.coefficients.size() == b.coefficients.size() &&
-           std::equal(a.coefficients.begin(), a.coefficients.end(), b.coefficients.begin(),
-                      [](const Rational& x, const Rational& y) { return cln::equal(x, y); });
+    return a.op == b.op && a.variable == b.variable && std::ranges::equal(a.args, b.args) &&
+           std::ranges::equal(a.exponents, b.exponents) && cln::equal(a.number, b.number) &&
+           std::ranges::equal(a.coefficients, b.coefficients,
+                              [](const Rational& x, const Rational& y) { return cln::equal(x, y); });
 }
+
+constexpr int whole_scene[] = {0};
 
 }  // namespace
 
-Program::Program() = default;
+Program::Program() : sources_(whole_scene) {}
 Program::Program(const Program&) = default;
 Program::Program(Program&&) noexcept = default;
 Program& Program::operator=(const Program&) = default;
@@ -83,15 +97,28 @@ const char* name_of(Op op) {
     return op_names[static_cast<std::size_t>(op)];
 }
 
-int Program::intern(Node node) {
-    std::uint64_t h = mix(static_cast<std::uint64_t>(node.op), static_cast<std::uint64_t>(node.variable.kind));
-    h = mix(mix(h, static_cast<std::uint64_t>(node.variable.index)), hash_of(node.number));
-    node.lead = 1 << 30;
-    for (std::size_t i = 0; i < node.args.size(); ++i) {
-        const Node& arg = nodes_[node.args[i]];
-        h = mix(h, arg.hash);
-        if (!node.coefficients.empty()) h = mix(h, hash_of(node.coefficients[i]));
-        if (!node.exponents.empty()) h = mix(h, static_cast<std::uint64_t>(node.exponents[i] + 1000));
+int Program::intern(const Node& contents) {
+    std::uint64_t h =
+        mix(static_cast<std::uint64_t>(contents.op), static_cast<std::uint64_t>(contents.variable.kind));
+    h = mix(mix(h, static_cast<std::uint64_t>(contents.variable.index)), hash_of(contents.number));
+    for (std::size_t i = 0; i < contents.args.size(); ++i) {
+        h = mix(h, nodes_[contents.args[i]].hash);
+        if (!contents.coefficients.empty()) h = mix(h, hash_of(contents.coefficients[i]));
+        if (!contents.exponents.empty()) h = mix(h, static_cast<std::uint64_t>(contents.exponents[i] + 1000));
+    }
+    if (const int id = known_.find(h, [&](int known) { return same(nodes_[known], contents); }); id >= 0)
+        return id;
+    Node node{.op = contents.op,
+              .variable = contents.variable,
+              .number = contents.number,
+              .args = integers_.keep(contents.args),
+              .coefficients = rationals_.keep(contents.coefficients),
+              .exponents = integers_.keep(contents.exponents),
+              .lead = 1 << 30,
+              .hash = h,
+              .sources = sources_};
+    for (const int id : node.args) {
+        const Node& arg = nodes_[id];
         node.depends |= arg.depends;
         node.lead = std::min(node.lead, arg.lead);
         node.size += arg.size;
@@ -100,14 +127,24 @@ int Program::intern(Node node) {
         node.depends = 1U << static_cast<unsigned>(node.variable.kind);
         node.lead = static_cast<int>(node.variable.kind) * 100000 + node.variable.index;
     }
-    node.hash = h;
-    std::vector<int>& bucket = known_[h];
-    for (const int id : bucket)
-        if (same(nodes_[id], node)) return id;
-    node.sources = sources_;
+    known_.insert(h, size());
     nodes_.push_back(std::move(node));
-    bucket.push_back(size() - 1);
-    return bucket.back();
+    return size() - 1;
+}
+
+std::span<const int> Program::set_sources(std::span<const int> sources) {
+    const std::span<const int> former = sources_;
+    if (std::ranges::equal(sources, former)) return former;
+    std::uint64_t h = 0;
+    for (const int source : sources) h = mix(h, static_cast<std::uint64_t>(source));
+    const int known = known_sources_.find(
+        h, [&](int k) { return std::ranges::equal(source_lists_[static_cast<std::size_t>(k)], sources); });
+    if (known < 0) {
+        known_sources_.insert(h, static_cast<int>(source_lists_.size()));
+        source_lists_.push_back(integers_.keep(sources));
+    }
+    sources_ = known < 0 ? source_lists_.back() : source_lists_[static_cast<std::size_t>(known)];
+    return former;
 }
 
 bool Program::before(int a, int b) const {
@@ -125,9 +162,7 @@ bool Program::before(int a, int b) const {
 }
 
 int Program::number(const Rational& value) {
-    Node node;
-    node.number = value;
-    return intern(std::move(node));
+    return intern(Node{.number = value});
 }
 
 int Program::pi() {
@@ -142,12 +177,13 @@ int Program::scaled(const Rational& coefficient, int id) {
     if (cln::equal(coefficient, 1)) return id;
     if (nodes_[id].is_number()) return number(coefficient * nodes_[id].number);
     if (nodes_[id].is_scaled()) return scaled(coefficient * nodes_[id].coefficients[0], nodes_[id].args[0]);
-    return intern(Node{.op = Op::sum, .args = {id}, .coefficients = {coefficient}});
+    return intern(Node{.op = Op::sum, .args = {&id, 1}, .coefficients = {&coefficient, 1}});
 }
 
-int Program::sum(const Rational& constant, const std::vector<Term>& terms) {
+int Program::sum(const Rational& constant, std::span<const Term> terms) {
     Rational rest = constant;
-    std::vector<Term> by_node;
+    ShortLists lists;
+    std::pmr::vector<Term> by_node(&lists);
     by_node.reserve(terms.size());
     for (auto [coefficient, id] : terms) {
         if (nodes_[id].is_scaled()) {
@@ -160,7 +196,8 @@ int Program::sum(const Rational& constant, const std::vector<Term>& terms) {
             by_node.emplace_back(coefficient, id);
     }
     gather(by_node, &Term::second, &Term::first);
-    std::vector<Term> kept, constants;
+    std::pmr::vector<Term> kept(&lists), constants(&lists);
+    kept.reserve(by_node.size());
     for (const auto& [coefficient, id] : by_node)
         if (!cln::zerop(coefficient)) (nodes_[id].is_constant() ? constants : kept).emplace_back(coefficient, id);
     if (!kept.empty() && constants.size() + (cln::zerop(rest) ? 0 : 1) > 1) {
@@ -183,17 +220,25 @@ int Program::sum(const Rational& constant, const std::vector<Term>& terms) {
         return cln::equal(cln::abs(term.first), cln::abs(kept[0].first));
     });
     if (all_equal && cln::zerop(rest)) content = kept[0].first;
-    Node node{.op = Op::sum, .number = rest / content};
+    const bool is_one = cln::equal(content, 1);
+    std::pmr::vector<int> args(&lists);
+    std::pmr::vector<Rational> coefficients(&lists);
+    args.reserve(kept.size());
+    coefficients.reserve(kept.size());
     for (const auto& [coefficient, id] : kept) {
-        node.args.push_back(id);
-        node.coefficients.push_back(coefficient / content);
+        args.push_back(id);
+        coefficients.push_back(is_one ? coefficient : coefficient / content);
     }
-    return scaled(content, intern(std::move(node)));
+    return scaled(
+        content,
+        intern(Node{
+            .op = Op::sum, .number = is_one ? rest : rest / content, .args = args, .coefficients = coefficients}));
 }
 
-int Program::product(const Rational& coefficient, const std::vector<Factor>& factors) {
+int Program::product(const Rational& coefficient, std::span<const Factor> factors) {
     Rational content = coefficient;
-    std::vector<Factor> by_node;
+    ShortLists lists;
+    std::pmr::vector<Factor> by_node(&lists);
     by_node.reserve(factors.size());
     for (auto [id, exponent] : factors) {
         if (exponent == 0) continue;
@@ -217,12 +262,13 @@ int Program::product(const Rational& coefficient, const std::vector<Factor>& fac
     // √x · √x = x
     for (const auto& [id, exponent] : by_node)
         if (nodes_[id].op == Op::sqrt && (exponent > 1 || exponent < -1)) {
-            std::vector<Factor> again = by_node;
+            std::pmr::vector<Factor> again(by_node, &lists);
             again.emplace_back(nodes_[id].args[0], exponent / 2);
             again.emplace_back(id, -2 * (exponent / 2));
             return product(content, again);
         }
-    std::vector<Factor> kept, constants;
+    std::pmr::vector<Factor> kept(&lists), constants(&lists);
+    kept.reserve(by_node.size());
     for (const auto& [id, exponent] : by_node)
         if (exponent != 0) (nodes_[id].is_constant() ? constants : kept).emplace_back(id, exponent);
     if (!kept.empty() && !constants.empty()) {
@@ -236,7 +282,9 @@ int Program::product(const Rational& coefficient, const std::vector<Factor>& fac
     if (kept.empty()) return number(content);
 
     if (kept.size() == 1 && kept[0].second == -1)
-        return scaled(content, intern(Node{.op = Op::product, .args = {kept[0].first}, .exponents = {-1}}));
+        return scaled(
+            content,
+            intern(Node{.op = Op::product, .args = {&kept[0].first, 1}, .exponents = {&kept[0].second, 1}}));
     for (auto& [id, exponent] : kept)
         if (exponent < 0) {  // one division, shared by all quotients with this divisor
             id = product(1, {{id, -1}});
@@ -244,20 +292,21 @@ int Program::product(const Rational& coefficient, const std::vector<Factor>& fac
         }
     std::sort(kept.begin(), kept.end(),
               [&](const Factor& a, const Factor& b) { return before(a.first, b.first); });
-    Node node{.op = Op::product};
+    std::pmr::vector<int> args(&lists), exponents(&lists);
+    args.reserve(kept.size());
+    exponents.reserve(kept.size());
     for (auto [id, exponent] : kept) {
         if (exponent > 3) {  // by repeated squaring, the squares shared
-            const int half = product(1, {{id, exponent / 2}});
-            node.args.push_back(half);
-            node.exponents.push_back(2);
+            args.push_back(product(1, {{id, exponent / 2}}));
+            exponents.push_back(2);
             exponent %= 2;
             if (exponent == 0) continue;
         }
-        node.args.push_back(id);
-        node.exponents.push_back(exponent);
+        args.push_back(id);
+        exponents.push_back(exponent);
     }
-    if (node.args.size() == 1 && node.exponents[0] == 1) return scaled(content, node.args[0]);
-    return scaled(content, intern(std::move(node)));
+    if (args.size() == 1 && exponents[0] == 1) return scaled(content, args[0]);
+    return scaled(content, intern(Node{.op = Op::product, .args = args, .exponents = exponents}));
 }
 
 int Program::power(int base, const Rational& exponent) {
@@ -270,7 +319,7 @@ int Program::power(int base, const Rational& exponent) {
     return call(Op::pow, {base, number(exponent)});
 }
 
-int Program::call(Op op, std::vector<int> args) {
+int Program::call(Op op, std::span<const int> args) {
     const Node& arg = nodes_[args[0]];
     if (args.size() == 1 && arg.is_number()) {
         if (cln::zerop(arg.number)) {
@@ -289,7 +338,7 @@ int Program::call(Op op, std::vector<int> args) {
         const int turned = scaled(-1, args[0]);
         return is_even_function(op) ? call(op, {turned}) : scaled(-1, call(op, {turned}));
     }
-    return intern(Node{.op = op, .args = std::move(args)});
+    return intern(Node{.op = op, .args = args});
 }
 
 std::vector<int> Program::needed(std::span<const int> roots) const {
@@ -359,7 +408,7 @@ Program Program::shell() const {
 
 Program Program::canonical() const {
     Program result = shell();
-    std::vector<int> image(nodes_.size(), -1);
+    std::vector<int> image(nodes_.size(), -1), args;
     std::vector<std::pair<int, std::size_t>> stack;  // a node, and how many of its arguments are done
     for (const Root& root : roots) {
         stack.emplace_back(root.node, 0);
@@ -372,12 +421,15 @@ Program Program::canonical() const {
                 continue;
             }
             if (image[id] < 0) {
-                Node copy = node;
-                copy.size = 1;
-                copy.depends = 0;
-                for (int& arg : copy.args) arg = image[arg];
+                args.clear();
+                for (const int arg : node.args) args.push_back(image[arg]);
                 result.set_sources(node.sources);
-                image[id] = result.intern(std::move(copy));
+                image[id] = result.intern(Node{.op = node.op,
+                                               .variable = node.variable,
+                                               .number = node.number,
+                                               .args = args,
+                                               .coefficients = node.coefficients,
+                                               .exponents = node.exponents});
             }
             stack.pop_back();
         }

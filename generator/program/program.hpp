@@ -19,11 +19,13 @@
 #include <cln/rational.h>
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "program/kept_lists.hpp"
 
 namespace alembert {
 
@@ -68,18 +70,19 @@ struct Variable {
     friend bool operator==(const Variable&, const Variable&) = default;
 };
 
+/// The lists stand in the program, and as long as it does.
 struct Node {
     Op op = Op::number;
     Variable variable{};  ///< set if the node is a variable
     Rational number = 0;  ///< the value of a number, or the constant of a sum
-    std::vector<int> args{};
-    std::vector<Rational> coefficients{};  ///< for a sum, one for each argument
-    std::vector<int> exponents{};  ///< for a product, one for each argument, all positive; or a single −1
-    unsigned depends = 0;          ///< bits 1 << Variable::Kind
-    int lead = 0;                  ///< the position of its first variable, for the order of terms
-    double size = 1;               ///< operations if the node were written out as a tree
-    std::uint64_t hash = 0;        ///< of the contents; the same in every run
-    std::vector<int>
+    std::span<const int> args{};
+    std::span<const Rational> coefficients{};  ///< for a sum, one for each argument
+    std::span<const int> exponents{};  ///< for a product, one for each argument, all positive; or a single −1
+    unsigned depends = 0;              ///< bits 1 << Variable::Kind
+    int lead = 0;                      ///< the position of its first variable, for the order of terms
+    double size = 1;                   ///< operations if the node were written out as a tree
+    std::uint64_t hash = 0;            ///< of the contents; the same in every run
+    std::span<const int>
         sources{};  ///< indices into Program::source_labels: the parts of the mechanism from which it comes
 
     bool is_number() const { return op == Op::number; }
@@ -179,12 +182,19 @@ public:
     int pi();
     int variable(Variable variable);
     /// constant + Σ coefficient·node
-    int sum(const Rational& constant, const std::vector<Term>& terms);
+    int sum(const Rational& constant, std::span<const Term> terms);
+    int sum(const Rational& constant, std::initializer_list<Term> terms) {
+        return sum(constant, std::span(terms));
+    }
     /// coefficient · Π node^exponent
-    int product(const Rational& coefficient, const std::vector<Factor>& factors);
+    int product(const Rational& coefficient, std::span<const Factor> factors);
+    int product(const Rational& coefficient, std::initializer_list<Factor> factors) {
+        return product(coefficient, std::span(factors));
+    }
     /// base^exponent, exactly for a whole or half exponent, otherwise by `pow`.
     int power(int base, const Rational& exponent);
-    int call(Op op, std::vector<int> args);
+    int call(Op op, std::span<const int> args);
+    int call(Op op, std::initializer_list<int> args) { return call(op, std::span(args)); }
 
     const Node& operator[](int node) const { return nodes_[node]; }
     int size() const { return static_cast<int>(nodes_.size()); }
@@ -217,7 +227,10 @@ public:
 
     /// Sets the sources of new nodes from now on (indices into `source_labels`; 0 is the scene as a whole).
     /// Returns the former sources.
-    std::vector<int> set_sources(std::vector<int> sources) { return std::exchange(sources_, std::move(sources)); }
+    std::span<const int> set_sources(std::span<const int> sources);
+    std::span<const int> set_sources(std::initializer_list<int> sources) {
+        return set_sources(std::span(sources));
+    }
 
     std::vector<Root> roots;
     std::vector<std::string> source_labels;
@@ -248,12 +261,17 @@ public:
     [[noreturn]] void refuse_unspecified(const Node& node) const;
 
 private:
-    int intern(Node node);
+    /// The node with these contents, whose lists may stand anywhere.
+    int intern(const Node& contents);
     int scaled(const Rational& coefficient, int node);
 
     std::vector<Node> nodes_;
-    std::unordered_map<std::uint64_t, std::vector<int>> known_;
-    std::vector<int> sources_{0};
+    KnownItems known_;
+    KeptLists<int> integers_;
+    KeptLists<Rational> rationals_;
+    std::vector<std::span<const int>> source_lists_;  ///< each once
+    KnownItems known_sources_;
+    std::span<const int> sources_;  ///< of new nodes
 };
 
 }  // namespace alembert

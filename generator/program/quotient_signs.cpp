@@ -92,7 +92,7 @@ private:
             changed = true;
         }
         if (!changed) return plain;
-        return made().product(content, {exponents.begin(), exponents.end()});
+        return made().product(content, std::vector<Program::Factor>(exponents.begin(), exponents.end()));
     }
 
     const Program& old_;

@@ -33,21 +33,21 @@ public:
             case Op::variable:
                 return made_.variable(node.variable);
             case Op::sum: {
-                std::vector<Program::Term> terms;
+                terms_.clear();
                 for (std::size_t k = 0; k < node.args.size(); ++k)
-                    terms.emplace_back(node.coefficients[k], image_[node.args[k]]);
-                return made_.sum(node.number, terms);
+                    terms_.emplace_back(node.coefficients[k], image_[node.args[k]]);
+                return made_.sum(node.number, terms_);
             }
             case Op::product: {
-                std::vector<Program::Factor> factors;
+                factors_.clear();
                 for (std::size_t k = 0; k < node.args.size(); ++k)
-                    factors.emplace_back(image_[node.args[k]], node.exponents[k]);
-                return made_.product(1, factors);
+                    factors_.emplace_back(image_[node.args[k]], node.exponents[k]);
+                return made_.product(1, factors_);
             }
             default: {
-                std::vector<int> args;
-                for (const int arg : node.args) args.push_back(image_[arg]);
-                return made_.call(node.op, std::move(args));
+                args_.clear();
+                for (const int arg : node.args) args_.push_back(image_[arg]);
+                return made_.call(node.op, args_);
             }
         }
     }
@@ -74,6 +74,9 @@ private:
     const Program& old_;
     Program made_;
     std::vector<int> image_;
+    std::vector<Program::Term> terms_;  // the lists of one copy
+    std::vector<Program::Factor> factors_;
+    std::vector<int> args_;
 };
 
 }  // namespace alembert

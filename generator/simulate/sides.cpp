@@ -105,9 +105,9 @@ namespace {
 
 /// The name of the sign of a reaction on which a friction acts; nothing for signs that the scene has.
 std::optional<std::string> name_of_reaction(const Program& program, int id) {
-    const std::vector<int>& sources = program[id].sources;
+    const std::span<const int> sources = program[id].sources;
     for (const Program::ReactionSign& one : program.reaction_signs)
-        if (sources == std::vector<int>{one.source})
+        if (sources.size() == 1 && sources[0] == one.source)
             return one.is_trial ? say("a trial value of the reaction of friction '{}'", one.friction)
                                 : say("the reaction of friction '{}'", one.friction);
     return std::nullopt;

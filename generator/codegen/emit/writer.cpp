@@ -194,7 +194,7 @@ std::vector<int> Writer::depth_first(const std::vector<int>& roots,
         enter(root);
         while (!stack.empty()) {
             auto& [id, entered] = stack.back();
-            const std::vector<int>& args = program_[id].args;
+            const std::span<const int> args = program_[id].args;
             if (entered < args.size()) {
                 enter(args[entered++]);
                 continue;

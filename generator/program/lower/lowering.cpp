@@ -110,7 +110,7 @@ int Lowering::symbol(const GiNaC::symbol& s) {
     if (const Intermediates::Entry* entry = m_.z->find(s)) {
         // A copy, because the derivative of an input adds entries to the table, which may move it in memory.
         const ex definition = entry->definition;
-        const std::vector<int> former = program_.set_sources(entry->sources);
+        const std::span<const int> former = program_.set_sources(entry->sources);
         const int node = (*this)(definition);
         program_.set_sources(former);
         return node;

@@ -57,7 +57,7 @@ int sign_of_reaction(Program& program, int lambda, const std::string& friction, 
     const auto source = static_cast<int>(program.source_labels.size());
     program.source_labels.push_back(fmt::format("the reaction of friction '{}'", friction));
     program.reaction_signs.push_back({.source = source, .friction = friction, .is_trial = is_trial});
-    const std::vector<int> former = program.set_sources({source});
+    const std::span<const int> former = program.set_sources({source});
     const int sign = program.call(Op::sign, {lambda});
     program.set_sources(former);
     return sign;
