@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <queue>
-#include <set>
 #include <tuple>
 
 namespace alembert {
@@ -134,18 +133,27 @@ public:
         std::vector<Partial> list;
         for (std::size_t k = 0; k < outputs_.size(); ++k)
             for (std::size_t j = 0; j < inputs_.size(); ++j) {
-                auto& edges = before_[static_cast<std::size_t>(first_output_) + k];
-                const auto found = edges.find(inputs_[j]);
-                if (found == edges.end()) continue;
-                const int node = value(found->second);
+                Edges& edges = before_[static_cast<std::size_t>(first_output_) + k];
+                const auto found = place(edges, inputs_[j]);
+                if (found == edges.end() || found->from != inputs_[j]) continue;
+                const int node = value(*found);
                 if (!p_.is_zero(node)) list.push_back({static_cast<int>(k), static_cast<int>(j), node});
             }
         return list;
     }
 
 private:
-    /// The sum of the terms on an edge; it becomes one node as soon as it is read.
-    using Edge = std::vector<Program::Term>;
+    /// The sum of the nodes on an edge; it becomes one node as soon as it is read.
+    struct Edge {
+        int from, node;
+        std::vector<int> others = {};
+    };
+    using Edges = std::vector<Edge>;  ///< in the order of their origins
+
+    static Edges::iterator place(Edges& edges, int from) {
+        return std::lower_bound(edges.begin(), edges.end(), from,
+                                [](const Edge& edge, int id) { return edge.from < id; });
+    }
 
     bool is_input(int id) const { return is_input_[static_cast<std::size_t>(id)] != 0; }
 
@@ -167,13 +175,27 @@ private:
 
     void add(int from, int to, int label) {
         if (p_.is_zero(label)) return;
-        before_[static_cast<std::size_t>(to)][from].emplace_back(1, label);
-        after_[static_cast<std::size_t>(from)].insert(to);
+        join(from, to, label);
+    }
+
+    void join(int from, int to, int label) {
+        Edges& edges = before_[static_cast<std::size_t>(to)];
+        const auto edge = place(edges, from);
+        if (edge != edges.end() && edge->from == from) {
+            edge->others.push_back(label);
+            return;
+        }
+        edges.insert(edge, Edge{.from = from, .node = label});
+        std::vector<int>& after = after_[static_cast<std::size_t>(from)];
+        after.insert(std::lower_bound(after.begin(), after.end(), to), to);
     }
 
     int value(Edge& edge) {
-        if (edge.size() != 1 || !cln::equal(edge[0].first, 1)) edge = {{1, p_.sum(0, edge)}};
-        return edge[0].second;
+        if (edge.others.empty()) return edge.node;
+        std::vector<Program::Term> terms{{1, edge.node}};
+        for (const int node : edge.others) terms.emplace_back(1, node);
+        edge.others.clear();
+        return edge.node = p_.sum(0, terms);
     }
 
     bool eliminate(int v) {
@@ -182,17 +204,19 @@ private:
         left_ -= static_cast<long>(before.size() * after.size());
         if (left_ < 0) return false;
         for (const int i : after) {
-            auto& of_i = before_[static_cast<std::size_t>(i)];
-            const int out = value(of_i[v]);
-            of_i.erase(v);
+            Edges& of_i = before_[static_cast<std::size_t>(i)];
+            const auto edge = place(of_i, v);
+            const int out = value(*edge);
+            of_i.erase(edge);
             if (p_.is_zero(out)) continue;
-            for (auto& [j, edge] : before)
-                if (const int in = value(edge); !p_.is_zero(in)) {
-                    of_i[j].emplace_back(1, p_.product(1, {{out, 1}, {in, 1}}));
-                    after_[static_cast<std::size_t>(j)].insert(i);
-                }
+            for (Edge& first : before)
+                if (const int in = value(first); !p_.is_zero(in))
+                    join(first.from, i, p_.product(1, {{out, 1}, {in, 1}}));
         }
-        for (const auto& [j, edge] : before) after_[static_cast<std::size_t>(j)].erase(v);
+        for (const Edge& edge : before) {
+            std::vector<int>& others = after_[static_cast<std::size_t>(edge.from)];
+            others.erase(std::lower_bound(others.begin(), others.end(), v));
+        }
         before.clear();
         after.clear();
         return true;
@@ -219,7 +243,7 @@ private:
             if (!is_left[static_cast<std::size_t>(v)] || count != known[static_cast<std::size_t>(v)]) continue;
             std::vector<int> neighbours(after_[static_cast<std::size_t>(v)].begin(),
                                         after_[static_cast<std::size_t>(v)].end());
-            for (const auto& [j, edge] : before_[static_cast<std::size_t>(v)]) neighbours.push_back(j);
+            for (const Edge& edge : before_[static_cast<std::size_t>(v)]) neighbours.push_back(edge.from);
             is_left[static_cast<std::size_t>(v)] = 0;
             if (!eliminate(v)) return false;
             for (const int w : neighbours)
@@ -232,8 +256,8 @@ private:
     Program& p_;
     std::span<const int> outputs_, inputs_;
     std::vector<char> is_input_;
-    std::vector<std::map<int, Edge>> before_;  ///< for each vertex, the origins of its edges
-    std::vector<std::set<int>> after_;
+    std::vector<Edges> before_;            ///< for each vertex, the edges that end there
+    std::vector<std::vector<int>> after_;  ///< likewise, the ends of those that begin there, in order
     std::vector<int> inner_;
     int first_output_ = 0;
     long left_ = 0;
