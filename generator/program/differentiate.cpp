@@ -358,22 +358,28 @@ std::optional<Matrix> jacobian_by(const Route& route, Differentiation& d, const 
 
 std::optional<Differentiated> differentiated(const Program& program, const DerivativeWishes& wishes) {
     if (program.singular) return std::nullopt;
-    std::optional<Route> best;
+    struct Trial {
+        Route route;
+        Differentiation program;
+        Matrix jacobian;
+    };
+    std::optional<Trial> best;
     Operations fewest;
     for (const Route& route : candidates(program, wishes)) {
         Differentiation trial = begun(route, program, wishes);
-        const auto jacobian = jacobian_by(route, trial, trial.state());
+        auto jacobian = jacobian_by(route, trial, trial.state());
         if (!jacobian) continue;
         const Operations cost = trial.cost(*jacobian);
-        if (!best || cost.total() < fewest.total()) best = route, fewest = cost;
+        if (best && cost.total() >= fewest.total()) continue;
+        best.emplace(Trial{route, std::move(trial), *std::move(jacobian)});
+        fewest = cost;
     }
     if (!best) return std::nullopt;
 
-    Differentiation chosen = begun(*best, program, wishes);
-    const Matrix jacobian = *jacobian_by(*best, chosen, chosen.state());
+    auto& [route, chosen, jacobian] = *best;
     chosen.keep(Group::jacobian, "J", jacobian);
     if (wishes.parameters && !program.parameters.empty()) {
-        const auto by_parameters = jacobian_by(*best, chosen, chosen.parameters());
+        const auto by_parameters = jacobian_by(route, chosen, chosen.parameters());
         if (!by_parameters) return std::nullopt;
         chosen.keep(Group::parameter_jacobian, "P", *by_parameters);
     }
@@ -387,7 +393,7 @@ std::optional<Differentiated> differentiated(const Program& program, const Deriv
         if (!gradient) return std::nullopt;
         chosen.keep(Group::value_gradient, "G", *gradient);
     }
-    return Differentiated{.program = std::move(chosen).finished(), .operations = fewest, .route = best->name};
+    return Differentiated{.program = std::move(chosen).finished(), .operations = fewest, .route = route.name};
 }
 
 }  // namespace alembert

@@ -69,10 +69,11 @@ void need_gravity_of_its_own(const Mechanism& m, const std::string& name) {
 }
 
 /// The program with the fewest operations.
-Program with_fewest_operations(const std::vector<Program>& forms) {
-    const auto cost = [](const Program& p) { return p.count(p.nodes_of(Group::function)).total(); };
-    return *std::min_element(forms.begin(), forms.end(),
-                             [&](const Program& a, const Program& b) { return cost(a) < cost(b); });
+Program with_fewest_operations(std::vector<Program> forms) {
+    std::vector<int> costs;
+    for (const Program& p : forms) costs.push_back(p.count(p.nodes_of(Group::function)).total());
+    return std::move(
+        forms[static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin())]);
 }
 
 /// The values alone of those programs that may have the fewest operations when they are cleaned, which takes most
@@ -214,7 +215,7 @@ FunctionProgram RobotFunctions::dynamics(const std::string& name) const {
     } else if (n <= most_by_lagrange || forms.empty()) {
         forms.push_back(from_lagrange(name));
     }
-    result.program = with_fewest_operations(forms);
+    result.program = with_fewest_operations(std::move(forms));
     return result;
 }
 
@@ -235,7 +236,7 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
             values[static_cast<std::size_t>(partial.output * 2 * n + partial.input)] = partial.node;
         found_values.emplace_back(std::move(program), std::move(values));
     }
-    const std::vector<Program> forms = cleaned(std::move(found_values));
+    std::vector<Program> forms = cleaned(std::move(found_values));
     if (forms.empty())
         throw ModelError(
             say("the derivatives of inverse dynamics are too long to be written out; leave "
@@ -244,7 +245,7 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
             .about = "d tau / d q, then d tau / d q', of inverse dynamics; d tau / d q'' is M.",
             .rows = n,
             .columns = 2 * n,
-            .program = with_fewest_operations(forms)};
+            .program = with_fewest_operations(std::move(forms))};
 }
 
 FunctionProgram RobotFunctions::mass_inverse() const {
@@ -311,7 +312,7 @@ std::optional<Program> RobotFunctions::christoffel() const {
         forms.push_back(with_values_only(std::move(program), values));
     }
     if (forms.empty()) return std::nullopt;
-    return with_fewest_operations(forms);
+    return with_fewest_operations(std::move(forms));
 }
 
 // The velocity terms c_i = Σ Γ_ijk q'_j q'_k have ∂c_i/∂q'_j = 2 Σ_k Γ_ijk q'_k, if nothing but the state moves
@@ -334,7 +335,7 @@ std::optional<Program> RobotFunctions::half_of_bias_by_rates(LinkAxes axes) cons
         forms.push_back(with_values_only(std::move(program), *values));
     }
     if (forms.empty()) return std::nullopt;
-    return with_fewest_operations(forms);
+    return with_fewest_operations(std::move(forms));
 }
 
 FunctionProgram RobotFunctions::coriolis() const {
@@ -356,7 +357,7 @@ FunctionProgram RobotFunctions::coriolis() const {
             .about = "C(q, q') by Christoffel's symbols: M' - 2 C is skew, and C q' are the velocity terms.",
             .rows = m_.size(),
             .columns = m_.size(),
-            .program = with_fewest_operations(forms)};
+            .program = with_fewest_operations(std::move(forms))};
 }
 
 }  // namespace alembert
