@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <functional>
 
 #include "alembert/base/dense.hpp"
 #include "base/language/say.hpp"
@@ -473,11 +474,28 @@ private:
     Lowering lowering_, acting_alone_;
 };
 
+/// Whether `z` begins with the symbols of the equations and knows those of the energy, so that it is the table
+/// that `in_terms_of` would make. To make it takes longer than to lower a form of a large system.
+bool is_in_terms_of(const Intermediates& z, const Intermediates& equations, const Intermediates& energy) {
+    const auto begins_with = [](const auto& list, const auto& first, const auto& same) {
+        return list.size() >= first.size() && std::equal(first.begin(), first.end(), list.begin(), same);
+    };
+    using Entry = Intermediates::Entry;
+    const std::vector<Entry>& others = energy.entries();
+    return begins_with(z.entries(), equations.entries(),
+                       [](const Entry& a, const Entry& b) { return a.symbol.is_equal(b.symbol); }) &&
+           begins_with(z.source_labels(), equations.source_labels(), std::equal_to<>()) &&
+           std::all_of(others.begin(), others.end(),
+                       [&](const Entry& entry) { return z.find(entry.symbol) != nullptr; });
+}
+
 }  // namespace
 
 Program lower(const Mechanism& mechanism, const Equations& equations, const Energy& energy,
               const LowerOptions& options) {
-    const Mechanism m = in_terms_of(energy, in_terms_of(equations, mechanism));
+    const Mechanism m = is_in_terms_of(*mechanism.z, *equations.z, *energy.z)
+                            ? with_own_intermediates(mechanism)
+                            : in_terms_of(energy, in_terms_of(equations, mechanism));
     return EquationsLowering(m, equations, energy, options).run();
 }
 
