@@ -198,7 +198,7 @@ std::vector<EmittedFunction> prepare(const Program& program, const Vocabulary& w
         last.statements.push_back(
             writer.assigned("par", fmt::format("par[{}]", words.par().size() + k), words.constants()[k]));
     passages.push_back(std::move(last));
-    std::map<int, int> uses;
+    NodeMap<int> uses;
     for (const auto& [id, count] : writer.uses())
         if (program[id].op == Op::variable) uses[id] = count;
     return {{.name = "prepare",

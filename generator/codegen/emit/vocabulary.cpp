@@ -100,7 +100,7 @@ std::map<int, std::string> Vocabulary::leaves() const {
     return leaves;
 }
 
-std::vector<ArrayInput> Vocabulary::inputs(const std::map<int, int>& uses, bool rates_needed) const {
+std::vector<ArrayInput> Vocabulary::inputs(const NodeMap<int>& uses, bool rates_needed) const {
     std::vector<char> q(q_.size(), 0), u(u_.size(), rates_needed ? 1 : 0), a(a_.size(), 0), par(par_.size(), 0);
     std::set<int> direction;
     for (const auto& [id, count] : uses) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "codegen/emit/names.hpp"
+#include "program/node_map.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
@@ -34,7 +35,7 @@ public:
     /// The names of variables only, for the function that computes the constants.
     std::map<int, std::string> variables() const;
     /// The variables and constants among the used nodes; with `rates_needed` also all speeds.
-    std::vector<ArrayInput> inputs(const std::map<int, int>& uses, bool rates_needed) const;
+    std::vector<ArrayInput> inputs(const NodeMap<int>& uses, bool rates_needed) const;
 
     const Names& names() const { return names_; }  ///< in which all of the following are taken
     const std::vector<std::string>& q() const { return q_; }

@@ -50,7 +50,7 @@ void Writer::count_uses(const std::vector<Goal>& goals) {
 }
 
 /// Nodes inside a long statement get statements of their own, the longest first, until the rest fits on a line.
-void Writer::shorten(int id, std::map<int, int>& length) {
+void Writer::shorten(int id, NodeMap<int>& length) {
     const Node& node = program_[id];
     int& operations = length[id];
     for (const int arg : node.args) operations += 1 + (wanted_.contains(arg) ? 0 : length[arg]);
@@ -66,7 +66,7 @@ void Writer::shorten(int id, std::map<int, int>& length) {
 }
 
 void Writer::choose_statements(const std::vector<Goal>& goals) {
-    std::map<int, int> length;  // operations that are written in place, by node
+    NodeMap<int> length;  // operations that are written in place, by node
     for (const auto& [id, count] : uses_) {
         if (is_simple(id)) continue;
         shorten(id, length);
@@ -92,7 +92,7 @@ void Writer::choose_statements(const std::vector<Goal>& goals) {
         if (wish.empty()) wish = goal.name;
         if (goal.own_name) promised_.emplace(goal.node, goal.name);
     }
-    std::erase_if(wanted_negatives_, [&](const auto& item) { return !wanted_.at(item.first).empty(); });
+    std::erase_if(wanted_negatives_, [&](const auto& item) { return !wanted_[item.first].empty(); });
 }
 
 std::vector<Passage> Writer::write(const std::vector<Goal>& goals) {
@@ -117,7 +117,7 @@ std::vector<Passage> Writer::write(const std::vector<Goal>& goals) {
 Writer::Sections Writer::sections_of(const std::vector<Goal>& goals) const {
     Sections sections{.titles = {"Trigonometry", "Shared terms"}, .place = {}};
     auto& [titles, place] = sections;
-    std::map<int, unsigned> needed_by;  // one bit for each of the goals' sections, in their order
+    NodeMap<unsigned> needed_by;  // one bit for each of the goals' sections, in their order
     std::map<std::string, std::vector<int>> roots_of;
     for (const Goal& goal : goals) {
         if (std::find(titles.begin(), titles.end(), goal.section) == titles.end()) titles.push_back(goal.section);
@@ -141,10 +141,11 @@ Writer::Sections Writer::sections_of(const std::vector<Goal>& goals) const {
     for (std::size_t s = 2; s < titles.size(); ++s)
         for (const int id : roots_of[titles[s]])
             if (place[id] != 0) place[id] = s;
-    for (auto user = place.rbegin(); user != place.rend(); ++user)
-        for (const int arg : program_[user->first].args)
-            if (const auto it = place.find(arg); it != place.end())
-                it->second = std::min(it->second, user->second);
+    for (int id = program_.size() - 1; id >= 0; --id)
+        if (const auto user = place.find(id); user != place.end())
+            for (const int arg : program_[id].args)
+                if (const auto it = place.find(arg); it != place.end())
+                    it->second = std::min(it->second, user->second);
     return sections;
 }
 
@@ -231,7 +232,7 @@ void Writer::add_notes(std::vector<Passage>& passages, const std::vector<Goal>& 
 
 /// Orders statements for the registers; each includes the nodes that are written in place.
 std::vector<int> Writer::in_registers(const std::vector<int>& nodes) const {
-    std::map<int, int> position;
+    NodeMap<int> position;
     for (std::size_t k = 0; k < nodes.size(); ++k) position.emplace(nodes[k], static_cast<int>(k));
     std::vector<Computation> statements;
     for (const int id : nodes) {

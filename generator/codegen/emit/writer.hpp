@@ -20,6 +20,7 @@
 
 #include "codegen/emit/names.hpp"
 #include "codegen/emit/statement.hpp"
+#include "program/node_map.hpp"
 #include "program/program.hpp"
 #include "program/readiness.hpp"
 
@@ -35,12 +36,12 @@ public:
     /// `adds_angles`, sin(a + b) is computed from the sines and cosines of a and b if these exist. That takes two
     /// operations instead of 30 and is accurate to an ulp of 1, but is less like a book. More than `longest_whole`
     /// statements will be divided into parts, and are ordered so that few values pass from one part to another.
-    Writer(const Program& program, Names names, std::map<int, std::string> leaves, bool adds_angles = false,
+    Writer(const Program& program, Names names, const std::map<int, std::string>& leaves, bool adds_angles = false,
            CodeLanguage language = CodeLanguage::cpp,
            std::size_t longest_whole = std::numeric_limits<std::size_t>::max())
         : program_(program),
           names_(std::move(names)),
-          named_(std::move(leaves)),
+          named_(leaves),
           adds_angles_(adds_angles),
           language_(language),
           longest_whole_(longest_whole) {}
@@ -53,7 +54,7 @@ public:
     CodeStatement assigned(const std::string& array, const std::string& to, int node);
     /// After `write`: an expression for a goal's value, and the leaves that were used.
     std::string value(int node) { return text(node, additive); }
-    const std::map<int, int>& uses() const { return uses_; }
+    const NodeMap<int>& uses() const { return uses_; }
 
 private:
     enum Precedence { additive = 0, multiplicative = 1, primary = 2 };
@@ -63,7 +64,7 @@ private:
     };
     struct Sections {
         std::vector<std::string> titles;
-        std::map<int, std::size_t> place;  ///< the section of each node that the goals use
+        NodeMap<std::size_t> place;  ///< the section of each node that the goals use
         /// Arguments of leaves belong to the first section, like sines.
         std::size_t of(int node) const {
             const auto found = place.find(node);
@@ -75,7 +76,7 @@ private:
     bool is_simple(int node) const;
     void count_uses(const std::vector<Goal>& goals);
     void choose_statements(const std::vector<Goal>& goals);
-    void shorten(int node, std::map<int, int>& length);
+    void shorten(int node, NodeMap<int>& length);
     Sections sections_of(const std::vector<Goal>& goals) const;
     std::vector<Passage> in_sections(const Sections& sections);
     std::vector<Passage> in_order_of_time(const Sections& sections, const std::vector<int>& nodes);
@@ -102,11 +103,11 @@ private:
     const Program& program_;
     std::optional<Readiness> ready_;  // set in `write`
     Names names_;
-    std::map<int, std::string> named_;
-    std::map<int, std::string> negatives_;  // for nodes whose negative has a name, that name
-    std::map<int, std::string> leaves_;
-    std::map<int, int> uses_;              // how often a needed node is used
-    std::map<int, std::string> wanted_;    // nodes that get a statement, and the name they ask for ("" for any)
+    NodeMap<std::string> named_;
+    NodeMap<std::string> negatives_;  // for nodes whose negative has a name, that name
+    NodeMap<std::string> leaves_;
+    NodeMap<int> uses_;                    // how often a needed node is used
+    NodeMap<std::string> wanted_;          // nodes that get a statement, and the name they ask for ("" for any)
     std::map<int, std::string> promised_;  // names that are reserved for these nodes
     std::map<int, std::string> wanted_negatives_;  // nodes of which the negative is written, and the name of that
     // Names for an argument and its sine and cosine.

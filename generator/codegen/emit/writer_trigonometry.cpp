@@ -11,7 +11,7 @@
 namespace alembert {
 
 std::vector<CodeStatement> Writer::trigonometry(const std::vector<int>& nodes) {
-    std::map<int, int> depth;  // the nesting depth of sines in a node
+    NodeMap<int> depth;  // the nesting depth of sines in a node
     int deepest = 0;
     for (const auto& [id, count] : uses_) {
         if (is_leaf(id)) continue;
