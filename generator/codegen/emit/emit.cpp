@@ -62,6 +62,18 @@ std::vector<std::string> texts(const std::vector<int>& numbers) {
     return result;
 }
 
+/// The task as a call of a function that has one more result, which is left.
+EmittedFunction calling(const FunctionTask& task, const std::string& function, const std::string& left,
+                        std::size_t size) {
+    EmittedFunction result{.name = task.name, .about = task.about, .arguments = ""};
+    for (const FunctionArgument& a : task.arguments)
+        result.arguments += (result.arguments.empty() ? "" : ", ") + typed(CodeLanguage::c, a);
+    result.passages = {{.title = "Together",
+                        .statements = {{.text = fmt::format("Real {}[{}];", left, size)},
+                                       {.text = fmt::format("{}(t, state, par, rate, lambda);", function)}}}};
+    return result;
+}
+
 class SolverFile {
 public:
     SolverFile(const Program& program, const EmitOptions& options)
@@ -110,14 +122,47 @@ private:
 
     void add_functions() {
         add(prepare(p_, words_, options_.language), "prepare");
-        add(right_hand_side(p_, words_));
+        const FunctionTask rates = right_hand_side(p_, words_), multipliers = multipliers_at(p_);
+        const bool together = options_.shares_multipliers && is_shared(rates, multipliers);
+        if (together)
+            add_together(rates, multipliers);
+        else
+            add(rates);
         for (const FunctionTask& task :
-             {mass_forcing(p_), energy(p_), outputs_at(p_), events_at(p_), constraints_at(p_), multipliers_at(p_)})
+             {mass_forcing(p_), energy(p_), outputs_at(p_), events_at(p_), constraints_at(p_)})
             add(task);
+        if (!together) add(multipliers);
         add(impulses_at(p_));
         add(project(p_));
         add(gamma_at(p_));
         file_.set("has_projection", has_projection(p_));
+    }
+
+    /// Whether rates are long, and multipliers are found on the way to them.
+    bool is_shared(const FunctionTask& rates, const FunctionTask& multipliers) const {
+        std::vector<int> nodes;
+        for (const FunctionResult& result : rates.results) nodes.push_back(result.node);
+        const int alone = p_.count(nodes).total();
+        for (const FunctionResult& result : multipliers.results) nodes.push_back(result.node);
+        return !multipliers.results.empty() && alone > static_cast<int>(options_.longest_function) &&
+               p_.count(nodes).total() <= alone + static_cast<int>(multipliers.results.size());
+    }
+
+    /// One function for both results, and two that call it.
+    void add_together(const FunctionTask& rates, const FunctionTask& multipliers) {
+        FunctionTask both = rates;
+        both.name = "rates_and_multipliers";
+        both.arguments.push_back(multipliers.arguments.back());
+        both.goals.insert(both.goals.end(), multipliers.goals.begin(), multipliers.goals.end());
+        both.results.insert(both.results.end(), multipliers.results.begin(), multipliers.results.end());
+        std::vector<EmittedFunction> list = written(p_, words_, both, options_);
+        list.back().is_part = true;
+        for (const EmittedFunction& function : list) functions_ << data_of(function);
+        add({calling(rates, both.name, multipliers.arguments.back().name, multipliers.results.size())},
+            rates.name);
+        add({calling(multipliers, both.name, rates.arguments.back().name,
+                     rates.results.size() + rates.copies.size())},
+            multipliers.name);
     }
 
     void add_derivatives() {
@@ -232,6 +277,8 @@ Source emit(const Program& program, const EmitOptions& options) {
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
     if (options.batch && options.language != CodeLanguage::cpp)
         throw ModelError("functions over eight systems at once are written in C++ alone");
+    if (options.shares_multipliers && options.language != CodeLanguage::c)
+        throw ModelError("rates and multipliers are written together in C alone");
     return SolverFile(program, options).source();
 }
 

@@ -38,11 +38,15 @@ struct EmitOptions {
     std::vector<NamedFunction> functions = {};  ///< functions of their own, whose nodes are in the program
     std::size_t longest_function =
         processor::longest_function;  ///< in statements; a longer function is written in parts (parts.hpp)
-    double t = 0;                     ///< of the calling example at the head of the file, in s
-    std::vector<double> state = {};   ///< likewise: (q, q') or (q, u); zeros if empty
+    /// Whether long statements that rates and multipliers need are written once, for both, which a compiler reads
+    /// in half the time; rates then come with the multipliers.
+    bool shares_multipliers = false;
+    double t = 0;                    ///< of the calling example at the head of the file, in s
+    std::vector<double> state = {};  ///< likewise: (q, q') or (q, u); zeros if empty
 };
 
-/// Throws ModelError if the program has no accelerations (a singular system), and for packs in C or JavaScript.
+/// Throws ModelError if the program has no accelerations (a singular system), for packs in C or JavaScript, and
+/// for shared multipliers in another language than C.
 Source emit(const Program& program, const EmitOptions& options = {});
 
 }  // namespace alembert

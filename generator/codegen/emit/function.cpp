@@ -14,14 +14,13 @@
 
 namespace alembert {
 
-namespace {
-
-/// Numbers are passed by reference in C++, where Real may be a pack of eight; JavaScript names no types.
 std::string typed(CodeLanguage language, const FunctionArgument& argument) {
     if (language == CodeLanguage::javascript) return argument.name;
     return (language == CodeLanguage::c && argument.type == "const Real&" ? "Real" : argument.type) + " " +
            argument.name;
 }
+
+namespace {
 
 /// Several declarations in a line; different arrays on separate lines.
 std::vector<std::string> unpacked(const std::vector<ArrayInput>& items, CodeLanguage language) {

@@ -52,6 +52,10 @@ struct EmittedFunction {
     bool is_part = false;
 };
 
+/// "const Real* state": numbers are passed by reference in C++, where Real may be a pack of eight; JavaScript
+/// names no types.
+std::string typed(CodeLanguage language, const FunctionArgument& argument);
+
 /// The functions; none if there is nothing to compute.
 std::vector<EmittedFunction> written(const Program& program, const Vocabulary& words, const FunctionTask& task,
                                      const EmitOptions& options);

@@ -45,7 +45,8 @@ FunctionalUnit functional_unit(Scene scene, const FunctionalUnitOptions& options
     unit.version = options.version;
     unit.platform = options.version == 2 ? folder_2 : folder_3;
     const Source equations =
-        emit(unit.program, {.language = CodeLanguage::c, .longest_function = longest_function});
+        emit(unit.program,
+             {.language = CodeLanguage::c, .longest_function = longest_function, .shares_multipliers = true});
     unit.name = equations.file.substr(0, equations.file.size() - 2);
     unit.variables = unit_variables(unit);
     Fingerprint print;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -35,6 +36,8 @@ namespace fs = std::filesystem;
 /// are left out that take a third of the time if a function has thousands of statements, and that do not change
 /// the code.
 constexpr std::size_t long_source = 60'000, large_source = 200'000;
+constexpr std::array quick_flags{"-fno-tree-dse", "-fno-dse", "-fno-gcse",
+                                 "--param=lra-max-considered-reload-pseudos=10"};
 
 constexpr std::size_t digits = 32;  ///< digits of the fingerprint at the end of every object in the cache
 
@@ -99,7 +102,12 @@ std::string processor() {
     return text;
 }
 
-std::vector<std::string> compiler_flags(std::size_t source_size, bool is_clang, const CompileOptions& options) {
+bool is_clang(const std::vector<std::string>& command) {
+    return std::any_of(command.begin(), command.end(),
+                       [](const std::string& word) { return word.find("clang") != std::string::npos; });
+}
+
+std::vector<std::string> compiler_flags(std::size_t source_size, bool by_clang, const CompileOptions& options) {
     std::vector<std::string> flags = {"-std=c++20",      "-shared",
                                       "-fPIC",           source_size > large_source ? "-O1" : "-O2",
                                       "-march=native",   "-ffp-contract=fast",
@@ -110,10 +118,7 @@ std::vector<std::string> compiler_flags(std::size_t source_size, bool is_clang, 
     flags.emplace_back("-fno-tree-slp-vectorize");
     // At -O1 g++ leaves out vzeroupper: the host's own SSE code would then run many times slower after a call.
     if (source_size > large_source) flags.emplace_back("-fexpensive-optimizations");
-    if (source_size > long_source && !is_clang)
-        for (const char* flag :
-             {"-fno-tree-dse", "-fno-dse", "-fno-gcse", "--param=lra-max-considered-reload-pseudos=10"})
-            flags.emplace_back(flag);
+    if (source_size > long_source && !by_clang) flags.insert(flags.end(), quick_flags.begin(), quick_flags.end());
     if (options.fast_math)
         for (const char* flag :
              {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math", "-DALEMBERT_REASSOCIATES"})
@@ -296,10 +301,7 @@ Compiled compile(const std::string& source_text, const std::string& name, const 
     Fingerprint key;
     key.add(source_text);
     key.add(identity(command));
-    const bool is_clang = std::any_of(command.begin(), command.end(), [](const std::string& word) {
-        return word.find("clang") != std::string::npos;
-    });
-    const std::vector<std::string> flags = compiler_flags(source_text.size(), is_clang, options);
+    const std::vector<std::string> flags = compiler_flags(source_text.size(), is_clang(command), options);
     for (const std::string& flag : flags) key.add(flag);
     key.add(std::to_string(abi_version));
     key.add(processor());
@@ -360,6 +362,8 @@ std::string shared_object(const std::vector<CSource>& files, const CompileOption
                              "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden",
                              "-nostdlib", "-s", "-Wl,--build-id=none", "-pipe"})
         command.emplace_back(flag);
+    if (size > long_source && !is_clang(command))
+        command.insert(command.end(), quick_flags.begin(), quick_flags.end());
     command.push_back("-ffile-prefix-map=" + there + "=.");
     for (const CSource& file : files) {
         const fs::path path = folder.path() / file.name;
