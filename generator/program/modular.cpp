@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "program/modular_angle.hpp"
 
@@ -29,6 +30,54 @@ public:
         }
         // The random points stand for the angles divided by all their odd denominators.
         for (const int id : order_) values.degree[id] *= denominators_;
+        return true;
+    }
+
+    /// Prepares `run_again` for these variables, of which there are at most 16.
+    void let_change(const std::vector<Variable>& variables) {
+        depends_.assign(values.value.size(), 0);
+        std::vector<unsigned> reaches(values.value.size(), 0);  // likewise, in whatever way
+        for (const int id : order_) {
+            const Node& node = program_[id];
+            for (const int a : node.args) {
+                depends_[id] |= depends_[a];
+                reaches[id] |= reaches[a];
+            }
+            for (std::size_t k = 0; k < variables.size(); ++k)
+                if (node.op == Op::variable && node.variable == variables[k]) {
+                    depends_[id] |= by_value(k);
+                    reaches[id] |= by_turn(k);
+                }
+            switch (node.op) {
+                case Op::sin:
+                case Op::cos:
+                case Op::tan:
+                case Op::exp:
+                case Op::sinh:
+                case Op::cosh:
+                case Op::tanh:
+                    depends_[id] |= reaches[id];
+                    break;
+                default:
+                    break;
+            }
+        }
+    }
+    static unsigned by_value(std::size_t k) { return 1U << k; }
+    static unsigned by_turn(std::size_t k) { return 1U << (k + 16); }
+
+    /// After `run`, at a point that differs in these values and turns alone.
+    bool run_again(const ModularPoint& point, unsigned changes) {
+        point_ = &point;
+        values.rooted.clear();
+        std::erase_if(sums_, [&](const auto& sum) { return (depends_[sum.first] & changes) != 0; });
+        for (const int id : order_) {
+            if ((depends_[id] & changes) == 0) continue;
+            values.degree[id] = 0;
+            const std::optional<Prime> value = of(id);
+            if (!value) return false;
+            values.value[id] = *value;
+        }
         return true;
     }
 
@@ -354,6 +403,7 @@ private:
     Prime pi_;
     std::vector<cln::cl_I> rooted_rests_;  ///< large numbers of which roots were taken
     std::vector<char> fraction_;
+    std::vector<unsigned> depends_;  ///< for each node, on which changes its value depends
     std::map<int, ModularAngle> sums_;
     cln::cl_I known_denominators_ = 1;
     double denominators_ = 1;
@@ -366,13 +416,40 @@ std::optional<ModularValues> evaluate_mod(const Program& program, const ModularP
     return std::move(evaluation.values);
 }
 
-ModularFunction::ModularFunction(const Program& program, std::vector<int> roots)
-    : roots_(std::move(roots)), evaluation_(std::make_unique<ModularEvaluation>(program, roots_)) {}
+ModularFunction::ModularFunction(const Program& program, std::vector<int> roots, std::vector<Variable> changing)
+    : roots_(std::move(roots)), evaluation_(std::make_unique<ModularEvaluation>(program, roots_)) {
+    evaluation_->let_change(changing);
+    for (const Variable& variable : changing) changing_.push_back({.variable = variable});
+}
 
 ModularFunction::~ModularFunction() = default;
 
+/// The bits of what is other than at the point before.
+unsigned ModularFunction::changes(const ModularPoint& point) {
+    unsigned result = 0;
+    for (std::size_t k = 0; k < changing_.size(); ++k) {
+        Former& former = changing_[k];
+        const Prime value = point.variable(former.variable);
+        const auto found = point.given_angles.find(value);
+        const auto turn = found == point.given_angles.end() ? std::nullopt : std::optional(found->second);
+        const auto same = [](const PrimeTurn& a, const PrimeTurn& b) { return a.cos == b.cos && a.sin == b.sin; };
+        const bool is_same_turn = turn && former.turn ? same(*turn, *former.turn) : !turn && !former.turn;
+        if (value != former.value) result |= ModularEvaluation::by_value(k);
+        if (value != former.value || !is_same_turn) result |= ModularEvaluation::by_turn(k);
+        former.value = value;
+        former.turn = turn;
+    }
+    return result;
+}
+
 std::optional<std::vector<Prime>> ModularFunction::operator()(const ModularPoint& point) {
-    if (!evaluation_->run(point)) return std::nullopt;
+    const unsigned changed = changes(point);
+    const bool was_known = std::exchange(is_known_, true);
+    if (!(was_known ? evaluation_->run_again(point, changed) : evaluation_->run(point))) {
+        is_known_ = was_known;
+        for (Former& former : changing_) former.value.reset();  // all that changes is made again
+        return std::nullopt;
+    }
     std::vector<Prime> result;
     for (const int root : roots_) result.push_back(evaluation_->values.value[root]);
     return result;

@@ -101,11 +101,11 @@ std::optional<ModularValues> evaluate_mod(const Program& program, const ModularP
 
 class ModularEvaluation;
 
-/// The same values of a few roots at many points; what does not depend on the point is made once. The program must
-/// outlive it.
+/// The same values of a few roots at many points, which differ in the values or in the turns of `changing`
+/// variables alone: what does not depend on these is made once. The program must outlive it.
 class ModularFunction {
 public:
-    ModularFunction(const Program& program, std::vector<int> roots);
+    ModularFunction(const Program& program, std::vector<int> roots, std::vector<Variable> changing);
     ~ModularFunction();
     ModularFunction(const ModularFunction&) = delete;
     ModularFunction& operator=(const ModularFunction&) = delete;
@@ -113,8 +113,18 @@ public:
     std::optional<std::vector<Prime>> operator()(const ModularPoint& point);
 
 private:
+    unsigned changes(const ModularPoint& point);
+
+    /// What a changing variable was at the point before.
+    struct Former {
+        Variable variable;
+        std::optional<Prime> value = {};
+        std::optional<PrimeTurn> turn = {};
+    };
     std::vector<int> roots_;
     std::unique_ptr<ModularEvaluation> evaluation_;
+    std::vector<Former> changing_;
+    bool is_known_ = false;  ///< whether all that does not change has its value
 };
 
 }  // namespace alembert

@@ -110,6 +110,24 @@ Number raised(const Number& base, std::size_t exponent) {
     return result;
 }
 
+/// The inverses of numbers of which none is zero, by one inverse of their product: an inverse modulo a prime takes
+/// as long as 70 products (Montgomery 1987, §10.3.1).
+template <typename Number>
+void invert(std::vector<Number>& numbers) {
+    std::vector<Number> before;  // the product of those before each
+    Number product(1);
+    for (const Number& x : numbers) {
+        before.push_back(product);
+        product = product * x;
+    }
+    Number rest = inverse(product);
+    for (std::size_t k = numbers.size(); k-- > 0;) {
+        const Number own = numbers[k];
+        numbers[k] = rest * before[k];
+        rest = rest * own;
+    }
+}
+
 }  // namespace univariate
 
 template <typename Number>
@@ -119,20 +137,40 @@ Number value_at(const Univariate<Number>& f, const Number& x) {
     return result;
 }
 
-/// The polynomial through all points (x_k, y_k), by Newton's divided differences; all x must be different.
+/// Polynomials through values at points that are all different, by Newton's divided differences:
+///
+///     const Interpolation<Prime> through(x);
+///     through(y)       // for several y
+template <typename Number>
+class Interpolation {
+public:
+    explicit Interpolation(std::vector<Number> x) : x_(std::move(x)) {
+        for (std::size_t order = 1; order < x_.size(); ++order)
+            for (std::size_t k = x_.size() - 1; k >= order; --k) over_.push_back(x_[k] - x_[k - order]);
+        univariate::invert(over_);
+    }
+
+    Univariate<Number> operator()(std::vector<Number> y) const {
+        auto over = over_.begin();
+        for (std::size_t order = 1; order < x_.size(); ++order)
+            for (std::size_t k = x_.size() - 1; k >= order; --k) y[k] = (y[k] - y[k - 1]) * *over++;
+        Univariate<Number> result(x_.size(), Number(0));
+        for (std::size_t k = x_.size(), length = 0; k-- > 0; ++length) {
+            for (std::size_t i = length; i > 0; --i) result[i] = result[i - 1] - x_[k] * result[i];
+            result[0] = y[k] - x_[k] * result[0];
+        }
+        univariate::trim(result);
+        return result;
+    }
+
+private:
+    std::vector<Number> x_;
+    std::vector<Number> over_;  ///< inverses of differences, in the order in which they are needed
+};
+
 template <typename Number>
 Univariate<Number> interpolate(const std::vector<Number>& x, std::vector<Number> y) {
-    for (std::size_t order = 1; order < x.size(); ++order)
-        for (std::size_t k = x.size() - 1; k >= order; --k)
-            y[k] = (y[k] - y[k - 1]) * univariate::inverse(Number(x[k] - x[k - order]));
-    Univariate<Number> result;
-    for (std::size_t k = x.size(); k-- > 0;) {
-        result.insert(result.begin(), Number(0));
-        for (std::size_t i = 0; i + 1 < result.size(); ++i) result[i] = result[i] - x[k] * result[i + 1];
-        result[0] = result[0] + y[k];
-    }
-    univariate::trim(result);
-    return result;
+    return Interpolation<Number>(x)(std::move(y));
 }
 
 /// Zero if and only if f and g have a common root, or one of them is zero (von zur Gathen & Gerhard, Modern

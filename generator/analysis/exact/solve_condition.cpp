@@ -50,7 +50,7 @@ Solved solve_two(const Program& program, const SolvingStep& step, ExactState& st
         else
             state.point.given[{both[k].variable.kind, both[k].variable.index}] = x;
     };
-    ModularFunction conditions(program, {both[0].node, both[1].node});
+    ModularFunction conditions(program, {both[0].node, both[1].node}, {both[0].variable, both[1].variable});
     CommonZeros zeros = common_zeros(
         [&](Prime x, Prime y) -> std::optional<std::array<Prime, 2>> {
             put(0, x), put(1, y);
@@ -86,7 +86,7 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
         else
             state.point.given[key] = x;
     };
-    ModularFunction condition(program, {step.node});
+    ModularFunction condition(program, {step.node}, {step.variable});
     const auto value = [&]() -> std::optional<Prime> {
         const auto at = condition(state.point);
         return at ? std::optional(at->front()) : std::nullopt;
@@ -119,7 +119,8 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
         if (!step.turned)
             if (const auto sum = angle_sum(program, step.node, step.variable)) set_angle(state.point, *sum, root);
         state.degree *= static_cast<double>(f.size() - 1);
-        return {value() == Prime(0), count};
+        const auto at_root = evaluate_mod(program, state.point, std::array{step.node});
+        return {at_root && at_root->value[step.node].is_zero(), count};
     }
     return {};
 }
