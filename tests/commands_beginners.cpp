@@ -164,6 +164,7 @@ TEST_CASE("beginners: mistakes on the command line are named in our words, in bo
         {{"simulate", scene, "--tolerance", "0"}, "--tolerance 0: expected a number above zero"},
         {{"simulate", scene, "--step", "1", "--step", "2"}, "--step is given more than once"},
         {{"simulate", scene, "--method", "RK45"}, "did you mean 'dopri5'?"},
+        {{"simulate", scene, "--method", "DPRKN12"}, "did you mean 'rkn1210'?"},
         {{"derive", scene, "--format", "html"}, "--format html: expected text, latex, mathml"},
         {{"derive", scene, "--by", "newton"}, "did you mean 'schiehlen'?"},
         {{"watch", scene, "--port", "0"}, "--port 0: expected a whole number from 1 to 65535"},
