@@ -165,7 +165,7 @@ private:
 
     void adaptive_steps() {
         const double longest = options_.longest_step > 0 ? options_.longest_step : options_.duration;
-        StepSize control(AnyStep::estimate_order);
+        StepSize control(AnyStep::estimate_order, PredictsLength<AnyStep>);
         double h = options_.step;
         if constexpr (KnowsSeries<AnyStep>) {
             h = step_.first_length();

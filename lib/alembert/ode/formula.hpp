@@ -159,6 +159,7 @@ template <StepFormula Formula>
 class Stepper {
 public:
     static constexpr bool has_fixed_step = Formula::has_fixed_step;
+    static constexpr bool predicts_length = PredictsLength<Formula>;
     static constexpr int estimate_order = [] {
         if constexpr (has_fixed_step)
             return 1;

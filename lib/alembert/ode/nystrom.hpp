@@ -42,6 +42,7 @@ template <const auto& tableau>
 class Nystrom {
 public:
     static constexpr bool has_fixed_step = false;
+    static constexpr bool predicts_length = true;
     static constexpr int estimate_order = tableau.estimate_order;
     static constexpr Between between = Between::own;
 

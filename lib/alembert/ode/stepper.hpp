@@ -97,6 +97,13 @@ concept SolvesEquations = requires(const S& now) {
     { now.solved() } -> std::same_as<bool>;
 };
 
+/// Takes few long steps, so that the change of the last two is expected of the next one (StepSize). Others have
+/// steps enough to follow.
+template <class S>
+concept PredictsLength = requires {
+    requires S::predicts_length;
+};
+
 /// Is told where the run ends, because it makes use of it. Others need not know.
 template <class S>
 concept PlansToTheEnd = requires(S step, double end) {
