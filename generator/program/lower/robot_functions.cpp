@@ -236,6 +236,7 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
             values[static_cast<std::size_t>(partial.output * 2 * n + partial.input)] = partial.node;
         found_values.emplace_back(std::move(program), std::move(values));
     }
+    if (auto closed = closed_inverse_jacobian()) found_values.push_back(*std::move(closed));
     std::vector<Program> forms = cleaned(std::move(found_values));
     if (forms.empty())
         throw ModelError(
@@ -246,6 +247,29 @@ FunctionProgram RobotFunctions::inverse_jacobian() const {
             .rows = n,
             .columns = 2 * n,
             .program = with_fewest_operations(std::move(forms))};
+}
+
+std::optional<std::pair<Program, std::vector<int>>> RobotFunctions::closed_inverse_jacobian() const {
+    if (!tree_) return std::nullopt;
+    const int n = m_.size();
+    Program program = begun(m_, fold_);
+    const auto lowering = lowering_into(program, m_, {}, fold_);
+    auto values = TreeFunctions(program, *tree_, LinkAxes::own, *m_.z, lowering).inverse_partials();
+    if (!values) return std::nullopt;
+    // What the tree's joints do not need, J q'' − Q.
+    std::vector<int> others(static_cast<std::size_t>(n), program.number(0)), inputs;
+    add_rotors(program, *tree_, *m_.z, m_.qddot, lowering, others);
+    for (std::size_t a = 0; a < others.size(); ++a)
+        others[a] = program.sum(0, {{1, others[a]}, {-1, lowering(tree_->forces[a])}});
+    for (const auto kind : {Variable::Kind::coordinate, Variable::Kind::rate})
+        for (int i = 0; i < n; ++i) inputs.push_back(program.variable({kind, i}));
+    const auto found = partials(program, others, inputs, EliminationOrder::least_fill);
+    if (!found) return std::nullopt;
+    for (const Partial& partial : *found) {
+        int& value = (*values)[static_cast<std::size_t>(partial.output * 2 * n + partial.input)];
+        value = program.sum(0, {{1, value}, {1, partial.node}});
+    }
+    return std::pair{std::move(program), *std::move(values)};
 }
 
 FunctionProgram RobotFunctions::mass_inverse() const {

@@ -21,6 +21,8 @@
 ///
 /// Several forms compete, and that with the fewest operations is taken: the recursions over a tree of joints along
 /// axes that turn with the links or that do not, and for few coordinates or without a tree Lagrange's equations.
+/// The derivatives of inverse dynamics are those of its program by elimination, or a closed form
+/// (inverse_partials.hpp).
 
 #include <optional>
 
@@ -44,6 +46,7 @@ public:
 
 private:
     FunctionProgram inverse_jacobian() const;
+    std::optional<std::pair<Program, std::vector<int>>> closed_inverse_jacobian() const;
     FunctionProgram mass_inverse() const;
     FunctionProgram coriolis() const;
     std::optional<Program> christoffel() const;

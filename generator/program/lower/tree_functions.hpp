@@ -8,6 +8,7 @@
 ///     tree.loads(TreeFunctions::Terms::inverse);      // n nodes: M q'' + C q' + g
 
 #include <functional>
+#include <optional>
 
 #include "model/formalism/joint_tree.hpp"
 #include "program/lower/joint_change.hpp"
@@ -26,13 +27,21 @@ public:
     std::vector<int> loads(Terms terms) const;
     /// The lower triangle of M.
     std::vector<int> mass() const;
+    /// The derivatives of `inverse` by q and q', n × 2n, in closed form (inverse_partials.hpp), with the axes of
+    /// that link for all joints that takes the fewest operations, as far as a walk from the ground finds it. None
+    /// for ball joints, and for links on curves or along axes that do not turn.
+    std::optional<std::vector<int>> inverse_partials() const;
 
 private:
+    BodyTree<Symbolic> accelerated() const;
+    bool has_closed_partials() const;
+    std::vector<int> inverse_partials(const BodyTree<Symbolic>& tree, int common) const;
     std::vector<int> along_coordinates(const std::vector<Symbolic>& loads) const;
 
     Program& p_;
     JointChange change_;
     std::vector<std::vector<GiNaC::numeric>> rows_;  // S
+    bool has_balls_;
     BodyTree<Symbolic> tree_;
 };
 
