@@ -159,4 +159,15 @@ dot(vel(M1), vel(M1)) = l1^2*theta1'^2
     check_verdicts(result, {Verdict::vacuous, Verdict::vacuous, Verdict::vacuous, proved, proved});
 }
 
+TEST_CASE("check: ten loops in a row are decided, though most draws of their roots leave no motion") {
+    const Scene scene = read_scene(source_path("scenes/benchmark/large/four_bars_10.toml"));
+    const Checked result = checked(with_claims(scene, "q0'' = 0\nq0'' = q1''\nq0' = q10'\n", "claims.txt"));
+    check_verdicts(result, {refuted, proved, proved});
+    CHECK(!result.claims[0].counterexample.empty());
+    for (const std::size_t k : {1UL, 2UL}) {
+        REQUIRE(result.claims[k].other_branch);
+        CHECK(result.claims[k].other_branch->verdict == refuted);
+    }
+}
+
 }  // namespace check_branches

@@ -2,6 +2,7 @@
 // The linear systems of a state whose positions are known: A q' + b = 0, then M q'' − Aᵀλ = f with A q'' = γ, and
 // the shares of multipliers of constraints that depend on each other.
 #include <algorithm>
+#include <map>
 
 #include "analysis/exact/least_shares.hpp"
 #include "analysis/exact/motions.hpp"
@@ -23,7 +24,62 @@ std::vector<std::vector<Prime>> Motions::matrix_of_system(const ModularValues& a
     return rows;
 }
 
+void Motions::find_known_rows() {
+    known_rows_.assign(steps_.size() + 1, {});
+    using Key = std::pair<Variable::Kind, int>;
+    std::map<Key, std::size_t> known_after;
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+        known_after[{steps_[k].variable.kind, steps_[k].variable.index}] = k + 1;
+        if (const auto& second = steps_[k].second)
+            known_after[{second->variable.kind, second->variable.index}] = k + 1;
+    }
+    const auto n = static_cast<std::size_t>(n_), m = static_cast<std::size_t>(m_);
+    for (std::size_t r = 0; r < m; ++r) {
+        const auto row = system_.A.begin() + static_cast<std::ptrdiff_t>(r * n);
+        std::size_t last = 0;
+        for (const int id : program_.needed(std::vector<int>(row, row + n_))) {
+            if (program_[id].op != Op::variable) continue;
+            const Variable& variable = program_[id].variable;
+            if (const auto found = known_after.find({variable.kind, variable.index}); found != known_after.end())
+                last = std::max(last, found->second);
+        }
+        known_rows_[last].push_back(r);
+    }
+}
+
+bool Motions::add_known_rows(const ExactState& state, std::size_t step, KnownRows& known) const {
+    if (known_rows_[step].empty()) return true;
+    const auto n = static_cast<std::size_t>(n_);
+    std::vector<int> wanted;
+    for (const std::size_t r : known_rows_[step])
+        for (std::size_t i = 0; i < n; ++i) wanted.push_back(system_.A[r * n + i]);
+    const auto at = evaluate_mod(program_, state.point, wanted);
+    if (!at) return true;
+    for (std::size_t first = 0; first < wanted.size(); first += n) {
+        std::vector<Prime> row;
+        for (std::size_t i = 0; i < n; ++i) row.push_back(at->value[wanted[first + i]]);
+        for (std::size_t k = 0; k < known.rows.size(); ++k)
+            if (const Prime factor = row[known.pivots[k]]; !factor.is_zero())
+                for (std::size_t i = known.pivots[k]; i < n; ++i) row[i] -= factor * known.rows[k][i];
+        const auto pivot = std::find_if(row.begin(), row.end(), [](Prime x) { return !x.is_zero(); });
+        if (pivot == row.end()) return false;
+        const Prime by = pivot->inverse();
+        known.pivots.push_back(static_cast<std::size_t>(pivot - row.begin()));
+        for (Prime& x : row) x *= by;
+        known.rows.push_back(std::move(row));
+    }
+    return true;
+}
+
+bool Motions::solve_any(ExactState& state) const {
+    KnownRows known;
+    const Outcome outcome = solve_steps(state, nullptr, 0, &known);
+    return outcome == Outcome::solved ||
+           (outcome == Outcome::dependent_rows && solve_steps(state, nullptr, 0, nullptr) == Outcome::solved);
+}
+
 void Motions::find_open_unknowns() {
+    find_known_rows();
     if (at_ != At::motion || !rubbed_.empty() || !obstacle_.empty()) return;
     const auto size = static_cast<std::size_t>(n_ + m_);
     std::vector<int> wanted = system_.M;
@@ -37,10 +93,7 @@ void Motions::find_open_unknowns() {
         auto point = usable_->at(std::move(state.point));
         if (!point) continue;
         state.point = *std::move(point);
-        const bool solves = std::all_of(steps_.begin(), steps_.end(), [&](const SolvingStep& step) {
-            return solve_condition(program_, step, state).found;
-        });
-        const auto at = solves ? evaluate_mod(program_, state.point, wanted) : std::nullopt;
+        const auto at = solve_any(state) ? evaluate_mod(program_, state.point, wanted) : std::nullopt;
         if (!at) continue;
         ++found;
         std::vector<std::vector<Prime>> rows = matrix_of_system(*at);

@@ -244,6 +244,35 @@ std::optional<ExactState> Motions::on_own_branch(std::uint64_t seed) const {
     return solved(std::move(state), &*own, 0);
 }
 
+Motions::Outcome Motions::solve_steps(ExactState& state, const OwnPoint* own, std::size_t step,
+                                      KnownRows* known) const {
+    const std::size_t before = known != nullptr ? known->rows.size() : 0;
+    const auto forget = [&] {
+        known->rows.resize(before);
+        known->pivots.resize(before);
+    };
+    if (known != nullptr && !add_known_rows(state, step, *known)) {
+        forget();
+        return Outcome::dependent_rows;
+    }
+    if (step == steps_.size()) return Outcome::solved;
+    const int most_draws = 8 * static_cast<int>(steps_.size()) + 8;
+    const OwnRoot* const root = own == nullptr ? nullptr : &own->roots[step];
+    for (std::size_t after = 0;; ++after) {
+        ExactState next = state;
+        const Solved outcome = solve_condition(program_, steps_[step], next, root, after);
+        if (!outcome.found) return Outcome::no_root;
+        if (root == nullptr && !irreducible_[step])
+            next.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
+        const Outcome rest = solve_steps(next, own, step + 1, known);
+        if (rest == Outcome::solved) state = std::move(next);
+        if (rest != Outcome::dependent_rows) return rest;
+        if (after + 1 >= outcome.roots || ++known->draws >= most_draws) break;
+    }
+    forget();
+    return Outcome::dependent_rows;
+}
+
 std::optional<ExactState> Motions::solved(ExactState state, const OwnPoint* own, unsigned turned) const {
     if (at_ == At::rest)
         for (int i = 0; i < n_; ++i)
@@ -256,13 +285,10 @@ std::optional<ExactState> Motions::solved(ExactState state, const OwnPoint* own,
     auto point = usable_->at(std::move(state.point));
     if (!point) return std::nullopt;
     state.point = std::move(*point);
-    for (std::size_t k = 0; k < steps_.size(); ++k) {
-        const OwnRoot* const root = own == nullptr ? nullptr : &own->roots[k];
-        const Solved outcome = solve_condition(program_, steps_[k], state, root);
-        if (!outcome.found) return std::nullopt;
-        if (root == nullptr && !irreducible_[k])
-            state.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
-    }
+    const bool has_independent_rows = at_ == At::motion && open_unknowns_.empty();
+    KnownRows known;
+    if (solve_steps(state, own, 0, has_independent_rows ? &known : nullptr) != Outcome::solved)
+        return std::nullopt;
     if (at_ == At::motion && !move(state, turned)) return std::nullopt;
     if (!system_.redundant.empty() && !share_out(state)) return std::nullopt;
     return state;

@@ -34,6 +34,12 @@
 /// branch is reached with at least 1/d of the seeds. If a quadratic equation has no root for some seed, it is
 /// irreducible, and a statement that holds at a random one of its roots also holds at the other.
 ///
+/// Where the rows of constraints depend on each other there is no state. Of a chain of loops that each have a
+/// branch on which this comes out at the next loop, few of the draws of all roots would be usable. Therefore the
+/// rows that a step makes known are compared with those before, and if they depend on each other, another root is
+/// taken in its place, or in that of the step before. A branch with states is still met by at least as many seeds
+/// as draw all its roots at once.
+///
 /// Unknowns that the equations leave open at every state, such as the acceleration of a spin without a moment of
 /// inertia, are random (`open_unknowns`): what holds for all their values follows from the equations.
 ///
@@ -132,9 +138,23 @@ private:
     void find_usable_points(std::vector<int> nodes, int halvings);
     void find_branches();
     void find_open_unknowns();
+    void find_known_rows();
+    /// Positions for one of the seeds of find_open_unknowns, preferably where the rows are independent.
+    bool solve_any(ExactState& state) const;
     /// M, −Aᵀ and A at values of entries(), with a last column of zeros.
     std::vector<std::vector<Prime>> matrix_of_system(const ModularValues& at) const;
     std::optional<ExactState> solved(ExactState state, const OwnPoint* own, unsigned turned) const;
+    enum class Outcome { solved, no_root, dependent_rows };
+    /// The rows of constraints that are known, in echelon form.
+    struct KnownRows {
+        std::vector<std::vector<Prime>> rows{};
+        std::vector<std::size_t> pivots{};
+        int draws = 0;  ///< how many roots were taken
+    };
+    /// Takes the steps from `step` on. `known` is null if rows may depend on each other.
+    Outcome solve_steps(ExactState& state, const OwnPoint* own, std::size_t step, KnownRows* known) const;
+    /// Adds the rows that become known before this step; false if they depend on each other.
+    bool add_known_rows(const ExactState& state, std::size_t step, KnownRows& known) const;
     bool move(ExactState& state, unsigned turned) const;
     bool accelerate(ExactState& state, unsigned turned) const;
     bool share_out(ExactState& state) const;
@@ -145,6 +165,7 @@ private:
     std::vector<int> loose_, implied_, rubbed_;
     std::vector<bool> irreducible_;  ///< for each step
     std::vector<std::size_t> open_unknowns_;
+    std::vector<std::vector<std::size_t>> known_rows_;  ///< that become known before each step, and after the last
     bool has_branches_ = false;
     std::optional<OwnBranch> own_;
     std::optional<OwnPoints> own_points_;  ///< refers to program_, steps_ and own_

@@ -37,7 +37,14 @@ private:
     Prime before_ = 0;  ///< what the roots of the steps before add
 };
 
-Solved solve_two(const Program& program, const SolvingStep& step, ExactState& state, const OwnRoot* own) {
+/// Which of `count` roots is taken.
+std::size_t drawn(const SolvingStep& step, const ExactState& state, std::size_t count, std::size_t after) {
+    const std::uint64_t number = state.point.random(700, static_cast<std::uint64_t>(step.node)).bits();
+    return (number % count + after) % count;
+}
+
+Solved solve_two(const Program& program, const SolvingStep& step, ExactState& state, const OwnRoot* own,
+                 std::size_t after) {
     const std::array<SolvedUnknown, 2> both{step, *step.second};
     std::array<Prime, 2> plain;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -64,18 +71,18 @@ Solved solve_two(const Program& program, const SolvingStep& step, ExactState& st
         return !is_own({{both[0], zero[0]}, {both[1], zero[1]}});
     });
     if (zeros.list.empty()) return {false, zeros.degree};
-    const auto& zero =
-        zeros.list[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % zeros.list.size()];
+    const auto& zero = zeros.list[drawn(step, state, zeros.list.size(), after)];
     put(0, zero[0]), put(1, zero[1]);
     for (std::size_t k = 0; k < 2; ++k) state.roots[{both[k].variable.kind, both[k].variable.index}] = zero[k];
     state.degree *= static_cast<double>(zeros.degree + 1);
-    return {true, zeros.degree};
+    return {true, zeros.degree, zeros.list.size()};
 }
 
 }  // namespace
 
-Solved solve_condition(const Program& program, const SolvingStep& step, ExactState& state, const OwnRoot* own) {
-    if (step.second) return solve_two(program, step, state, own);
+Solved solve_condition(const Program& program, const SolvingStep& step, ExactState& state, const OwnRoot* own,
+                       std::size_t after) {
+    if (step.second) return solve_two(program, step, state, own, after);
     const IsOwn is_own(own, state);
     const std::pair key{step.variable.kind, step.variable.index};
     const Prime plain = state.point.variable(step.variable);
@@ -112,15 +119,14 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
         std::vector<Prime> found = roots(f, state.point.seed);
         std::erase_if(found, [&](Prime root) { return !is_own({{step, root}}); });
         if (found.empty()) return {false, count};
-        const Prime root =
-            found[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % found.size()];
+        const Prime root = found[drawn(step, state, found.size(), after)];
         put(root);
         state.roots[key] = root;
         if (!step.turned)
             if (const auto sum = angle_sum(program, step.node, step.variable)) set_angle(state.point, *sum, root);
         state.degree *= static_cast<double>(f.size() - 1);
         const auto at_root = evaluate_mod(program, state.point, std::array{step.node});
-        return {at_root && at_root->value[step.node].is_zero(), count};
+        return {at_root && at_root->value[step.node].is_zero(), count, found.size()};
     }
     return {};
 }
