@@ -103,7 +103,7 @@ bool suits_nystrom(const Program& program, const Derived& d) {
 bool is_series_faster(const Program& program, double tolerance, const SeriesCost& cost, const Slowness& slowness,
                       bool nystrom) {
     const double decades = std::log10(1e-6 / tolerance);
-    const double longer = nystrom ? 1.6 * std::pow(10, 0.05 * decades) : 1.5 * std::pow(10, 0.08 * decades);
+    const double longer = nystrom ? 1.5 * std::pow(10, 0.03 * decades) : 1.5 * std::pow(10, 0.08 * decades);
     const int order = taylor_order(tolerance, cost.order, cost.product);
     const auto components = static_cast<int>(program.coordinates.size() + speeds_of(program));
     const Rhs rhs{.dimension = components, .effort = effort_of(program), .slowness = slowness};
