@@ -2,8 +2,10 @@
 // Derivations on the command line: exit codes, JSON, pages and gradebooks. What each line of a derivation is worth
 // is held by tests/derivations.py.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "files.hpp"
@@ -106,6 +108,22 @@ TEST_CASE("derivations: letters are said by the scene and by the option, and a n
     CHECK(refused.exit == 3);
     CHECK(refused.err.find("'length'") != std::string::npos);
     CHECK(run({"check", scene, file, "--letters", "a"}).exit == 3);
+}
+
+// The accelerations of 32 rods at a state of small numbers are fractions of hundreds of digits.
+TEST_CASE("check: fractions that nobody can read are told by six digits, and JSON has all of them") {
+    const std::string scene = source_path("scenes/benchmark/trees/pend32.toml"),
+                      claim = temporary("wrong.txt", "T = 1/2*q1dot^2\n");
+    const auto text = run({"check", scene, claim});
+    CHECK(text.exit == 1);
+    CHECK(text.out.size() < 4000);
+    const Json json = json_of({"check", scene, claim}, {}, 1);
+    const std::string value = json["claims"][0]["counterexample"]["q32''"];
+    REQUIRE(value.size() > 60);
+    const std::size_t bar = value.find('/');
+    // Both have more digits than a double has powers of ten.
+    const long double told = std::strtold(value.c_str(), nullptr) / std::strtold(value.c_str() + bar + 1, nullptr);
+    CHECK(text.out.find(fmt::format("q32'' ≈ {:.6g}", static_cast<double>(told))) != std::string::npos);
 }
 
 TEST_CASE("check --json-file: one run prints for people and writes what --json prints") {

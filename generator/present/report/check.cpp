@@ -4,11 +4,37 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "base/language/say.hpp"
 #include "scene/claim_mode.hpp"
 
 namespace alembert {
+
+namespace {
+
+/// Of a whole number without a sign, its first digits as a number from 1 to 10, and how many follow the first.
+std::pair<double, int> leading(const std::string& digits) {
+    const std::string first = digits.substr(0, 17);
+    return {std::stod(first) / std::pow(10, first.size() - 1), static_cast<int>(digits.size()) - 1};
+}
+
+/// Six digits of a fraction of whole numbers, however long they are; nothing if it is none.
+std::string decimal(const std::string& value) {
+    const bool negative = value.starts_with("-");
+    const std::size_t begin = negative ? 1 : 0, bar = value.find('/');
+    const std::string over = value.substr(begin, bar - begin),
+                      under = bar == std::string::npos ? "1" : value.substr(bar + 1);
+    const auto is_whole = [](const std::string& text) {
+        return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+    };
+    if (!is_whole(over) || !is_whole(under)) return "";
+    const auto [a, a_more] = leading(over);
+    const auto [b, b_more] = leading(under);
+    return fmt::format("{}{:.6g}", negative ? "-" : "", a / b * std::pow(10, a_more - b_more));
+}
+
+}  // namespace
 
 const char* name_of(Verdict verdict) {
     return std::array{to_say("proved"), to_say("refuted"), to_say("undecided"),
@@ -22,6 +48,16 @@ std::string words_of_completeness(const Checked& checked) {
     if (all == 1) return say("The equation of motion is still missing.");
     return missing == 1 ? say("1 of {} equations of motion is still missing.", all)
                         : say("{} of {} equations of motion are still missing.", missing, all);
+}
+
+std::string text_of_state(const std::vector<std::pair<std::string, std::string>>& values) {
+    constexpr std::size_t readable = 60;
+    std::string text;
+    for (const auto& [name, value] : values) {
+        const std::string short_value = value.size() > readable ? decimal(value) : "";
+        text += (text.empty() ? "" : ", ") + name + (short_value.empty() ? " = " + value : " ≈ " + short_value);
+    }
+    return text;
 }
 
 bool is_missing_term(const CheckedClaim& claim) {
@@ -98,10 +134,7 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     if (c.likely) line(say("probable slip: "), words_of(*c.likely));
     if (!c.nearest.empty()) line(say("correct equation: "), c.nearest);
     if (!c.counterexample.empty()) {
-        std::string state;
-        for (const auto& [name, value] : c.counterexample)
-            state += (state.empty() ? "" : ", ") + name + " = " + value;
-        line(say("it fails at "), state);
+        line(say("it fails at "), text_of_state(c.counterexample));
         line(say("where left - right = "), c.residual);
     }
     return page;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "check/check.hpp"
 #include "present/report/ink.hpp"
 #include "present/report/json.hpp"
@@ -14,6 +18,8 @@ std::string as_text(const CheckedScene& checked, const Ink& ink = {});
 std::string words_of_completeness(const Checked& checked);
 /// Whether the difference from the correct equation is just the term that the slip names.
 bool is_missing_term(const CheckedClaim& claim);
+/// "m = 3, theta = 2*atan(2/3)"; fractions of more than 60 characters as six digits, "q1'' ≈ 12.52".
+std::string text_of_state(const std::vector<std::pair<std::string, std::string>>& values);
 /// The verdict as a word: "proved" …
 const char* name_of(Verdict verdict);
 

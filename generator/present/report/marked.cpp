@@ -103,10 +103,8 @@ std::string details_of(const MarkedLine& line, const std::string& indent) {
     else
         add(say("wrong term: "), line.term);
     add(say("correct line: "), line.right);
-    std::string state;
-    for (const auto& [name, value] : c.counterexample) state += (state.empty() ? "" : ", ") + name + " = " + value;
-    add(say("it fails at "), state);
-    if (!state.empty()) add(say("where left - right = "), c.residual);
+    add(say("it fails at "), text_of_state(c.counterexample));
+    if (!c.counterexample.empty()) add(say("where left - right = "), c.residual);
     return page;
 }
 
