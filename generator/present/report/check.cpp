@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "present/report/check.hpp"
 
+#include <cln/rational.h>
+#include <cln/rational_io.h>
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "base/language/say.hpp"
 #include "scene/claim_mode.hpp"
@@ -13,25 +14,10 @@ namespace alembert {
 
 namespace {
 
-/// Of a whole number without a sign, its first digits as a number from 1 to 10, and how many follow the first.
-std::pair<double, int> leading(const std::string& digits) {
-    const std::string first = digits.substr(0, 17);
-    return {std::stod(first) / std::pow(10, first.size() - 1), static_cast<int>(digits.size()) - 1};
-}
-
 /// Six digits of a fraction of whole numbers, however long they are; nothing if it is none.
 std::string decimal(const std::string& value) {
-    const bool negative = value.starts_with("-");
-    const std::size_t begin = negative ? 1 : 0, bar = value.find('/');
-    const std::string over = value.substr(begin, bar - begin),
-                      under = bar == std::string::npos ? "1" : value.substr(bar + 1);
-    const auto is_whole = [](const std::string& text) {
-        return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-    };
-    if (!is_whole(over) || !is_whole(under)) return "";
-    const auto [a, a_more] = leading(over);
-    const auto [b, b_more] = leading(under);
-    return fmt::format("{}{:.6g}", negative ? "-" : "", a / b * std::pow(10, a_more - b_more));
+    if (value.find_first_not_of("-0123456789/") != std::string::npos) return "";
+    return fmt::format("{:.6g}", cln::double_approx(cln::cl_RA(value.c_str())));
 }
 
 }  // namespace

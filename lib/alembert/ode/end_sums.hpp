@@ -6,8 +6,8 @@
 ///
 ///     const EndSums sums = end_sums(size);
 ///     sums.add(y, rest, change, size, next, next_rest);        // next + next_rest = y + (rest + change)
-///     sums.largest(error, y, next, count);                     // of |error| / max(1, |y|, |next|), which it
-///     writes sums.is_finite(values, count);
+///     sums.largest(error, y, next, count);                     // of |error| / max(1, |y|, |next|), written to it
+///     sums.is_finite(values, count);
 
 #include <algorithm>
 #include <cmath>

@@ -18,7 +18,7 @@
 /// | verner76 | 7, estimate of order 6 | adaptive | order 6 | -4.64 < hλ < 0 |
 /// | verner98 | 9, estimate of order 8 | adaptive | order 8 | -4.48 < hλ < 0 |
 /// | rkn86 | 8, estimate of order 6 | adaptive; q' = v, v' = a(q, t) only | order 7 | oscillators with hω < 3.3 |
-/// | rkn1210 | 12, estimate of order 10 | adaptive; likewise | order 8 to 11 | oscillators with hω < 8.3 |
+/// | rkn1210 | 12, estimate of order 10 | adaptive; likewise | order 8 | oscillators with hω < 8.3 |
 /// | taylor | by tolerance, at most 32 | adaptive, or fixed | its order | to about hλ = -1.3 - 0.37 order |
 /// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
 /// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
