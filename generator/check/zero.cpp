@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "algebra/symbolic/fifty_digits.hpp"
 #include "base/language/say.hpp"
 #include "check/verdict.hpp"
 #include "model/energy.hpp"
@@ -18,20 +19,7 @@ using GiNaC::numeric;
 
 namespace {
 
-constexpr long digits = 40;
-constexpr double nothing = 1e-30;  // relative to the sum of the terms' sizes; less counts as zero in 40 digits
-
-/// Sets GiNaC's precision, which is one for the whole program, and restores it.
-class InDigits {
-public:
-    InDigits() { GiNaC::Digits = digits; }
-    ~InDigits() { GiNaC::Digits = before_; }
-    InDigits(const InDigits&) = delete;
-    InDigits& operator=(const InDigits&) = delete;
-
-private:
-    const long before_ = GiNaC::Digits;
-};
+constexpr double nothing = 1e-30;  // relative to the sum of the terms' sizes; less counts as zero in fifty digits
 
 void gather(const ex& e, GiNaC::exset& symbols) {
     if (is_a<GiNaC::symbol>(e)) symbols.insert(e);
@@ -79,7 +67,7 @@ ZeroTest zero_test(const ex& given, const Mechanism& m) {
     std::vector<GiNaC::symbol> symbols;
     for (const GiNaC::symbol& s : m.symbols->all())
         if (found.contains(s)) symbols.push_back(s);
-    const InDigits precision;
+    const FiftyDigits digits;
     for (int seed = 1; seed <= 6; ++seed) try {
             GiNaC::exmap at;
             ZeroTest result{.zero = false};

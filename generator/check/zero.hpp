@@ -28,7 +28,7 @@ struct ZeroTest {
 };
 
 /// `e` must be written out, without intermediate symbols. The values that are tried, also for the time, lie
-/// between 1/3 and 3 and have 40 digits.
+/// between 1/3 and 3 and have fifty digits.
 ZeroTest zero_test(const GiNaC::ex& e, const Mechanism& mechanism);
 
 /// Proves or refutes a claim, or leaves it undecided, from several such tests of parts of the claim. The first

@@ -15,6 +15,11 @@ using GiNaC::numeric;
 
 namespace {
 
+bool is_constant(const GiNaC::ex& e) {
+    return !GiNaC::is_a<GiNaC::symbol>(e) &&
+           std::all_of(e.begin(), e.end(), [](const GiNaC::ex& part) { return is_constant(part); });
+}
+
 void declare_parameters(Building& here) {
     for (std::size_t i = 0; i < here.scene.parameters.size(); ++i) {
         const Parameter& p = here.scene.parameters[i];
@@ -25,7 +30,7 @@ void declare_parameters(Building& here) {
     for (std::size_t i = 0; i < here.scene.parameters.size(); ++i)
         here.attempt([&] {
             here.m.parameters[i].value = here.m.z->expand(here.translator.scalar(here.scene.parameters[i].value));
-            here.m.parameters[i].independent = GiNaC::is_a<numeric>(here.m.parameters[i].value);
+            here.m.parameters[i].independent = is_constant(here.m.parameters[i].value);
         });
 }
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/mechanism.hpp"
 
+#include <cln/real.h>
+
 #include <algorithm>
+
+#include "algebra/symbolic/fifty_digits.hpp"
 
 namespace alembert {
 
@@ -30,6 +34,15 @@ void append(Intermediates::Direction& direction, const std::vector<GiNaC::symbol
 }
 
 }  // namespace
+
+GiNaC::numeric Mechanism::Parameter::number() const {
+    if (const auto* number = GiNaC::is_a<GiNaC::numeric>(value) ? &GiNaC::ex_to<GiNaC::numeric>(value) : nullptr;
+        number != nullptr && number->is_rational())
+        return *number;
+    const FiftyDigits digits;
+    return GiNaC::numeric(
+        cln::cl_N(cln::rational(cln::the<cln::cl_R>(GiNaC::ex_to<GiNaC::numeric>(value.evalf()).to_cl_N()))));
+}
 
 Mechanism::Mechanism() = default;
 Mechanism::Mechanism(const Mechanism&) = default;

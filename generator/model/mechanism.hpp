@@ -110,10 +110,12 @@ struct Mechanism {
 
     struct Parameter {
         GiNaC::symbol symbol;
-        GiNaC::ex value;  ///< an exact number, or an expression in other parameters
-        bool independent = true;
+        GiNaC::ex value;  ///< exact: a number, a constant such as π/4 or √2, an expression in other parameters
+        bool independent = true;  ///< whether it is a number or a constant
         std::string unit, about;
         Shown shown = {};
+        /// The value of an independent one as a fraction; to fifty digits where it is none, as of π/4.
+        GiNaC::numeric number() const;
     };
     struct Input {
         std::array<GiNaC::symbol, 3> derivative;  ///< F, F', F''

@@ -98,9 +98,7 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
                      std::optional<double> duration) {
     QuadStart start;
     for (const Mechanism::Parameter& p : m.parameters)
-        if (p.independent)
-            start.parameters.push_back(
-                quad_of(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N())));
+        if (p.independent) start.parameters.push_back(quad_of(cln::the<cln::cl_RA>(p.number().to_cl_N())));
 
     Program program;
     std::vector<int> wanted;

@@ -14,6 +14,7 @@
 #include "analysis/exact/null_fields.hpp"
 #include "analysis/exact/variety.hpp"
 #include "base/language/say.hpp"
+#include "model/formalism/elements.hpp"
 #include "program/lower/lower.hpp"
 #include "program/reduce_rows.hpp"
 
@@ -63,18 +64,27 @@ public:
           third_(third_derivatives(m)) {
         std::vector<ex> flat;
         for (const OneForm& form : forms) flat.insert(flat.end(), form.begin(), form.end());
+        if (options.fixed) flat = with_constants(flat);
         entries_ = lower_expressions(program_, m, flat);
-        const std::vector<int> zeros = lower_expressions(program_, m, positions);
+        const std::vector<int> zeros =
+            lower_expressions(program_, m, options.fixed ? with_constants(positions) : positions);
         std::map<std::pair<Variable::Kind, int>, Prime> given;
         if (options.fixed)
             for (int k = 0; const Mechanism::Parameter& p : m.parameters)
                 if (p.independent)
                     given[{Variable::Kind::parameter, k++}] =
-                        Prime::from(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N()))
-                            .value_or(0);
+                        Prime::from(cln::the<cln::cl_RA>(p.number().to_cl_N())).value_or(0);
         variety_ = variety_points(program_, zeros, entries_, points_, given);
         result_.on_variety = variety_.on_variety;
         result_.integrable.resize(forms.size());
+    }
+
+    /// With what is no fraction in place of the parameters that have it: the cosine of π/2 is zero then.
+    std::vector<ex> with_constants(const std::vector<ex>& list) const {
+        GiNaC::exmap constants;
+        for (const Mechanism::Parameter& p : m_.parameters)
+            if (p.independent && !GiNaC::is_a<GiNaC::numeric>(p.value)) constants[p.symbol] = p.value;
+        return constants.empty() ? list : substitute(*m_.z, list, constants);
     }
 
     Integrability go() {

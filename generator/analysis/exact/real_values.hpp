@@ -15,6 +15,7 @@
 
 #include <ginac/ginac.h>
 
+#include "algebra/symbolic/fifty_digits.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
@@ -28,18 +29,6 @@ struct RealState {
     std::map<Key, GiNaC::numeric> value;
     std::map<Key, Angle> angle;  ///< variables that are angles; `value` holds them as floats
     bool exact = true;           ///< whether constraints hold exactly and accelerations are fractions
-};
-
-/// Sets the precision to fifty digits during its lifetime.
-class FiftyDigits {
-public:
-    FiftyDigits() : former_(GiNaC::Digits) { GiNaC::Digits = 50; }
-    ~FiftyDigits() { GiNaC::Digits = former_; }
-    FiftyDigits(const FiftyDigits&) = delete;
-    FiftyDigits& operator=(const FiftyDigits&) = delete;
-
-private:
-    long former_;
 };
 
 /// Sets the variable to this angle.

@@ -13,8 +13,7 @@ Program begun(const Mechanism& m, bool fold) {
     program.source_labels = m.z->source_labels();
     for (const Mechanism::Parameter& p : m.parameters)
         if (p.independent && !fold)
-            program.parameters.push_back(
-                {p.symbol.get_name(), p.unit, ex_to<GiNaC::numeric>(p.value).to_double()});
+            program.parameters.push_back({p.symbol.get_name(), p.unit, p.number().to_double()});
     for (int i = 0; i < m.size(); ++i) program.coordinates.push_back({m.q[i].get_name(), m.units[i]});
     program.name = m.name;
     return program;

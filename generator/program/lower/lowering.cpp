@@ -155,7 +155,7 @@ Rational Lowering::folded(const ex& e) {
     const int node = Lowering(program, m_, false)(e);
     State<double> state;
     for (const Mechanism::Parameter& p : m_.parameters)
-        if (p.independent) state.parameters.push_back(ex_to<GiNaC::numeric>(p.value).to_double());
+        if (p.independent) state.parameters.push_back(p.number().to_double());
     return cln::rational(cln::cl_DF(interpret(program, state)[node]));
 }
 

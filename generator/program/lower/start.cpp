@@ -17,7 +17,7 @@ Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names
     plain_.qdot.resize(m_.q.size());
     if (!m_.speeds.empty() && m_.speeds[0].start) plain_.speeds.resize(m_.speeds.size());
     for (const Mechanism::Parameter& p : m_.parameters)
-        if (p.independent) plain_.parameters.push_back(GiNaC::ex_to<GiNaC::numeric>(p.value).to_double());
+        if (p.independent) plain_.parameters.push_back(p.number().to_double());
     for (const std::string& name : names) spots_.push_back(spot_of(name));
 
     const auto want = [&](const GiNaC::ex& e) { nodes_.push_back(lower_expression(program_, m_, e)); };
