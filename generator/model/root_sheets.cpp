@@ -95,18 +95,46 @@ std::optional<ex> RootSheets::square_root(const ex& square, const Intermediates&
     return root_of_product(expression(readable(*f)));
 }
 
-std::optional<ex> RootSheets::root(const ex& square, Intermediates& z) {
+/// Whether it depends on positions only: a rate is never a length.
+bool RootSheets::is_of_positions(const ex& e) const {
+    if (GiNaC::is_a<GiNaC::symbol>(e)) {
+        const SymbolInfo& info = symbols_->info(GiNaC::ex_to<GiNaC::symbol>(e));
+        return info.kind == SymbolInfo::Kind::parameter || info.kind == SymbolInfo::Kind::time ||
+               ((info.kind == SymbolInfo::Kind::coordinate || info.kind == SymbolInfo::Kind::input) &&
+                info.order == 0);
+    }
+    return std::all_of(e.begin(), e.end(), [this](const ex& part) { return is_of_positions(part); });
+}
+
+std::optional<ex> RootSheets::root(const ex& square, Intermediates& z, Of of) {
     const std::optional<ex> found = square_root(square, z);
     if (!found) return std::nullopt;
-    const double size = at_start(*found);
+    ex length = 1, rest = 1;
+    const auto is_length = [&](const ex& factor) {
+        const bool is_sum = GiNaC::is_a<GiNaC::add>(factor) ||
+                            (GiNaC::is_a<GiNaC::power>(factor) && GiNaC::is_a<GiNaC::add>(factor.op(0)));
+        return is_of_positions(factor) && (of == Of::distance || !is_sum || !z.depends(factor, moving_));
+    };
+    const auto sort = [&](const ex& factor) { (is_length(factor) ? length : rest) *= factor; };
+    if (GiNaC::is_a<GiNaC::mul>(*found))
+        std::for_each(found->begin(), found->end(), sort);
+    else
+        sort(*found);
+    const double size = at_start(length);
     if (!std::isfinite(size) || std::abs(size) < 1e-9) return std::nullopt;
-    const ex e = size > 0 ? *found : ex(-*found);
+    const ex e = size > 0 ? length : ex(-length);
     const bool positive_by_itself =
         GiNaC::is_a<numeric>(e) || (GiNaC::is_a<GiNaC::symbol>(e) && !z.depends(e, moving_));
-    if (!positive_by_itself && std::none_of(positive_.begin(), positive_.end(),
-                                            [&](const ex& known) { return (known - e).expand().is_zero(); }))
-        positive_.push_back(e);
-    return z.name(e);
+    const auto add_to = [&](std::vector<ex>& list) {
+        if (std::none_of(list.begin(), list.end(),
+                         [&](const ex& known) { return (known - e).expand().is_zero(); }))
+            list.push_back(e);
+    };
+    if (!positive_by_itself) {
+        add_to(positive_);
+        add_to(needed_);
+    }
+    return rest.is_equal(1) ? z.name(e) : z.name(e * *apply_function("abs", {z.name(rest)}));
 }
 
 /// Nothing if the expression has no factor of numbers and parameters, or that factor is zero.

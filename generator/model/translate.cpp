@@ -187,7 +187,7 @@ std::optional<ex> Translator::own_component(const Tree& u, const Tree& v) const 
 ex Translator::length(const Vector3& v) {
     Intermediates& z = *mechanism_.z;
     if (sheets_)
-        if (const auto e = sheets_->root(dot(v, v, z), z)) return *e;
+        if (const auto e = sheets_->root(dot(v, v, z), z, RootSheets::Of::distance)) return *e;
     return norm(v, z);
 }
 
