@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/exact/own_branch.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -122,6 +124,39 @@ bool OwnSlopes::determine(const SolvedUnknown& one, const SolvedUnknown& other) 
     });
 }
 
+namespace {
+
+/// log₂ of the size of the determinant of the slopes of the conditions in the solved variables, and its sign; zero
+/// where the slopes have no values.
+std::pair<double, int> determinant(const Program& program, const std::vector<int>& conditions,
+                                   const std::vector<Key>& solved, const State<double>& at) {
+    Eigen::MatrixXd slopes(static_cast<Eigen::Index>(conditions.size()), static_cast<Eigen::Index>(solved.size()));
+    for (Eigen::Index i = 0; i < slopes.cols(); ++i) {
+        const auto column = slopes_in(program, at, solved[static_cast<std::size_t>(i)], conditions);
+        if (!column) return {0, 0};
+        slopes.col(i) = Eigen::Map<const Eigen::VectorXd>(column->data(), slopes.rows());
+    }
+    const double value = slopes.determinant();
+    return {std::log2(std::abs(value)), value > 0 ? 1 : value < 0 ? -1 : 0};
+}
+
+/// Whether branches may meet between the place and the state beside it: there the determinant of the conditions
+/// vanishes.
+bool may_have_crossed(const Program& program, const std::vector<int>& conditions, const std::vector<Key>& solved,
+                      const State<double>& place, const RealState& state) {
+    constexpr double most_changed = 0.6;  // for each condition, as log₂
+    if (conditions.size() != solved.size()) return false;
+    State<double> there = place;
+    for (const auto& [key, value] : state.value)
+        if (double* const x = place_of(there, key)) *x = value.to_double();
+    const auto [before, sign_before] = determinant(program, conditions, solved, place);
+    const auto [after, sign_after] = determinant(program, conditions, solved, there);
+    return sign_before != sign_after ||
+           (sign_before != 0 && std::abs(after - before) > most_changed * static_cast<double>(solved.size()));
+}
+
+}  // namespace
+
 std::optional<RealState> state_beside(const Program& program, const std::vector<int>& conditions,
                                       const State<double>& place, const std::vector<Key>& solved, double reach,
                                       const PutFree& put) {
@@ -149,6 +184,7 @@ std::optional<RealState> state_beside(const Program& program, const std::vector<
             return std::nullopt;
         state.value[solved[i]] = (*found)[i];
     }
+    if (may_have_crossed(program, conditions, solved, place, state)) return std::nullopt;
     state.exact = false;
     return state;
 }

@@ -22,6 +22,8 @@ namespace {
 constexpr int steps = 3, most_halvings = 8;
 constexpr double step_length = 0.1;  // of 1 + |q|
 constexpr double most_corrected = 0.2;
+constexpr double most_turned =
+    0.4;  // a sine; where two branches come near each other, a step may land on the other one
 constexpr double search_reach = 0.3;  // of 1 + |q|
 
 /// The rows of the holonomic constraints.
@@ -110,9 +112,23 @@ private:
             for (Eigen::Index i = 0; i < n_; ++i) there.q[static_cast<std::size_t>(i)] += change[i];
             if (!assembles(there)) continue;
             const Eigen::Map<const Eigen::VectorXd> reached(there.q.data(), n_);
-            if ((reached - q - change).lpNorm<Eigen::Infinity>() <= most_corrected * length) return there;
+            if ((reached - q - change).lpNorm<Eigen::Infinity>() > most_corrected * length) continue;
+            if (turned(A, rows_of_positions(m_, p_, there)) <= most_turned) return there;
         }
         return {};
+    }
+
+    /// By how much the normals of the one rows lie outside those of the other: on one branch they turn little at
+    /// one step. Nothing is said of rows that have lost rank, as where branches meet.
+    static double turned(const Eigen::MatrixXd& from, const Eigen::MatrixXd& to) {
+        if (from.rows() == 0) return 0;
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> a(from.transpose()), b(to.transpose());
+        if (a.rank() != b.rank()) return 0;
+        const auto normals = [&](const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr) -> Eigen::MatrixXd {
+            return qr.householderQ() * Eigen::MatrixXd::Identity(from.cols(), qr.rank());
+        };
+        const Eigen::MatrixXd here = normals(a), there = normals(b);
+        return (there - here * (here.transpose() * there)).norm();
     }
 
     Mechanism m_;
@@ -153,9 +169,23 @@ std::optional<OwnBranch> own_branch(const Mechanism& mechanism) try {
         return factors.rank();
     };
     if (rests && rank(start) < positions) return std::nullopt;
+    // Where branches meet the rows depend on each other; near such a pose a small change may lead to the other
+    // branch.
+    constexpr double near_a_meeting = 0.2;            // of the largest among the places
+    const auto independence = [&](const Start& at) {  // the last pivot
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(rows_of_positions(mechanism, program, at));
+        return std::abs(factors.matrixR()(positions - 1, positions - 1));
+    };
     OwnBranch branch;
-    for (const Start& place : places_on_branch(mechanism, program, start, wanted, 1))
-        if (rank(place) == positions) branch.places.push_back(place.state());
+    std::vector<std::pair<double, Start>> places;
+    double largest = 0;
+    for (Start& place : places_on_branch(mechanism, program, start, wanted, 1))
+        if (rank(place) == positions) {
+            places.emplace_back(independence(place), std::move(place));
+            largest = std::max(largest, places.back().first);
+        }
+    for (const auto& [size, place] : places)
+        if (size >= near_a_meeting * largest) branch.places.push_back(place.state());
     return branch.places.empty() ? std::nullopt : std::optional(std::move(branch));
 } catch (const std::runtime_error&) {
     return std::nullopt;
