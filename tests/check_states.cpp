@@ -323,23 +323,20 @@ TEST_CASE("check: the printed equations of chains of links are proved, and a wro
     }
 }
 
-TEST_CASE("check: the sine of pi/10 is the same as a parameter or written out") {
-    const Scene scene = parse_scene(R"scene(title = "slope"
-[parameters]
-tilt = "pi/10"
-[coordinates]
-x = 0
-[[particle]]
-name = "P"
-mass = "1"
-position = ["x", 0]
-[forces]
-x = "sin(tilt)"
-)scene",
-                                    "slope.toml");
-    const Checked result =
-        checked(with_claims(scene, "x'' = sin(pi/10)\nx''^2 + cos(pi/10)^2 = 1\nx'' = sin(pi/5)\n", "claims.txt"));
-    check_verdicts(result, {Verdict::proved, Verdict::proved, Verdict::refuted});
+TEST_CASE(
+    "check: the sine of pi/10 is known where it is written out, and a parameter with that value is a symbol") {
+    const auto slope = [](const std::string& tilt) {
+        return parse_scene(
+            "[parameters]\ntilt = \"pi/10\"\n[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\n"
+            "mass = \"1\"\nposition = [\"x\", 0]\n[forces]\nx = \"sin(" +
+                tilt + ")\"\n",
+            "slope.toml");
+    };
+    const std::string claims = "x'' = sin(pi/10)\nx''^2 + cos(pi/10)^2 = 1\nx'' = sin(pi/5)\n";
+    check_verdicts(checked(with_claims(slope("pi/10"), claims, "claims.txt")),
+                   {Verdict::proved, Verdict::proved, Verdict::refuted});
+    check_verdicts(checked(with_claims(slope("tilt"), claims + "x'' = sin(tilt)\n", "claims.txt")),
+                   {Verdict::refuted, Verdict::refuted, Verdict::refuted, Verdict::proved});
 }
 
 // By hand: the tension of each link carries the weight of the particles below it, Σ m g = 2 λ_k (y_k − y_{k−1}).

@@ -9,10 +9,12 @@
 #include "algebra/symbolic/fourier.hpp"
 #include "analysis/exact/angle_sum.hpp"
 #include "base/language/say.hpp"
+#include "check/in_cells.hpp"
 #include "check/multiple.hpp"
 #include "check/quantities.hpp"
 #include "check/root_form.hpp"
 #include "check/speaks_of_scene.hpp"
+#include "check/start_state.hpp"
 #include "check/vanishing.hpp"
 #include "model/energy.hpp"
 
@@ -191,12 +193,46 @@ namespace {
 
 void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states);
 
+/// What is proved holds on the scene's own branch in numbers, and at its own initial state. Branches of
+/// constraints whose numbers the prime field lacks, such as x = √3 y, are not seen in exact arithmetic, and the
+/// scene may be on one of them.
+void hold_against_own(Comparison& now, std::size_t k, const Motions& motions) {
+    CheckedClaim& c = now.verdicts[k];
+    if (c.verdict != Verdict::proved || c.up_to || now.at == Claim::At::impact || !now.assumed.empty() ||
+        now.is_any_motion || now.forms[k].third || speaks_of_letters(now, k))
+        return;
+    const bool at_rest = now.at == Claim::At::rest;
+    const bool may_have_branches = at_rest || std::any_of(now.m.constraints.begin(), now.m.constraints.end(),
+                                                          [](const Mechanism::Constraint& constraint) {
+                                                              return constraint.position.has_value();
+                                                          });
+    if (!may_have_branches) return;
+    if (const auto shown = fails_at_start(now.forms[k].residual, now.claims, now.e, at_rest)) {
+        c = {};
+        refute(c, *shown);
+        c.reason = say("it fails at the initial state of the scene");
+        return;
+    }
+    if (now.at != Claim::At::motion || !motions.own() || (!motions.has_branches() && motions.loose().empty()))
+        return;
+    Told own = told(now);
+    own.on_own_branch = true;
+    Program p;
+    const int root = now.claims.lower(p, {now.forms[k].residual})[0];
+    if (in_numbers(own, motions, p, root) != InNumbers::fails) return;
+    const auto shown = counterexample(own, motions, p, root);
+    c = {};
+    c.reason = say("it fails on the branch of the constraints to which the initial state belongs");
+    if (shown) refute(c, *shown);
+}
+
 }  // namespace
 
 void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
     LetterClaim claim(now, k, states);
     if (!claim.settle()) settle_as_it_stands(now, k, states);
     claim.tell();
+    hold_against_own(now, k, states.motions);
 }
 
 std::string inequality(const GiNaC::ex& positive, const Mechanism& mechanism) {
@@ -220,6 +256,10 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
                                                  : say("it holds identically and says nothing of the motion");
         return;
     }
+    ExactStates* const own = now.on_own_branch;
+    if (InCells sided(now, k, own != nullptr && own->get(0) != nullptr ? *own : states);
+        sided.any() && sided.settle())
+        return;
     const std::optional<bool> zero = vanishes_at(states, p, root, c.failure);
     if (!zero) {
         c.reason =

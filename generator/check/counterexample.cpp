@@ -128,9 +128,19 @@ public:
     }
 
     std::optional<RealState> operator()(unsigned seed) const {
-        std::optional<RealState> state = on_own_branch_
-                                             ? real_state_on_own_branch(motions_, program_, needed_, seed)
-                                             : real_state(motions_, program_, needed_, seed);
+        return on_sheet(on_own_branch_ ? real_state_on_own_branch(motions_, program_, needed_, seed)
+                                       : real_state(motions_, program_, needed_, seed));
+    }
+
+    /// A state of the cell. `cells` are those of the program that was given.
+    std::optional<RealState> in_cell(const Cells& cells, Cell cell, unsigned seed) const {
+        auto state = on_sheet(on_own_branch_ ? real_state_on_own_branch(motions_, program_, needed_, seed)
+                                             : real_state_towards(motions_, program_, needed_, cells, cell, seed));
+        return state && cells.of(*state) == cell ? state : std::nullopt;
+    }
+
+private:
+    std::optional<RealState> on_sheet(std::optional<RealState> state) const {
         if (!state || positive_.empty()) return state;
         const auto value = evaluate(program_, *state, positive_);
         const bool is_on_sheet =
@@ -138,7 +148,6 @@ public:
         return is_on_sheet ? state : std::nullopt;
     }
 
-private:
     const Motions& motions_;
     Program program_;
     std::vector<int> positive_, needed_;
@@ -239,6 +248,50 @@ InNumbers in_numbers(const Told& told, const Motions& motions, const Program& p,
         if (found >= enough_states) return InNumbers::holds;
     }
     return InNumbers::unknown;
+}
+
+namespace {
+
+/// Adds a state of a cell.
+void add_seen(const Told& told, const Motions& motions, const NodeInCells& of, const RealState& state,
+              SeenInCell& seen) {
+    const auto value = evaluate(of.program, state, {of.node});
+    if (!value) return;
+    ++seen.states;
+    if (seen.fails || is_small((*value)[0]) || !is_as_typed(of.program, of.node, state, (*value)[0])) return;
+    seen.fails = described(told, state, (*value)[0]);
+    add_unspecified(told, motions, of.program, {of.node}, state, *seen.fails);
+}
+
+std::vector<int> roots_of(const NodeInCells& of) {
+    std::vector<int> roots = of.cells.sides();
+    roots.push_back(of.node);
+    return roots;
+}
+
+}  // namespace
+
+std::map<Cell, SeenInCell> survey(const Told& told, const Motions& motions, const NodeInCells& of) {
+    constexpr unsigned enough = 16;
+    const StatesOnSheet states(told, motions, of.program, roots_of(of));
+    std::map<Cell, SeenInCell> result;
+    unsigned found = 0;
+    for (unsigned seed = 0; seed < 4 * enough && found < enough; ++seed) {
+        const auto state = states(seed);
+        const auto cell = state ? of.cells.of(*state) : std::nullopt;
+        if (!cell) continue;
+        ++found;
+        add_seen(told, motions, of, *state, result[*cell]);
+    }
+    return result;
+}
+
+void look_in_cell(const Told& told, const Motions& motions, const NodeInCells& of, Cell cell, int wanted,
+                  SeenInCell& seen) {
+    const StatesOnSheet states(told, motions, of.program, roots_of(of));
+    constexpr unsigned tries = 60;
+    for (unsigned seed = 0; seed < tries && seen.states < wanted && !seen.fails; ++seed)
+        if (const auto state = states.in_cell(of.cells, cell, seed)) add_seen(told, motions, of, *state, seen);
 }
 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,

@@ -9,6 +9,7 @@
 ///
 /// States are those of analysis/exact/real_state.hpp: fractions if possible, otherwise floats with 50 digits.
 
+#include <map>
 #include <set>
 
 #include "analysis/exact/real_state.hpp"
@@ -62,6 +63,24 @@ std::vector<bool> hold_in_numbers(const Told& told, const Motions& motions, cons
 /// which it has a value.
 enum class InNumbers { holds, fails, unknown };
 InNumbers in_numbers(const Told& told, const Motions& motions, const Program& program, int root);
+
+/// What states in numbers on the sheet of the claims say of a node in one cell of its program.
+struct SeenInCell {
+    int states = 0;                            ///< how many were found at which it has a value
+    std::optional<Counterexample> fails = {};  ///< the first at which it is not zero
+};
+/// A node of a program that is cut into cells.
+struct NodeInCells {
+    const Program& program;
+    int node;
+    const Cells& cells;
+};
+/// What some states say, by the cells in which they lie.
+std::map<Cell, SeenInCell> survey(const Told& told, const Motions& motions, const NodeInCells& of);
+/// Looks for further states of one cell, until `wanted` are found, or one at which the node is not zero, or for a
+/// while.
+void look_in_cell(const Told& told, const Motions& motions, const NodeInCells& of, Cell cell, int wanted,
+                  SeenInCell& seen);
 
 /// The sign of the node at several states of the scene's own branch; nothing if it is not the same at all of them,
 /// or if the motions do not know that branch.

@@ -277,30 +277,46 @@ private:
         return true;
     }
 
+    /// The scene's values of the parameters: fractions, constants such as √2, and multiples of π as angles.
+    std::optional<Motions::Given> scene_values(std::uint64_t seed) const {
+        Program p;
+        std::vector<ex> values;
+        for (const Mechanism::Parameter& parameter : m_.parameters)
+            if (parameter.independent) values.push_back(parameter.value);
+        const std::vector<int> nodes = lower_expressions(p, m_, values);
+        const auto at = evaluate_mod(p, {.seed = seed}, nodes);
+        if (!at) return std::nullopt;
+        Motions::Given result;
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const Prime value = at->value[nodes[k]];
+            result.values[{Variable::Kind::parameter, static_cast<int>(k)}] = value;
+            const ex turns = values[k] / GiNaC::Pi;
+            if (values[k].is_zero() || !turns.info(GiNaC::info_flags::rational)) continue;
+            const Rational part = cln::the<cln::cl_RA>(GiNaC::ex_to<numeric>(turns).to_cl_N()) /
+                                  cln::ash(1, states_.motions.halves());
+            if (const auto turn = PrimeTurn::by_pi(part)) result.angles[value] = *turn;
+        }
+        return result;
+    }
+
     bool holds_at_scene_values() {
         if (!form_.open.empty() || !states_.motions.steps().empty()) return false;
-        ModularPoint point;
-        int independent = 0;
-        std::map<std::pair<Variable::Kind, int>, Prime> values;
-        for (const Mechanism::Parameter& p : m_.parameters) {
-            if (!p.independent) continue;
-            const auto value = Prime::from(cln::the<cln::cl_RA>(GiNaC::ex_to<numeric>(p.value).to_cl_N()));
-            if (!value) return false;
-            values[{Variable::Kind::parameter, independent++}] = *value;
-        }
-        if (independent == 0) return false;
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {form_.residual})[0]};
+        // By chance all signs are right at two states.
+        const int wanted = depends_on_sides(p, {root[0]}) || states_.motions.has_sides() ? states_of_sides : 2;
         int usable = 0;
-        for (std::uint64_t seed = 1; seed < 40 && usable < 2; ++seed) {
-            const auto state = states_.motions.at(seed, values);
+        for (std::uint64_t seed = 1; seed < 300 && usable < wanted; ++seed) {
+            const auto values = scene_values(seed);
+            if (!values || values->values.empty()) return false;
+            const auto state = states_.motions.at(seed, *values);
             if (!state) continue;
             const auto at = evaluate_mod(p, state->point, root);
             if (!at) continue;
             if (!at->value[root[0]].is_zero()) return false;
             ++usable;
         }
-        return usable == 2;
+        return usable == wanted;
     }
 
     /// Which factor of an equation of rest vanishes at states where the claim fails and not where it holds? Empty

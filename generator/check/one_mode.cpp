@@ -72,8 +72,10 @@ public:
         constants_->withdraw(now_.scene, now_.verdicts);
         tell_kinematics(now_);
         settle_apart();
-        for (CheckedClaim& c : now_.verdicts)
-            for (const ex& positive : now_.positive) c.where.insert(c.where.begin(), inequality(positive, now_.m));
+        for (std::size_t k = 0; k < now_.verdicts.size(); ++k) {
+            std::vector<std::string>& where = now_.verdicts[k].where;
+            for (const ex& positive : positive_[k]) where.insert(where.begin(), inequality(positive, now_.m));
+        }
         const auto [is_complete, missing, freedom] = of_right_claims();
         return {
             .claims = std::move(now_.verdicts), .complete = is_complete, .missing = missing, .freedom = freedom};
@@ -82,9 +84,15 @@ public:
 private:
     void read() {
         std::vector<Diagnostic> mistakes;
+        const std::vector<ex> of_scene = sheets_ ? sheets_->positive() : std::vector<ex>();
+        positive_.assign(now_.scene.claims.size(), of_scene);
         for (const Claim& claim : now_.scene.claims) try {
                 now_.forms.emplace_back();
+                if (sheets_) sheets_->take_needed();
                 now_.forms.back() = claims_.read(claim);
+                if (sheets_)
+                    for (ex& needed : sheets_->take_needed())
+                        add_positive(now_.forms.size() - 1, std::move(needed));
                 Program p;
                 claims_.lower(p, {now_.forms.back().residual});
             } catch (const SceneMistake& mistake) {
@@ -95,11 +103,28 @@ private:
             }
         if (!mistakes.empty()) fail(now_.scene, mistakes);
         constants_.emplace(now_.scene, claims_, now_.forms);
-        if (sheets_) now_.positive = sheets_->positive();
         if (now_.scene.claims.empty()) return;
         for (const Inequality& assumed : now_.scene.claims[0].where)  // those of one mode assume the same
             now_.assumed.push_back(claims_.read(assumed.greater) - claims_.read(assumed.less));
-        now_.positive.insert(now_.positive.end(), now_.assumed.begin(), now_.assumed.end());
+        for (std::vector<ex>& positive : positive_)
+            positive.insert(positive.end(), now_.assumed.begin(), now_.assumed.end());
+    }
+
+    void add_positive(std::size_t claim, ex needed) {
+        std::vector<ex>& list = positive_[claim];
+        if (std::none_of(list.begin(), list.end(),
+                         [&](const ex& known) { return (known - needed).expand().is_zero(); }))
+            list.push_back(std::move(needed));
+    }
+
+    /// From now on the sheet is that of these claims: a claim alone is not judged by what another one needs.
+    void compare_on_sheet_of(const std::vector<std::size_t>& claims) {
+        now_.positive.clear();
+        for (const std::size_t k : claims)
+            for (const ex& positive : positive_[k])
+                if (std::none_of(now_.positive.begin(), now_.positive.end(),
+                                 [&](const ex& known) { return (known - positive).expand().is_zero(); }))
+                    now_.positive.push_back(positive);
     }
 
     /// Whether the claim's own arithmetic fails, so that there is nothing to compare.
@@ -174,6 +199,7 @@ private:
         const bool is_bound = std::any_of(now_.m.constraints.begin(), now_.m.constraints.end(),
                                           [](const Mechanism::Constraint& c) { return c.position.has_value(); });
         const bool may_combine = at == Motions::At::rest || (now_.at == Claim::At::motion && is_bound);
+        compare_on_sheet_of(asked);
         const std::vector<std::size_t> here = may_combine ? without_combinations(now_, asked, at) : asked;
         if (here.empty()) return;
         const bool knows_own = knows_own_branch();
@@ -225,6 +251,7 @@ private:
             else
                 now_.verdicts[k].reason =
                     say("the constraints cannot be solved one after the other, and it leaves names open");
+        compare_on_sheet_of(open);
         settle_open_claims(now_, open, *states);
         now_.on_own_branch = nullptr;
     }
@@ -254,6 +281,7 @@ private:
     }
 
     void settle_alone(std::size_t k, ExactStates& states) try {
+        compare_on_sheet_of({k});
         settle_closed_claim(now_, k, states);
     } catch (const std::exception&) {
         now_.verdicts[k] = {};
@@ -276,6 +304,7 @@ private:
     std::shared_ptr<RootSheets> sheets_;
     std::optional<GivenConstants> constants_;
     Comparison now_;
+    std::vector<std::vector<ex>> positive_;  ///< what is positive on the sheet of each claim
 };
 
 }  // namespace

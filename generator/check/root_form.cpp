@@ -3,9 +3,7 @@
 
 #include <stdexcept>
 
-#include "analysis/state/assemble.hpp"
 #include "model/energy.hpp"
-#include "program/lower/lower.hpp"
 
 namespace alembert {
 
@@ -71,33 +69,6 @@ std::optional<ex> root_of_positions(const ex& s, const Mechanism& m) {
             }
         }
     return std::nullopt;
-}
-
-bool is_positive_at_start(const ex& value, const Claims& claims, const Equations& equations) {
-    const Mechanism& m = claims.mechanism();
-    if (m.z->depends(value, claims.open_symbols())) return false;
-    try {
-        Start start = start_of(m);
-        assemble(start, m, lower_constraints(m), {});
-        State<double> state = start.state();
-        std::vector<GiNaC::symbol> forced = m.qddot;
-        for (const auto* list : {&m.constraints, &m.redundant})
-            for (const Mechanism::Constraint& c : *list) forced.push_back(c.multiplier);
-        if (m.z->depends(value, forced)) {
-            const Program motion = lower(m, equations, energy_of(m), {.admissible = [&start] { return start; }});
-            const std::vector<double> at = interpret(motion, state);
-            for (const int id : motion.nodes_of(Group::acceleration)) state.qddot.push_back(at[id]);
-            for (const int id : motion.nodes_of(Group::multiplier)) state.unknown.push_back(at[id]);
-            state.unknown.insert(state.unknown.begin() + static_cast<std::ptrdiff_t>(m.constraints.size()),
-                                 m.unilateral.size(), 0.0);
-        }
-        state.unknown.resize(equations.lambda.size() + m.undetermined().size() + claims.open().size());
-        Program program;
-        const int root = claims.lower(program, {value})[0];
-        return interpret(program, state)[root] > 0;
-    } catch (const std::runtime_error&) {
-        return false;
-    }
 }
 
 }  // namespace alembert

@@ -28,8 +28,4 @@ std::vector<GiNaC::ex> squares_in(const GiNaC::ex& residual, const Mechanism& me
 /// multiple of 2 a q + b, whose square is b² − 4 a c. Nothing if no constraint is of this kind.
 std::optional<GiNaC::ex> root_of_positions(const GiNaC::ex& s, const Mechanism& mechanism);
 
-/// Is `value` (of coordinates, rates, accelerations and multipliers) positive at the scene's initial state? False
-/// also if that cannot be decided.
-bool is_positive_at_start(const GiNaC::ex& value, const Claims& claims, const Equations& equations);
-
 }  // namespace alembert

@@ -11,8 +11,25 @@ double chance_of_another_branch(const ExactState& state) {
     return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure;
 }
 
+namespace {
+
+/// The least number of states, so that signs are not right by chance.
+int states_needed(const Program& p, int root, const ExactStates& states) {
+    const std::vector<int> needed = p.needed(std::array{root});
+    const auto has = [&](std::initializer_list<Op> ops) {
+        return std::any_of(needed.begin(), needed.end(), [&](int id) {
+            return std::find(ops.begin(), ops.end(), p[id].op) != ops.end() && !p[p[id].args[0]].is_number();
+        });
+    };
+    if (states.motions.has_sides() || has({Op::abs, Op::sign, Op::min, Op::max})) return states_of_sides;
+    return has({Op::sqrt}) ? states_of_roots : 1;
+}
+
+}  // namespace
+
 std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure) {
     const std::array<int, 1> roots{root};
+    const int least = states_needed(p, root, states);
     failure = 0;
     double missed = 0;  // log₂ of the probability that no state was on some branch
     int usable = 0;
@@ -20,7 +37,8 @@ std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root,
     for (std::size_t s = 0;; ++s) {
         const ExactState* const state = states.get(s);
         if (state == nullptr || s > most_states)
-            return usable > 0 && ((failure <= wanted_failure && missed <= wanted_failure) || rest)
+            return usable >= std::min(least, states_of_roots) &&
+                           ((failure <= wanted_failure && missed <= wanted_failure) || rest)
                        ? std::optional(true)
                        : std::nullopt;
         const auto at = evaluate_mod(p, state->point, roots);
@@ -32,7 +50,8 @@ std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root,
         if (chance > -1) return std::nullopt;
         failure += chance;
         missed += chance_of_another_branch(*state);
-        if (failure <= wanted_failure && missed <= wanted_failure && (!rest || usable >= states_of_rest))
+        if (failure <= wanted_failure && missed <= wanted_failure && usable >= least &&
+            (!rest || usable >= states_of_rest))
             return true;
     }
 }
@@ -70,10 +89,11 @@ std::optional<bool> vanishes_with_some_signs(ExactStates& states, const Program&
 
 bool vanishes_at_two(ExactStates& states, const Program& p, int root) {
     std::size_t wanted = states.motions.where() == Motions::At::rest ? 8 : 2;
+    if (depends_on_sides(p, {root}) || states.motions.has_sides()) wanted = 20;
     for (std::size_t s = 0, usable = 0; usable < wanted; ++s) {
         const ExactState* const state = states.get(s);
-        if (state == nullptr || s > 30) return false;
-        if (state->branches > 1) wanted = 8;
+        if (state == nullptr || s > 60) return false;
+        if (state->branches > 1) wanted = std::max<std::size_t>(wanted, 8);
         const auto at = evaluate_mod(p, state->point, std::array<int, 1>{root});
         if (!at) continue;
         if (!at->value[root].is_zero()) return false;
@@ -95,7 +115,10 @@ bool depends_on_shares(ExactStates& states, const Program& p, int root) {
 bool depends_on_sides(const Program& p, const std::vector<int>& roots) {
     const std::vector<int> needed = p.needed(roots);
     return std::any_of(needed.begin(), needed.end(), [&](int id) {
-        return p[id].op == Op::sign || p[id].op == Op::abs || p[id].op == Op::sqrt;
+        const Op op = p[id].op;
+        if (p[id].depends == 0) return false;  // a number
+        return op == Op::sign || op == Op::abs || op == Op::min || op == Op::max ||
+               (op == Op::sqrt && !p[p[id].args[0]].is_number());
     });
 }
 

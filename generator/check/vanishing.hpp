@@ -19,6 +19,8 @@
 namespace alembert {
 
 constexpr double wanted_failure = -60;     ///< log₂ of the probability of an error that is small enough
+constexpr int states_of_sides = 60;        ///< where signs decide, each may be right by chance
+constexpr int states_of_roots = 8;         ///< where square roots alone do
 constexpr int states_of_rest = 48;         ///< number of states of rest: their branches are not counted
 constexpr std::size_t most_states = 1200;  ///< after this many states the question stays undecided
 
@@ -31,13 +33,12 @@ std::optional<bool> vanishes_at(ExactStates& states, const Program& program, int
 std::optional<bool> vanishes_with_some_signs(ExactStates& states, const Program& program, int root,
                                              double& failure);
 
-/// The same question at two states only, or at eight if the constraints have branches or the states are states of
-/// rest. This is enough to find a correction, but not to prove it.
+/// The same question at two states only, at eight if the constraints have branches or the states are states of
+/// rest, or at twenty where signs decide. This is enough to find a correction, but not to prove it.
 bool vanishes_at_two(ExactStates& states, const Program& program, int root);
 
-/// Whether signs decide: Legendre's symbol takes their place in exact arithmetic, and that of 3 is −1, so that
-/// 3 times something positive counts as negative. A root is the one of two that counts as positive: that of 9
-/// is −3.
+/// Whether signs decide, of absolute values, smaller and larger ones or roots: Legendre's symbol takes their place
+/// in exact arithmetic, and it knows no order. A root is the one of two that counts as positive: that of 9 is −3.
 bool depends_on_sides(const Program& program, const std::vector<int>& roots);
 
 /// Is the node zero whatever values the variables have? What holds because a parameter is positive is no identity.

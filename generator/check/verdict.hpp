@@ -57,6 +57,9 @@ struct CheckedClaim {
     std::optional<UpTo> up_to;  ///< of a claim that is proved
     std::optional<OtherBranch> other_branch;
     std::vector<std::string> where;  ///< the sheet or branch of roots on which the verdict holds: "r > 0"
+    /// Of a refuted claim: on which sides it holds all the same, each with what must hold there together: "x > 0,
+    /// y < 0".
+    std::vector<std::string> holds_where;
 };
 
 }  // namespace alembert

@@ -105,6 +105,13 @@ private:
         return a.is_square() != is_turned;
     }
 
+    /// Of a node that is not zero; a positive number before it changes nothing, though it may be no square: 3x.
+    bool is_positive(int id) const {
+        const Node& node = program_[id];
+        if (!node.is_scaled()) return is_positive(value(id));
+        return is_positive(value(node.args[0])) == cln::plusp(node.coefficients[0]);
+    }
+
     std::optional<Prime> of(int id) {
         const Node& node = program_[id];
         double& degree = values.degree[id];
@@ -131,10 +138,11 @@ private:
                 return square_root(node.args[0]);
             case Op::abs:
                 values.exact = values.exact && arg(0).is_plain();
-                return arg(0).is_plain() ? (is_positive(arg(0)) ? arg(0) : -arg(0)) : std::min(arg(0), -arg(0));
+                return arg(0).is_plain() ? (is_positive(node.args[0]) ? arg(0) : -arg(0))
+                                         : std::min(arg(0), -arg(0));
             case Op::sign:
                 values.exact = values.exact && arg(0).is_plain();
-                return arg(0).is_zero() ? Prime(0) : Prime(is_positive(arg(0)) ? 1 : -1);
+                return arg(0).is_zero() ? Prime(0) : Prime(is_positive(node.args[0]) ? 1 : -1);
             case Op::exp:
                 return exponential(node.args[0], degree);
             case Op::sinh:
@@ -143,9 +151,11 @@ private:
                 return hyperbolic(node, degree);
             case Op::min:
             case Op::max: {
-                const Prime low = std::min(arg(0), arg(1)), high = std::max(arg(0), arg(1));
-                const bool first = (point_->random(400, low.bits(), high.bits()).bits() & 1U) != 0;
-                return first == (node.op == Op::min) ? low : high;
+                const Prime difference = arg(0) - arg(1);
+                values.exact = values.exact && difference.is_plain();
+                if (difference.is_zero()) return arg(0);
+                const bool is_first = is_positive(difference) == (node.op == Op::max);
+                return is_first ? arg(0) : arg(1);
             }
             case Op::unspecified:
                 degree += 1;

@@ -21,8 +21,9 @@
 ///  - √a is the root that is a square itself, |a| is a or −a, whichever is a square, sign a is Legendre's symbol:
 ///    this keeps √(ab) = √a √b and √(a²) = |a|. If a is no square, the point is unusable. Of a and −a in `turned`
 ///    the other one counts as positive; of a number in `negative_roots` the other root is taken.
-///  - exp(Σ c·x) is a product of powers in the same way; sinh, cosh and tanh follow from it. min and max of a pair
-///    are the one and the other of the pair. A function of [functions] and each of its derivatives are independent
+///  - exp(Σ c·x) is a product of powers in the same way; sinh, cosh and tanh follow from it. max(a, b) is a if a −
+///  b
+///    counts as positive, and b otherwise. A function of [functions] and each of its derivatives are independent
 ///    random functions of the arguments' values, as they may be any. All other functions are random functions too.
 ///    These, and √3, √5 … (which are no squares modulo this prime), do not obey identities such as
 ///    cos(asin x)² = 1 − x². Therefore a difference found here is certain only if `exact` is set.

@@ -332,6 +332,10 @@ int Program::call(Op op, std::span<const int> args) {
         if (op == Op::sign) return number(cln::signum(arg.number));
         if (op == Op::log && cln::equal(arg.number, 1)) return number(0);
     }
+    if ((op == Op::min || op == Op::max) && arg.is_number() && nodes_[args[1]].is_number()) {
+        const Rational other = nodes_[args[1]].number;
+        return number(op == Op::min ? std::min(arg.number, other) : std::max(arg.number, other));
+    }
     const bool negative =
         (arg.is_scaled() && cln::minusp(arg.coefficients[0])) || (arg.is_number() && cln::minusp(arg.number));
     if (negative && (is_odd_function(op) || is_even_function(op))) {

@@ -23,7 +23,7 @@ public:
         if (is_on_own_branch_ && k >= most_on_own_branch) return nullptr;  // each of them takes long
         while (made_.size() <= k && unusable_ < (is_on_own_branch_ ? most_failures : most_unusable) &&
                motions.obstacle().empty()) {
-            if (auto state = is_on_own_branch_ ? motions.on_own_branch(++seed_) : motions.at(++seed_, {}, turned_))
+            if (auto state = is_on_own_branch_ ? motions.on_own_branch(++seed_) : motions.at(++seed_, turned_))
                 keep(std::move(*state));
             else
                 ++unusable_;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "alembert/base/error.hpp"
+#include "analysis/exact/cells.hpp"
 #include "analysis/exact/counted_angle.hpp"
 #include "analysis/exact/reduced_sums.hpp"
 #include "analysis/exact/solve_condition.hpp"
@@ -77,11 +78,9 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
       halves_(sampling.halves) {
     const Mechanism m = in_terms_of(e, mechanism);
     rubbed_ = rubbed_rows(m, e);
-    if (!rubbed_.empty()) {
-        need_determined_reactions(m);
-        positive_ = static_cast<int>(
-            std::count_if(m.parameters.begin(), m.parameters.end(), [](const auto& p) { return p.independent; }));
-    }
+    if (!rubbed_.empty()) need_determined_reactions(m);
+    positive_ = static_cast<int>(
+        std::count_if(m.parameters.begin(), m.parameters.end(), [](const auto& p) { return p.independent; }));
     std::vector<ex> list;
     for (int i = 0; i < n_; ++i)
         for (int j = 0; j < n_; ++j) list.push_back(e.M(i, j));
@@ -134,6 +133,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
         loose_ = conditions;
     else
         order(conditions);
+    has_sides_ = !Cells(program_, nodes).empty();
     find_usable_points(nodes, sampling.halvings);
     find_branches();
     find_open_unknowns();
@@ -221,11 +221,13 @@ void Motions::find_branches() {
         has_branches_ = has_branches_ || (!irreducible_[k] && highest[k] > 1);
 }
 
-std::optional<ExactState> Motions::at(std::uint64_t seed,
-                                      const std::map<std::pair<Variable::Kind, int>, Prime>& given,
-                                      unsigned turned) const {
+std::optional<ExactState> Motions::at(std::uint64_t seed, const Given& given, unsigned turned) const {
     if (!obstacle_.empty()) return std::nullopt;
-    ExactState state{.point = {.seed = seed, .given = given, .halves = halves_, .finer = finer_}};
+    ExactState state{.point = {.seed = seed,
+                               .given = given.values,
+                               .given_angles = given.angles,
+                               .halves = halves_,
+                               .finer = finer_}};
     return solved(std::move(state), nullptr, turned);
 }
 

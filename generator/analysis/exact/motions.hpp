@@ -27,7 +27,7 @@
 /// Dry friction on a constraint has the normal force |λ|, so that the equations are linear in q'' and λ once the
 /// sign of each such λ is known. All signs are tried, from a random one on, and the first solution that has the
 /// signs with which it was found is taken; a sign is Legendre's symbol here, as in every evaluation
-/// (program/modular.hpp). Parameters are squares there: they count as positive.
+/// (program/modular.hpp). Parameters are squares: they count as positive.
 ///
 /// Constraints may have several branches (x² = l²: x = l and x = −l), and a statement that holds on one branch
 /// need not hold on the others. One of the roots of a polynomial of degree d is drawn at random, so that each
@@ -82,12 +82,18 @@ public:
     Motions(const Motions&) = delete;
     Motions& operator=(const Motions&) = delete;
 
-    /// Nothing for an unusable seed: there is no root in the field, or a denominator is zero. `given` are values,
-    /// instead of random ones, of variables that are not solved for. Bit r of `turned`: the multiplier of row
-    /// rubbed()[r] has the sign opposite to Legendre's symbol.
-    std::optional<ExactState> at(std::uint64_t seed,
-                                 const std::map<std::pair<Variable::Kind, int>, Prime>& given = {},
-                                 unsigned turned = 0) const;
+    /// Values, instead of random ones, of variables that are not solved for, and turns of angles with these
+    /// values, as in ModularPoint.
+    struct Given {
+        std::map<std::pair<Variable::Kind, int>, Prime> values;
+        std::map<Prime, PrimeTurn> angles;
+    };
+    /// Nothing for an unusable seed: there is no root in the field, or a denominator is zero. Bit r of `turned`:
+    /// the multiplier of row rubbed()[r] has the sign opposite to Legendre's symbol.
+    std::optional<ExactState> at(std::uint64_t seed, const Given& given, unsigned turned = 0) const;
+    std::optional<ExactState> at(std::uint64_t seed, unsigned turned = 0) const {
+        return at(seed, Given{.values = {}, .angles = {}}, turned);
+    }
 
     /// The same, on the scene's own branch. Nothing also where the branches cannot be told apart.
     std::optional<ExactState> on_own_branch(std::uint64_t seed) const;
@@ -123,6 +129,8 @@ public:
     /// The rows on which friction acts, in ascending order: `f` contains the absolute values of their multipliers,
     /// linearly, and no other multiplier of the equations.
     const std::vector<int>& rubbed() const { return rubbed_; }
+    /// Whether signs, absolute values, min or max decide in the equations or the constraints.
+    bool has_sides() const { return has_sides_; }
     /// The columns of the system of accelerations and multipliers that the equations leave open at every state.
     const std::vector<std::size_t>& open_unknowns() const { return open_unknowns_; }
     /// The index of the `unknown` that is the multiplier of row k; the kept rows come first, then the redundant
@@ -166,7 +174,7 @@ private:
     std::vector<bool> irreducible_;  ///< for each step
     std::vector<std::size_t> open_unknowns_;
     std::vector<std::vector<std::size_t>> known_rows_;  ///< that become known before each step, and after the last
-    bool has_branches_ = false;
+    bool has_branches_ = false, has_sides_ = false;
     std::optional<OwnBranch> own_;
     std::optional<OwnPoints> own_points_;  ///< refers to program_, steps_ and own_
     std::string obstacle_;

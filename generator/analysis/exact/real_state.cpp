@@ -233,10 +233,15 @@ bool solve_accelerations(const Motions& motions, RealState& state, Numbers& numb
     return false;
 }
 
-bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
+enum class Rates { drawn, kept };
+
+bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers, Rates rates) {
     const auto n = static_cast<std::size_t>(motions.size()), m = static_cast<std::size_t>(motions.constraints());
     const Motions::System& s = motions.entries();
-    for (std::size_t i = 0; i < n; ++i) state.value[{Variable::Kind::rate, static_cast<int>(i)}] = numbers.any();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Key key{Variable::Kind::rate, static_cast<int>(i)};
+        if (rates == Rates::drawn || !state.value.contains(key)) state.value[key] = numbers.any();
+    }
     if (m > 0) {
         // The rates nearest to the chosen ones would be fractions of large numbers. Therefore the equations are
         // solved for the rates of the pivots.
@@ -268,10 +273,10 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
                     equations[k][m] -= (*A)[k * n + i] * state.value[{Variable::Kind::rate, static_cast<int>(i)}];
             }
         }
-        const auto rates = solve_rows(std::move(equations), m);
-        if (!rates) return false;
+        const auto solved = solve_rows(std::move(equations), m);
+        if (!solved) return false;
         for (std::size_t k = 0; k < m; ++k)
-            state.value[{Variable::Kind::rate, static_cast<int>(pivots[k])}] = (*rates)[k];
+            state.value[{Variable::Kind::rate, static_cast<int>(pivots[k])}] = (*solved)[k];
     }
     return solve_accelerations(motions, state, numbers);
 }
@@ -325,8 +330,9 @@ struct AllVariables {
 };
 
 /// The rates, accelerations and multipliers of a state with positions.
-std::optional<RealState> moving(const Motions& motions, RealState state, Numbers& numbers) {
-    if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers)) return std::nullopt;
+std::optional<RealState> moving(const Motions& motions, RealState state, Numbers& numbers, Rates rates) {
+    if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers, rates))
+        return std::nullopt;
     if (!motions.entries().redundant.empty() && !share_out(motions, state, numbers)) return std::nullopt;
     for (auto& [key, value] : state.value)
         if (is_almost_zero(value)) value = 0;
@@ -335,10 +341,84 @@ std::optional<RealState> moving(const Motions& motions, RealState state, Numbers
     return state;
 }
 
-}  // namespace
+/// Moves variables that are drawn until the sides have the signs of the cell, as far as these variables decide
+/// them.
+class Steering {
+public:
+    Steering(const Program& program, const Cells& cells, Cell cell)
+        : program_(program), cells_(cells), cell_(cell) {}
 
-std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
-                                    unsigned seed) {
+    void steer(RealState& state, Numbers& numbers) const {
+        constexpr int most_moves = 40;
+        for (int moves = 0; moves < most_moves; ++moves) {
+            const std::optional<std::size_t> wrong = wrong_side(state);
+            if (!wrong) return;
+            move(state, *wrong, numbers);
+        }
+    }
+
+private:
+    bool is_wanted_positive(std::size_t k) const { return (cell_ >> k & 1U) != 0; }
+
+    /// The first whose sign is not that of the cell and follows from what is drawn.
+    std::optional<std::size_t> wrong_side(const RealState& state) const {
+        for (std::size_t k = 0; k < cells_.sides().size(); ++k) {
+            const auto value = side(state, k);
+            if (value && (value->is_zero() || value->is_positive() != is_wanted_positive(k))) return k;
+        }
+        return std::nullopt;
+    }
+
+    std::optional<numeric> side(const RealState& state, std::size_t k) const {
+        const int node = cells_.sides()[k];
+        constexpr auto bit = [](Variable::Kind kind) { return 1U << static_cast<unsigned>(kind); };
+        if ((program_[node].depends & (bit(Variable::Kind::acceleration) | bit(Variable::Kind::unknown))) != 0)
+            return std::nullopt;
+        const auto values = evaluate(program_, state, {node});
+        return values ? std::optional(values->front()) : std::nullopt;
+    }
+
+    /// A step of the secant method for one variable of the side, and beyond the root.
+    void move(RealState& state, std::size_t k, Numbers& numbers) const {
+        std::set<Key> angles, plain;
+        find_variables(program_, {cells_.sides()[k]}, angles, plain);
+        angles.merge(plain);
+        std::vector<Key> keys(angles.begin(), angles.end());
+        const auto is_parameter = [](const Key& key) { return key.first == Variable::Kind::parameter; };
+        if (!std::all_of(keys.begin(), keys.end(), is_parameter)) std::erase_if(keys, is_parameter);
+        if (keys.empty()) return;
+        const Key key = keys[numbers.choice(static_cast<unsigned>(keys.size()))];
+        const numeric x0 = at(state, key), x1 = x0 + numeric(1, 3);
+        const auto f0 = side(state, k);
+        put(state, key, x1);
+        const auto f1 = side(state, k);
+        put(state, key, x0);
+        if (!f0 || !f1 || (*f1 - *f0).is_zero()) return put_near(state, key, x0, numbers.any());
+        const numeric root = x0 - *f0 * (x1 - x0) / (*f1 - *f0);
+        const bool up = (*f1 - *f0).is_positive() == is_wanted_positive(k);
+        const std::array<numeric, 4> beyond{numeric(1, 50), numeric(1, 5), numeric(1), numeric(7)};
+        const numeric step = beyond[numbers.choice(beyond.size())];
+        put_near(state, key, root, up ? step : -step);
+    }
+
+    static numeric at(const RealState& state, const Key& key) {
+        const auto angle = state.angle.find(key);
+        return angle != state.angle.end() ? angle->second.tangent : state.value.at(key);
+    }
+
+    static void put_near(RealState& state, const Key& key, const numeric& x, const numeric& step) {
+        const numeric moved = decimal((x + step).to_double(), 4);
+        const bool must_be_positive = key.first == Variable::Kind::parameter || key.first == Variable::Kind::time;
+        if (!must_be_positive || moved.is_positive()) put(state, key, moved);
+    }
+
+    const Program& program_;
+    const Cells& cells_;
+    const Cell cell_;
+};
+
+std::optional<RealState> drawn(const Motions& motions, const Program& claims, const std::vector<int>& roots,
+                               const Steering* steering, unsigned seed) {
     if (!motions.obstacle().empty() && motions.loose().empty()) return std::nullopt;
     const FiftyDigits digits;
     Numbers numbers(seed);
@@ -360,8 +440,23 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
                 state.value[{kind, i}] = 0;
         for (int k = 0; k < motions.constraints(); ++k) state.value[{Variable::Kind::unknown, k}] = numbers.any();
     }
+    if (steering != nullptr) steering->steer(state, numbers);
     if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
-    return moving(motions, std::move(state), numbers);
+    return moving(motions, std::move(state), numbers, steering != nullptr ? Rates::kept : Rates::drawn);
+}
+
+}  // namespace
+
+std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
+                                    unsigned seed) {
+    return drawn(motions, claims, roots, nullptr, seed);
+}
+
+std::optional<RealState> real_state_towards(const Motions& motions, const Program& claims,
+                                            const std::vector<int>& roots, const Cells& cells, Cell cell,
+                                            unsigned seed) {
+    const Steering steering(claims, cells, cell);
+    return drawn(motions, claims, roots, &steering, seed);
 }
 
 std::optional<RealState> real_state_on_own_branch(const Motions& motions, const Program& claims,
@@ -395,7 +490,7 @@ std::optional<RealState> real_state_on_own_branch(const Motions& motions, const 
     }
     const auto implied = evaluate(motions.program(), *state, motions.implied());
     if (!implied || !std::all_of(implied->begin(), implied->end(), is_almost_zero)) return std::nullopt;
-    return moving(motions, *std::move(state), numbers);
+    return moving(motions, *std::move(state), numbers, Rates::drawn);
 }
 
 }  // namespace alembert

@@ -9,6 +9,7 @@
 ///             // a counterexample
 ///             if (const auto r = evaluate(claims, *state, roots); r && !r->front().is_zero()) …
 
+#include "analysis/exact/cells.hpp"
 #include "analysis/exact/motions.hpp"
 #include "analysis/exact/real_values.hpp"
 
@@ -22,6 +23,12 @@ inline constexpr unsigned first_float_seed = 400;
 /// unusable seed.
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
                                     unsigned seed);
+
+/// The same, drawn so that it is likely to lie in a cell of `claims`: thresholds are passed where values that are
+/// drawn decide. Whoever asks has to look whether it does.
+std::optional<RealState> real_state_towards(const Motions& motions, const Program& claims,
+                                            const std::vector<int>& roots, const Cells& cells, Cell cell,
+                                            unsigned seed);
 
 /// The same on the scene's own branch, for motions that know it: near a place of it, and at seed 0 with the
 /// scene's parameters. Positions that follow from others are floats.

@@ -162,7 +162,8 @@ std::vector<ModularPoint> RegressorColumns::states(const Given& parameters, std:
     }
     constexpr std::size_t most_unusable = 400;
     for (std::uint64_t seed = 1; result.size() < count && seed <= count + most_unusable; ++seed)
-        if (const auto state = motions_->at(seed, parameters)) result.push_back(state->point);
+        if (const auto state = motions_->at(seed, {.values = parameters, .angles = {}}))
+            result.push_back(state->point);
     return result;
 }
 

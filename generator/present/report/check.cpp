@@ -82,6 +82,7 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
         json["up_to"] = {{"kind", checked.up_to->kind == UpTo::Kind::constant ? "constant" : "derivative"},
                          {"text", checked.up_to->text}};
     if (!checked.where.empty()) json["where"] = checked.where;
+    if (!checked.holds_where.empty()) json["holds_where"] = checked.holds_where;
     if (checked.other_branch) {
         const OtherBranch& other = *checked.other_branch;
         Json state = Json::object();
@@ -123,6 +124,7 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
         line(say("it fails at "), text_of_state(c.counterexample));
         line(say("where left - right = "), c.residual);
     }
+    for (const std::string& sides : c.holds_where) line(say("it holds where "), sides);
     return page;
 }
 

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Absolute values, signs, smaller and larger values cut the states into cells, and a claim is proved only if it
+// holds in all of them. What is right in each cell is known by hand.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "analysis/exact/impossible.hpp"
+#include "checked.hpp"
+
+namespace check_cells {
+
+using namespace alembert;
+using GiNaC::symbol;
+using test::check_verdicts;
+
+namespace {
+
+Checked of(const std::string& scene, const std::string& claims) {
+    const Scene read = with_claims(parse_scene(scene, "scene.toml"), claims, "claims.txt");
+    const Prepared made = prepared(read, {}, true);
+    return check(made.scene, made.mechanism, made.sheets);
+}
+
+/// A mass on a line with this force.
+std::string pushed_by(const std::string& force, const std::string& start = "{ initial = 0.02, rate = 0.1 }") {
+    return fmt::format(R"toml(
+[parameters]
+m = 1.5
+k = 30
+h = 200
+c = 0.7
+b = 20
+[coordinates]
+x = {}
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", 0]
+[forces]
+x = "{}"
+)toml",
+                       start, force);
+}
+
+const auto proved = Verdict::proved, refuted = Verdict::refuted;
+
+}  // namespace
+
+TEST_CASE("check: a stop beside the start or far from it belongs to the equation") {
+    for (const std::string stop : {"max(0, -x - 0.05)", "max(0, x - 20)", "max(0, x - b)", "max(0, x - 0.021)",
+                                   "(abs(x + 3) - x - 3)/2", "-min(0, 4 - x)"}) {
+        CAPTURE(stop);
+        const Checked checked = of(pushed_by("-k*x + h*" + stop), fmt::format(R"(
+m*x'' + k*x = 0
+m*x'' + k*x - h*{0} = 0
+m*x'' + k*x + h*{0} = 0
+)",
+                                                                              stop));
+        check_verdicts(checked, {refuted, proved, refuted});
+        CHECK(checked.claims[0].holds_where.size() == 1);
+    }
+}
+
+TEST_CASE("check: a refuted claim tells on which side it holds") {
+    const Checked checked = of(pushed_by("-k*x + h*max(0, -x - 0.05)"), "m*x'' + k*x = 0\nabs(x - 20) = 20 - x\n");
+    check_verdicts(checked, {refuted, refuted});
+    CHECK(checked.claims[0].holds_where == std::vector<std::string>{"x > -0.05"});
+    CHECK(checked.claims[1].holds_where == std::vector<std::string>{"x < 20"});
+}
+
+TEST_CASE("check: sides of free coordinates and rates are not those of the start") {
+    check_verdicts(of(pushed_by("-k*x"), R"(
+abs(x - 20) = 20 - x
+abs(x + 2) = x + 2
+sign(x' + 4) = 1
+max(0, x' + 6) = 0
+m*x'' - k*x*sign(x' - 10) = 0
+abs(x + 2) = max(x + 2, -x - 2)
+max(x, 3) + min(x, 3) = x + 3
+abs(x*x') = abs(x)*abs(x')
+sign(x)*abs(x) = x
+abs(x + b) = x + b
+)"),
+                   {refuted, refuted, refuted, refuted, refuted, proved, proved, proved, proved, refuted});
+}
+
+TEST_CASE("check: cells without states do not count") {
+    check_verdicts(of(pushed_by("-k*x"), R"(
+abs(x^2 + 1) = x^2 + 1
+abs(k + m) = k + m
+abs(2 + sin(x)) = 2 + sin(x)
+sign(x - b)*sign(x + b) = sign(x^2 - b^2)
+)"),
+                   {proved, proved, proved, proved});
+}
+
+// With c|v|v a throw upwards is slowed and a fall too; with c v² the fall is sped up.
+TEST_CASE("check: a root of a rate has no sheet of its own") {
+    const std::string thrown = R"toml(
+gravity = [0, "-g"]
+[parameters]
+m = 1
+g = 9.81
+c = 0.2
+[coordinates]
+y = { initial = 0, rate = 5 }
+[[particle]]
+name = "P"
+mass = "m"
+position = [0, "y"]
+[forces]
+y = "-c*norm(vel(P))*y'"
+)toml";
+    check_verdicts(of(thrown, R"(
+m*y'' + m*g = -c*y'^2
+m*y'' + m*g = -c*y'*abs(y')
+m*y'' + m*g = -c*y'*sqrt(y'^2)
+m*y'' + m*g = -c*y'^2*sign(y')
+)"),
+                   {refuted, proved, proved, proved});
+}
+
+TEST_CASE("check: parameters are symbols, however their values are written") {
+    for (const std::string value :
+         {"0.7", "\"pi/4\"", "{ value = 45, unit = \"deg\" }", "\"sqrt(2)/2\"", "\"40 deg\""}) {
+        CAPTURE(value);
+        const std::string slope = fmt::format(R"toml(
+gravity = [0, "-g"]
+[parameters]
+m = 1
+g = 9.81
+alpha = {0}
+beta = {0}
+[coordinates]
+s = 0
+[[particle]]
+name = "block"
+mass = "m"
+position = ["s*cos(alpha)", "-s*sin(alpha)"]
+)toml",
+                                              value);
+        const Checked checked = of(slope, "s'' = g*sin(alpha)\ns'' = g*cos(alpha)\ns'' = g*sin(beta)\n");
+        check_verdicts(checked, {proved, refuted, refuted});
+        CHECK(checked.claims[2].reason.find("scene's values") != std::string::npos);
+    }
+}
+
+TEST_CASE("impossible: sums of what is positive cannot be negative") {
+    const symbol x("x"), y("y"), a("a");
+    CHECK(is_impossible({x - a, -x - a}, {a}));
+    CHECK(is_impossible({x - a, a - x}, {a}));
+    CHECK_FALSE(is_impossible({x - a, x + a}, {a}));
+    CHECK(is_impossible({-x * x - 1}, {}));
+    CHECK(is_impossible({2 * x * y - x * x - y * y}, {}));
+    CHECK_FALSE(is_impossible({3 * x * y - x * x - y * y}, {}));
+    CHECK(is_impossible({-2 - sin(x)}, {}));
+    CHECK_FALSE(is_impossible({-GiNaC::ex(1) / 2 - sin(x)}, {}));
+    CHECK(is_impossible({-a - a * cos(x)}, {a}));
+    CHECK_FALSE(is_impossible({x}, {}));
+    CHECK_FALSE(is_impossible({}, {a}));
+}
+
+}  // namespace check_cells
