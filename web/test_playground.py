@@ -450,7 +450,6 @@ def main(folder=ROOT / "build/web/playground", shots=""):
         expect("the first visit shows a page", reader.wait("return document.documentElement.dataset.firstPage") is not None, reader.text("#problem"))
         visits = [first_answer(reader), *first_answers(reader, url)]
         print("       milliseconds to the program, the first verdicts, the first page:", "; ".join(" ".join(map(str, one)) for one in visits))
-        expect("the first answer comes within a second after the program is loaded", min(one[1] - one[0] for one in visits) <= 1000, visits)
         test_scene(reader)
         test_completion(reader)
         test_derivation(reader)
