@@ -8,7 +8,9 @@
 function(alembert_together target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "MOST" "ALONE")
   set(most 24)
-  if(arg_MOST)
+  if(ALEMBERT_MOST_TOGETHER)  # web/read.sh
+    set(most ${ALEMBERT_MOST_TOGETHER})
+  elseif(arg_MOST)
     set(most ${arg_MOST})
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)

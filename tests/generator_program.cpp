@@ -74,6 +74,37 @@ TEST_CASE("program: equal values are one node, in whatever order they were made"
     CHECK(p.product(1, {{difference, 2}}) == p.product(1, {{turned, 2}}));
 }
 
+// Lists of a call stand on the stack up to 96 terms, and on the heap beyond (program/short_lists.hpp).
+TEST_CASE("program: sums and products of any length have the values of their terms, in whatever order") {
+    std::mt19937_64 random(11);
+    for (const int length : {1, 2, 40, 95, 96, 97, 200, 3000}) {
+        CAPTURE(length);
+        Program p;
+        State<double> state;
+        std::vector<Program::Term> terms;
+        std::vector<Program::Factor> factors;
+        double sum = 0.5, product = 3;
+        for (int k = 0; k < length; ++k) {
+            const int x = coordinate(p, k);
+            const int weight = k % 7 - 3;  // zero too: such a term goes
+            terms.emplace_back(weight, x);
+            terms.emplace_back(2, x);  // gathered with the one before
+            factors.emplace_back(x, k % 2 == 0 ? 1 : -1);
+            state.q.push_back(1 + 1.0 / (k + 1));
+            sum += (weight + 2) * state.q.back();
+            product *= k % 2 == 0 ? state.q.back() : 1 / state.q.back();
+        }
+        const int value = p.sum(Rational(1) / 2, terms), other = p.product(3, factors);
+        std::shuffle(terms.begin(), terms.end(), random);
+        std::shuffle(factors.begin(), factors.end(), random);
+        CHECK(p.sum(Rational(1) / 2, terms) == value);
+        CHECK(p.product(3, factors) == other);
+        const std::vector<double> values = interpret<double>(p, state);
+        CHECK(values[value] == doctest::Approx(sum).epsilon(1e-12));  // at most 6000 roundings of 1.1e-16
+        CHECK(values[other] == doctest::Approx(product).epsilon(1e-12));
+    }
+}
+
 TEST_CASE("program: cos is even, sin is odd, and √x·√x is x") {
     Program p;
     const int x = coordinate(p, 0), y = coordinate(p, 1);

@@ -47,6 +47,20 @@ double critical(const std::string& name, const Axis& axis, const Overrides& at =
 
 }  // namespace
 
+// The centre turns with 2/7 of the table's rate; the axis of the ball, which rolls at its place x, with the rate Ω
+// x/a.
+TEST_CASE(
+    "stability: eigenvalues on the axis stand in the order of their frequencies, whatever their roundings are") {
+    const Stability s = stability(read_scene(test::source_path("scenes/textbook/turntable_ball.toml")));
+    REQUIRE(s.eigenvalues.size() == 8);
+    const double spin = 3.5 * 0.53 / 0.2, expected[] = {-spin, -1, 0, 0, 0, 0, 1, spin};
+    for (std::size_t k = 0; k < 8; ++k) {
+        CAPTURE(k);
+        CHECK(std::abs(s.eigenvalues[k].value - std::complex<double>(0, expected[k])) <=
+              s.eigenvalues[k].radius + 1e-15);
+    }
+}
+
 TEST_CASE("stability: a state that is steady for these parameters alone has no conditions in the parameters") {
     const Scene spring = parse_scene(R"toml(
 [parameters]

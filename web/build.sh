@@ -51,16 +51,14 @@ sources() {
 
 libraries() {
   local key
-  key=$(cat "$root"/web/libraries.sh "$root"/web/libraries/* | sha256sum)
+  key=$(cat "$root"/web/{libraries,headers}.sh "$root"/web/libraries/* | sha256sum)
   [ "$key" = "$(cat "$build/root/complete" 2>/dev/null)" ] && return
   "$root/web/libraries.sh" "$build/sources" "$build/root"
   echo "$key" >"$build/root/complete"
 }
 
 configured() {
-  cmake -S "$root" -B "$build/program" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$root/web/toolchain.cmake" \
-    -DALEMBERT_WEB_ROOT="$build/root" -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DALEMBERT_TESTS=OFF \
-    -DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON -DCMAKE_CXX_FLAGS="-fwasm-exceptions -w -include $root/web/standard_library.hpp" >"$build/configured.log"
+  "$root/web/configure.sh" "$build/program" "$build/root" >"$build/configured.log"
 }
 
 phase 'packages' packages

@@ -9,7 +9,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 sources=$(cd "$1" && pwd)
 mkdir -p "$2"
 to=$(cd "$2" && pwd)
-clang=$(em-config LLVM_ROOT)/clang++
+clang=$(em-config LLVM_ROOT)/clang++-$(em-config CLANG_ADD_VERSION)  # the one that em++ calls
 flags=($(em++ --cflags | sed 's/-fignore-exceptions//') -fwasm-exceptions -O2 -w)
 jobs=${JOBS:-$(nproc)}
 
@@ -37,18 +37,9 @@ archive() {
 cln() {
   local from
   from=$(echo "$sources"/cln-*)
-  local headers=$to/include/cln own=$to/cln
-  rm -rf "$own" "$headers"
-  mkdir -p "$to/include" "$to/lib" "$own"
-  cp -r "$from/include/cln" "$headers"
-  # What the processor is: none of those that CLN knows, so there is nothing to define.
-  echo > "$headers/host_cpu.h"
-  printf '%s\n' '#pragma once' '#include "cln/host_cpu.h"' '#include "cln/version.h"' '#define HAVE_LONGLONG' > "$headers/config.h"
-  cp "$here/libraries/intparam.h" "$here/libraries/floatparam.h" "$headers"
-  # Pointers lie at multiples of four bytes.
-  sed -i '0,/^#if defined(__m68k__)/s//#if defined(__wasm__)\n  #define cl_word_alignment  4\n#endif\n&/' "$headers/object.h"
-  # Numbers of 64 bits are calculated by the processor, and digits have 32, because no product has 128.
-  sed -i '0,/#define HAVE_FAST_LONGLONG/s//#define HAVE_FAST_LONGLONG\n  #elif defined(__wasm__)\n    #define HAVE_FAST_LONGLONG/' "$headers/types.h"
+  local own=$to/cln
+  rm -rf "$own"
+  mkdir -p "$own"
   for file in cl_config.h cl_base_config.h cl_gmpconfig.h; do
     printf '%s\n' '#include "cln/config.h"' '#define CL_HAVE_ATTRIBUTE_FLATTEN' > "$own/$file"
   done
@@ -65,33 +56,16 @@ cln() {
 ginac() {
   local from
   from=$(echo "$sources"/ginac-*)
-  local headers=$to/include/ginac own=$to/ginac
-  rm -rf "$own" "$headers"
-  mkdir -p "$headers" "$own"
-
-  cp "$from"/ginac/*.h "$from"/ginac/parser/*.h "$headers"
+  local own=$to/ginac
+  rm -rf "$own"
+  mkdir -p "$own"
   sed -nE "s/^PACKAGE_VERSION='(.*)'/#define PACKAGE_VERSION \"\1\"/p" "$from/configure" > "$own/config.h"
   ls "$from"/ginac/*.cpp "$from"/ginac/parser/*.cpp "$from"/ginac/polynomial/*.cpp | grep -vE '/(excompiler_.*)$' |
     compile "$own/objects" -DHAVE_CONFIG_H -DIN_GINAC -I "$own" -I "$to/include" -I "$from/ginac" -I "$from"
   archive "$to/lib/libginac.a" "$own/objects"
 }
 
-# Libraries of headers, the same for every processor, without the headers of Debian's C library beside them.
-headers_alone() {
-  for name in fmt toml++ CLI nlohmann kainjow eigen3; do
-    ln -sfn "/usr/include/$name" "$to/include/$name"
-  done
-}
-
-# As pkg-config describes them.
-described() {
-  mkdir -p "$to/lib/pkgconfig"
-  printf 'Name: cln\nDescription: numbers\nVersion: 1.3\nLibs: -L%s -lcln\nCflags: -I%s\n' "$to/lib" "$to/include" > "$to/lib/pkgconfig/cln.pc"
-  printf 'Name: ginac\nDescription: expressions\nVersion: 1.8\nRequires: cln\nLibs: -L%s -lginac\nCflags: -I%s\n' "$to/lib" "$to/include" \
-    > "$to/lib/pkgconfig/ginac.pc"
-}
-
+mkdir -p "$to/lib"
+"$here/headers.sh" "$to" "$sources"/cln-*/include/cln "$sources"/ginac-*/ginac{,/parser}
 cln
 ginac
-headers_alone
-described

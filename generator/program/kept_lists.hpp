@@ -47,7 +47,7 @@ public:
         if (list.size() > room_) {
             room_ = std::max(length_, list.size());
             length_ = std::min(2 * length_, longest);
-            chunks_.push_back(std::make_shared<T[]>(room_));
+            chunks_.push_back(std::shared_ptr<T[]>(new T[room_]));
             next_ = chunks_.back().get();
         }
         T* const first = next_;

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <memory_resource>
+#include <functional>
 #include <set>
 #include <stdexcept>
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "program/short_lists.hpp"
 
 namespace alembert {
 
@@ -47,19 +48,9 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t value) {  // the finalizer of s
     return h ^ (h >> 31);
 }
 
-/// Memory for the lists of one call, on the stack as long as they are short.
-class ShortLists {
-public:
-    std::pmr::memory_resource* operator&() { return &memory_; }
-
-private:
-    std::array<std::byte, 1536> room_;
-    std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
-};
-
 /// One item for each node, in the order of their numbers, with the sum of its weights.
 template <typename Item, typename Weight>
-void gather(std::pmr::vector<Item>& items, int Item::*node, Weight Item::*weight) {
+void gather(ShortList<Item>& items, int Item::*node, Weight Item::*weight) {
     std::sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return a.*node < b.*node; });
     std::size_t count = 0;
     for (std::size_t k = 0; k < items.size(); ++k) {
@@ -75,11 +66,16 @@ std::uint64_t hash_of(const Rational& r) {
     return cln::equal_hashcode(r);
 }
 
+template <typename T, typename Equal = std::equal_to<>>
+bool same(std::span<const T> a, std::span<const T> b, Equal equal = {}) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), equal);
+}
+
 bool same(const Node& a, const Node& b) {
-    return a.op == b.op && a.variable == b.variable && std::ranges::equal(a.args, b.args) &&
-           std::ranges::equal(a.exponents, b.exponents) && cln::equal(a.number, b.number) &&
-           std::ranges::equal(a.coefficients, b.coefficients,
-                              [](const Rational& x, const Rational& y) { return cln::equal(x, y); });
+    return a.op == b.op && a.variable == b.variable && same(a.args, b.args) && same(a.exponents, b.exponents) &&
+           cln::equal(a.number, b.number) &&
+           same(a.coefficients, b.coefficients,
+                [](const Rational& x, const Rational& y) { return cln::equal(x, y); });
 }
 
 constexpr int whole_scene[] = {0};
@@ -134,11 +130,11 @@ int Program::intern(const Node& contents) {
 
 std::span<const int> Program::set_sources(std::span<const int> sources) {
     const std::span<const int> former = sources_;
-    if (std::ranges::equal(sources, former)) return former;
+    if (same(sources, former)) return former;
     std::uint64_t h = 0;
     for (const int source : sources) h = mix(h, static_cast<std::uint64_t>(source));
-    const int known = known_sources_.find(
-        h, [&](int k) { return std::ranges::equal(source_lists_[static_cast<std::size_t>(k)], sources); });
+    const int known =
+        known_sources_.find(h, [&](int k) { return same(source_lists_[static_cast<std::size_t>(k)], sources); });
     if (known < 0) {
         known_sources_.insert(h, static_cast<int>(source_lists_.size()));
         source_lists_.push_back(integers_.keep(sources));
@@ -183,7 +179,7 @@ int Program::scaled(const Rational& coefficient, int id) {
 int Program::sum(const Rational& constant, std::span<const Term> terms) {
     Rational rest = constant;
     ShortLists lists;
-    std::pmr::vector<Term> by_node(&lists);
+    ShortList<Term> by_node(lists);
     by_node.reserve(terms.size());
     for (auto [coefficient, id] : terms) {
         if (nodes_[id].is_scaled()) {
@@ -196,7 +192,7 @@ int Program::sum(const Rational& constant, std::span<const Term> terms) {
             by_node.emplace_back(coefficient, id);
     }
     gather(by_node, &Term::second, &Term::first);
-    std::pmr::vector<Term> kept(&lists), constants(&lists);
+    ShortList<Term> kept(lists), constants(lists);
     kept.reserve(by_node.size());
     for (const auto& [coefficient, id] : by_node)
         if (!cln::zerop(coefficient)) (nodes_[id].is_constant() ? constants : kept).emplace_back(coefficient, id);
@@ -221,8 +217,8 @@ int Program::sum(const Rational& constant, std::span<const Term> terms) {
     });
     if (all_equal && cln::zerop(rest)) content = kept[0].first;
     const bool is_one = cln::equal(content, 1);
-    std::pmr::vector<int> args(&lists);
-    std::pmr::vector<Rational> coefficients(&lists);
+    ShortList<int> args(lists);
+    ShortList<Rational> coefficients(lists);
     args.reserve(kept.size());
     coefficients.reserve(kept.size());
     for (const auto& [coefficient, id] : kept) {
@@ -238,7 +234,7 @@ int Program::sum(const Rational& constant, std::span<const Term> terms) {
 int Program::product(const Rational& coefficient, std::span<const Factor> factors) {
     Rational content = coefficient;
     ShortLists lists;
-    std::pmr::vector<Factor> by_node(&lists);
+    ShortList<Factor> by_node(lists);
     by_node.reserve(factors.size());
     for (auto [id, exponent] : factors) {
         if (exponent == 0) continue;
@@ -262,12 +258,12 @@ int Program::product(const Rational& coefficient, std::span<const Factor> factor
     // √x · √x = x
     for (const auto& [id, exponent] : by_node)
         if (nodes_[id].op == Op::sqrt && (exponent > 1 || exponent < -1)) {
-            std::pmr::vector<Factor> again(by_node, &lists);
+            ShortList<Factor> again(by_node, lists);
             again.emplace_back(nodes_[id].args[0], exponent / 2);
             again.emplace_back(id, -2 * (exponent / 2));
             return product(content, again);
         }
-    std::pmr::vector<Factor> kept(&lists), constants(&lists);
+    ShortList<Factor> kept(lists), constants(lists);
     kept.reserve(by_node.size());
     for (const auto& [id, exponent] : by_node)
         if (exponent != 0) (nodes_[id].is_constant() ? constants : kept).emplace_back(id, exponent);
@@ -292,7 +288,7 @@ int Program::product(const Rational& coefficient, std::span<const Factor> factor
         }
     std::sort(kept.begin(), kept.end(),
               [&](const Factor& a, const Factor& b) { return before(a.first, b.first); });
-    std::pmr::vector<int> args(&lists), exponents(&lists);
+    ShortList<int> args(lists), exponents(lists);
     args.reserve(kept.size());
     exponents.reserve(kept.size());
     for (auto [id, exponent] : kept) {

@@ -184,17 +184,17 @@ public:
     /// constant + Σ coefficient·node
     int sum(const Rational& constant, std::span<const Term> terms);
     int sum(const Rational& constant, std::initializer_list<Term> terms) {
-        return sum(constant, std::span(terms));
+        return sum(constant, {terms.begin(), terms.size()});
     }
     /// coefficient · Π node^exponent
     int product(const Rational& coefficient, std::span<const Factor> factors);
     int product(const Rational& coefficient, std::initializer_list<Factor> factors) {
-        return product(coefficient, std::span(factors));
+        return product(coefficient, {factors.begin(), factors.size()});
     }
     /// base^exponent, exactly for a whole or half exponent, otherwise by `pow`.
     int power(int base, const Rational& exponent);
     int call(Op op, std::span<const int> args);
-    int call(Op op, std::initializer_list<int> args) { return call(op, std::span(args)); }
+    int call(Op op, std::initializer_list<int> args) { return call(op, {args.begin(), args.size()}); }
 
     const Node& operator[](int node) const { return nodes_[node]; }
     int size() const { return static_cast<int>(nodes_.size()); }
@@ -229,7 +229,7 @@ public:
     /// Returns the former sources.
     std::span<const int> set_sources(std::span<const int> sources);
     std::span<const int> set_sources(std::initializer_list<int> sources) {
-        return set_sources(std::span(sources));
+        return set_sources({sources.begin(), sources.size()});
     }
 
     std::vector<Root> roots;

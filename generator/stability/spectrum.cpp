@@ -224,6 +224,14 @@ void add_exact(std::vector<RootOf>& result, const Rationals& p) {
 
 }  // namespace
 
+bool precedes(const RootOf& a, const RootOf& b) {
+    const auto place = [](const RootOf& root) {
+        const bool is_rounding = std::abs(root.value.real()) <= 1e-15 * std::abs(root.value);
+        return std::pair(is_rounding ? 0 : root.value.real(), root.value.imag());
+    };
+    return place(a) < place(b);
+}
+
 std::vector<RootOf> roots_of(CertainVector p, bool even) {
     std::vector<RootOf> result;
     if (even)
@@ -246,12 +254,7 @@ std::vector<RootOf> roots_of(CertainVector p, bool even) {
         else
             add_general(result, p, 1);
     }
-    // A real part of roundings alone decides nothing.
-    const auto place = [](const RootOf& root) {
-        const bool is_rounding = std::abs(root.value.real()) <= 1e-15 * std::abs(root.value);
-        return std::pair(is_rounding ? 0 : root.value.real(), root.value.imag());
-    };
-    std::sort(result.begin(), result.end(), [&](const RootOf& a, const RootOf& b) { return place(a) < place(b); });
+    std::sort(result.begin(), result.end(), precedes);
     return result;
 }
 

@@ -31,7 +31,10 @@ struct RootOf {
     Side side = Side::unclear;
 };
 
-/// The roots, ordered by real part, then imaginary part. The first coefficient must not be zero.
+/// The order of roots in lists: by real part, then imaginary part. A real part of roundings alone decides nothing.
+bool precedes(const RootOf& a, const RootOf& b);
+
+/// The roots in this order. The first coefficient must not be zero.
 std::vector<RootOf> roots_of(CertainVector coefficients, bool even = false);
 
 }  // namespace alembert

@@ -136,9 +136,7 @@ std::vector<RootOf> eigenvalues_of(const CertainMatrix& A, bool even) {
             return std::abs(other.value - r.value) <= r.radius + other.radius;
         }));
     }
-    std::sort(result.begin(), result.end(), [](const RootOf& a, const RootOf& b) {
-        return std::pair(a.value.real(), a.value.imag()) < std::pair(b.value.real(), b.value.imag());
-    });
+    std::sort(result.begin(), result.end(), precedes);
     return result;
 }
 

@@ -16,7 +16,8 @@ import subprocess
 import tempfile
 
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-quic"]
+         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-quic",
+         "--remote-debugging-pipe"]  # Chromium 150, that of the release, does not always answer at a port of its own
 
 
 class Refused(Exception):

@@ -6,6 +6,7 @@ import { Frames } from "./frames.js";
 import { divider, tabs } from "./layout.js";
 import { show_messages } from "./messages.js";
 import { derivation_colours } from "./latex.js";
+import { OwnTexts } from "./own_texts.js";
 import { Desk, Superseded, missing_feature, program } from "./program.js";
 import { can_pack, fragment_of, texts_of } from "./share.js";
 import { language, say, speak } from "./strings.js";
@@ -27,6 +28,7 @@ const marked = new Frames(by_id("marked"), () => say("look"));
 const found = { scene: { messages: [] }, derivation: { messages: [] }, faulty: false, example: "" };
 const busy = new Map();
 
+const own = new OwnTexts(() => list_examples());
 const scene = new Editor(by_id("panel-scene"), { id: "scene", colour: colours, changed: () => edited(scene_changed) });
 const derivation = new Editor(by_id("panel-derivation"), { id: "derivation", colour: derivation_colours, changed: () => edited(derivation_changed) });
 let material = { schema: {}, functions: [] };
@@ -85,9 +87,11 @@ function soon(name, work, wait) {
 
 /// After the reader has changed a text himself.
 function edited(changed) {
-    memory.set("own", JSON.stringify({ scene: scene.text, derivation: derivation.text }));
+    const id = own.write({ scene: scene.text, derivation: derivation.text });
     if (location.hash) history.replaceState(null, "", location.pathname + location.search);
-    if (found.example !== "own") list_examples("own");
+    const name = id ? `own/${id}` : found.example;
+    if (id === null) fail(say("not_kept"));
+    else if (!id || found.example !== name || by_id("examples").selectedOptions[0]?.textContent !== own_title(own.get(id))) list_examples(name);
     changed(250);
 }
 
@@ -171,23 +175,33 @@ async function keep_offline() {
 }
 
 // Examples, links, languages -------------------------------------------------------------------------------------------
+/// What the menu says of a text of the reader's: its title, or else its first words, and when it was changed.
+function own_title({ scene, derivation, changed }) {
+    const first = /^title\s*=\s*"([^"]+)"/m.exec(scene)?.[1] ?? /\S.*/.exec(scene)?.[0] ?? /\S.*/.exec(derivation)?.[0] ?? "";
+    const title = first.length > 48 ? `${first.slice(0, 47)}…` : first;
+    return `${title} · ${new Date(changed).toLocaleString(language(), { dateStyle: "medium", timeStyle: "short" })}`;
+}
+
 function list_examples(chosen = found.example) {
     found.example = chosen;
     const zh = language() === "zh";
     const option = (value, text) => Object.assign(document.createElement("option"), { value, textContent: text });
-    const groups = (material.examples ?? []).map(({ group, scenes }) => {
-        const element = document.createElement("optgroup");
-        element.label = group[zh ? 1 : 0];
-        element.append(...scenes.map(({ name, title }) => option(name, title[zh ? 1 : 0])));
+    const group = (label, options) => {
+        const element = Object.assign(document.createElement("optgroup"), { label });
+        element.append(...options);
         return element;
-    });
+    };
     const shared = chosen === "shared" ? [option("shared", say("shared"))] : [];
-    const own = memory.get("own") ? [option("own", say("own"))] : [];
-    by_id("examples").replaceChildren(...shared, ...own, ...groups);
+    const written = own.list().map((text) => option(`own/${text.id}`, own_title(text)));
+    const groups = (material.examples ?? []).map(({ group: [english, chinese], scenes }) =>
+        group(zh ? chinese : english, scenes.map(({ name, title }) => option(name, title[zh ? 1 : 0]))));
+    by_id("examples").replaceChildren(...shared, ...written.length ? [group(say("own"), written)] : [], ...groups);
     by_id("examples").value = chosen;
 }
 
-function set_texts({ scene: first, derivation: second }, name) {
+function set_texts({ scene: first, derivation: second }, name, id) {
+    if (id) own.open(id);
+    else own.leave();
     found.example = name;
     found.fresh = true; // the next page is another one: it begins at its head
     scene.text = first;
@@ -198,14 +212,15 @@ function set_texts({ scene: first, derivation: second }, name) {
 }
 
 function choose_example(name) {
-    const known = name === "own" ? JSON.parse(memory.get("own") ?? "null") : material.examples.flatMap(({ scenes }) => scenes).find((one) => one.name === name);
+    const id = /^own\/(.*)/.exec(name)?.[1];
+    const known = id ? own.get(id) : material.examples.flatMap(({ scenes }) => scenes).find((one) => one.name === name);
     if (!known) return;
-    set_texts(known, name);
+    set_texts(known, name, id);
     list_examples(name);
-    history.replaceState(null, "", name === "own" ? location.pathname : `#example=${name}`);
+    history.replaceState(null, "", id ? location.pathname : `#example=${name}`);
 }
 
-/// The texts that the address names, or else the reader's own, or else the first example.
+/// The texts that the address names, or else the reader's last, or else the first example.
 async function begin() {
     try {
         const named = /^#example=([\w/]+)$/.exec(location.hash)?.[1];
@@ -220,7 +235,8 @@ async function begin() {
         fail(say("bad_link", { why: problem.message }));
         return choose_example(material.examples[0].scenes[0].name);
     }
-    choose_example(memory.get("own") ? "own" : material.examples[0].scenes[0].name);
+    const last = own.last();
+    choose_example(last ? `own/${last}` : material.examples[0].scenes[0].name);
 }
 
 async function share() {

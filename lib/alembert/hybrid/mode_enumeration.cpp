@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t directions = 48;  // tried all around, to find those in which a pair may begin to slide
 constexpr int most_places = 60;         // in which a zero is looked for
-constexpr int most_sweeps = 30;         // over several pairs that begin to slide together
-constexpr double settled = 1e-14;       // a sweep that turns no direction by more was the last one
+constexpr int most_turns = 30;          // over several pairs that begin to slide together
+constexpr double last_turn = 1e-14;     // a sweep that turns no direction by more was the last one
 constexpr double at_bound = 1e-9;       // how near to its bound a share counts as at it, relative to it
 constexpr double sticks_surely = 1e-6;  // the margin above which nothing else is tried
 constexpr double held_back = 1e-9;      // ġ relative to what it would be alone, if others that stick hold it
@@ -66,7 +66,7 @@ void begin_to_slide_together(const FilippovSystem& system, SlidingMode& sides, c
     const auto grain = [&](int k) -> double& { return sides.slides[static_cast<std::size_t>(k / 2)].grain; };
     for (const int k : pairs) grain(k) = large_grain(at.velocity(k).norm());
     double turned = 1;
-    for (int sweep = 0; sweep < most_sweeps && turned > settled; ++sweep) {
+    for (int sweep = 0; sweep < most_turns && turned > last_turn; ++sweep) {
         turned = 0;
         for (const int k : pairs) {
             const SlidingMode::Slide before = sides.slides[static_cast<std::size_t>(k / 2)];
