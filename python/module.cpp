@@ -32,10 +32,25 @@ namespace alembert {
 
 namespace {
 
+/// NumPy 2 has its descriptions of types in another layout than the pybind11 of Debian 12 expects, which reads
+/// there how many bytes a number has. So no array may be made without its strides (`py::array_t<double>(count)`),
+/// and no `itemsize` or `nbytes` be asked for.
+std::vector<py::ssize_t> strides_of(const std::vector<py::ssize_t>& shape) {
+    std::vector<py::ssize_t> strides(shape.size());
+    py::ssize_t bytes = sizeof(double);
+    for (std::size_t axis = shape.size(); axis-- > 0; bytes *= shape[axis]) strides[axis] = bytes;
+    return strides;
+}
+
+py::array_t<double> new_array(std::vector<py::ssize_t> shape) {
+    std::vector<py::ssize_t> strides = strides_of(shape);
+    return {std::move(shape), std::move(strides)};
+}
+
 /// A view of `values` that keeps `owner` alive.
-py::array_t<double> view(const std::vector<double>& values, std::vector<py::ssize_t> shape,
+py::array_t<double> view(const std::vector<double>& values, const std::vector<py::ssize_t>& shape,
                          const py::object& owner) {
-    py::array_t<double> array(std::move(shape), values.data(), owner);
+    py::array_t<double> array(shape, strides_of(shape), values.data(), owner);
     array.attr("setflags")(py::arg("write") = false);
     return array;
 }
@@ -138,6 +153,7 @@ Rows rows_of_states(const Numbers& states, int width) {
 /// One time for all states, or one for each.
 std::vector<double> times_of(const py::object& t, std::size_t count) {
     if (PyFloat_Check(t.ptr()) || PyLong_Check(t.ptr())) return {PyFloat_AsDouble(t.ptr())};
+    if (t.is_none()) throw std::invalid_argument("the time is None; a number is wanted, or one for each state");
     const auto times = t.cast<Numbers>();
     const auto given = static_cast<std::size_t>(times.size());
     if (given != 1 && given != count)
@@ -153,7 +169,7 @@ py::array_t<double> mapped(const py::object& t, const Numbers& states, int width
     const std::vector<double> times = times_of(t, rows.count);
     std::vector<py::ssize_t> whole = rows.leading;
     whole.insert(whole.end(), shape.begin(), shape.end());
-    py::array_t<double> result(whole);
+    py::array_t<double> result = new_array(whole);
     double* const out = result.mutable_data();
     const double* const in = states.data();
     if (rows.count == 1) {
@@ -169,7 +185,7 @@ py::array_t<double> mapped(const py::object& t, const Numbers& states, int width
 py::array_t<double> right_hand_side(const CompiledSystem& s, const py::object& t, const Numbers& states) {
     const int n = s.dimension();
     if (states.ndim() == 1 && states.shape(0) == n && PyFloat_Check(t.ptr())) {
-        py::array_t<double> result(n);
+        py::array_t<double> result = new_array({n});
         s.rhs(PyFloat_AS_DOUBLE(t.ptr()), states.data(), result.mutable_data());
         return result;
     }
@@ -229,7 +245,7 @@ py::array_t<double> states_at(Motion& motion, const Numbers& t) {
     const auto width = static_cast<std::size_t>(states.dimension());
     std::vector<py::ssize_t> shape(t.shape(), t.shape() + t.ndim());
     shape.push_back(states.dimension());
-    py::array_t<double> result(shape);
+    py::array_t<double> result = new_array(shape);
     double* const values = result.mutable_data();
     const double* const times = t.data();
     const auto count = static_cast<std::size_t>(t.size());

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tests of the Python package: python3 python_package.py PROGRAM, with the package on PYTHONPATH (exit 77 without NumPy).
 
-Here are verbs, errors and expressions; python_numbers.py has what gives arrays, python_examples.py the examples and
-notebooks."""
+Here are verbs, errors and expressions; python_numbers.py has what gives arrays, python_arrays.py arrays of every kind,
+python_examples.py the examples and notebooks."""
 
 import ast
 import inspect
@@ -26,7 +26,8 @@ except ImportError:
 import alembert
 
 from python_shared import PENDULUM, PROGRAM, SCENES, TESTS, program, scene_file
-from python_numbers import *  # noqa: F403 (unittest finds the tests of all three files here)
+from python_arrays import *  # noqa: F403 (unittest finds the tests of all files here)
+from python_numbers import *  # noqa: F403
 from python_examples import *  # noqa: F403
 
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # The wheel of python/wheel.sh in a clean virtual environment: import, derive, check, simulate by code in memory, with
-# no library of this machine but those of C and C++; then in a bare Debian, where debootstrap can make one.
+# no library of this machine but those of C and C++; all tests of the package with NumPy 1 and with NumPy 2; then in a
+# bare Debian, where debootstrap can make one.
 #   wheel.sh
-# Needs PyPI (auditwheel, NumPy). A command of its own: no test of CTest needs it.
+# Needs PyPI (auditwheel, NumPy, SciPy, SymPy). A command of its own: no test of CTest needs it.
 set -euo pipefail
 cd -- "$(dirname -- "$0")/.."
 root=$PWD
@@ -33,6 +34,24 @@ python=${PYTHON-/usr/bin/python3}
 "$work/venv/bin/pip" --quiet --disable-pip-version-check install "$wheel"
 (cd "$work" && venv/bin/python use.py)
 echo 'the wheel works in a clean virtual environment'
+
+# Every function, with the arrays of both. The program that the tests compare with is that of run.sh.
+program=$root/build/release/generator/alembert
+for numpy in 'numpy<2' 'numpy>=2'; do
+    "$python" -m venv --clear "$work/of_numpy"
+    "$work/of_numpy/bin/pip" --quiet --disable-pip-version-check install "$numpy" scipy sympy "$wheel"
+    version=$("$work/of_numpy/bin/python" -c 'import numpy; print(numpy.__version__)')
+    if [ -x "$program" ]; then
+        env -u ALEMBERT_NO_SKIP "$work/of_numpy/bin/python" -W error::DeprecationWarning:alembert tests/python_package.py "$program" >"$work/log" 2>&1 ||
+            { tail -n 40 "$work/log"; exit 1; }
+        echo "all tests of the package pass with NumPy $version"
+    else
+        (cd tests && "$work/of_numpy/bin/python" -c 'import sys; sys.argv = ["", "none"]
+import unittest, python_arrays; unittest.main(python_arrays, argv=["wheel"])') >"$work/log" 2>&1 ||
+            { tail -n 40 "$work/log"; exit 1; }
+        echo "arrays of every kind are right with NumPy $version; for all tests of the package build the program first (./run.sh)"
+    fi
+done
 
 # Without anything of the sort installed.
 mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE)' 'Created-By: Packages' 2>/dev/null | awk '$2 == "bookworm" { print $1; exit }')

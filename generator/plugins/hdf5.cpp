@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "base/archive/hdf5.hpp"
@@ -75,14 +76,42 @@ bool add_column(hid_t file, const StoredColumn& column) {
            add_attribute(set, "unit", {column.unit}, true);
 }
 
-bool written(const StoredTable& table, std::string& bytes) {
-    constexpr std::size_t piece = 1 << 20;
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_fapl_core(access, piece, false);  // in memory: the program writes all its files in one way
-    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);  // texts of any length as attributes
-    const Handle file(H5Fcreate("table.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
-    if (file < 0) return false;
+/// The memory in which HDF5 makes a file; `bytes` get what is in it when the file is closed. (H5Fget_file_image
+/// gives an open file another mark in its superblock than the one for which the checksum beside it was taken, so
+/// that no HDF5 reads it.)
+struct Image {
+    std::string& bytes;
+    std::size_t size = 0;
+
+    static void* resized(void* memory, std::size_t size, H5FD_file_image_op_t, void* image) {
+        auto& of = *static_cast<Image*>(image);
+        auto* const begin = static_cast<char*>(std::realloc(memory, size));
+        if (begin != nullptr && size > of.size)  // the same table gives the same bytes
+            std::memset(begin + of.size, 0, size - of.size);
+        if (begin != nullptr) of.size = size;
+        return begin;
+    }
+    static herr_t freed(void* memory, H5FD_file_image_op_t why, void* image) {
+        auto& of = *static_cast<Image*>(image);
+        if (why == H5FD_FILE_IMAGE_OP_FILE_CLOSE) of.bytes.assign(static_cast<const char*>(memory), of.size);
+        std::free(memory);
+        return 0;
+    }
+    H5FD_file_image_callbacks_t callbacks() {
+        return {.image_malloc = [](std::size_t size, H5FD_file_image_op_t why,
+                                   void* image) { return resized(nullptr, size, why, image); },
+                .image_memcpy = [](void* to, const void* from, std::size_t size, H5FD_file_image_op_t,
+                                   void*) { return std::memcpy(to, from, size); },
+                .image_realloc = resized,
+                .image_free = freed,
+                .udata_copy = [](void* image) { return image; },
+                .udata_free = [](void*) -> herr_t { return 0; },
+                .udata = this};
+    }
+};
+
+/// Adds the columns and the texts.
+bool filled(hid_t file, const StoredTable& table) {
     std::vector<std::string> names;
     for (const StoredColumn& column : table.columns) {
         names.push_back(column.name);
@@ -91,11 +120,26 @@ bool written(const StoredTable& table, std::string& bytes) {
     if (!add_attribute(file, "columns", names, false)) return false;
     for (const auto& [name, text] : table.texts)
         if (!add_attribute(file, name.c_str(), {text}, true)) return false;
-    if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) return false;
-    const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-    if (size <= 0) return false;
+    return true;
+}
+
+bool written(const StoredTable& table, std::string& bytes) {
+    constexpr std::size_t piece = 1 << 20;
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    Image image{bytes};
+    H5FD_file_image_callbacks_t callbacks = image.callbacks();
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fapl_core(access, piece, false);  // in memory: the program writes all its files in one way
+    H5Pset_file_image_callbacks(access, &callbacks);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);  // texts of any length as attributes
+    const hid_t file = H5Fcreate("table.h5", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    if (file < 0) return false;
+    const bool is_filled = filled(file, table) && H5Fflush(file, H5F_SCOPE_GLOBAL) >= 0;
+    const ssize_t size = H5Fget_file_image(file, nullptr, 0);  // the memory is larger
+    if (H5Fclose(file) < 0 || !is_filled || size <= 0 || static_cast<std::size_t>(size) > bytes.size())
+        return false;
     bytes.resize(static_cast<std::size_t>(size));
-    return H5Fget_file_image(file, bytes.data(), bytes.size()) == size;
+    return true;
 }
 
 }  // namespace
