@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "algebra/notation/text.hpp"
 #include "analysis/agree/agree.hpp"
@@ -20,6 +21,7 @@
 #include "program/modular.hpp"
 #include "program/prime_polynomial.hpp"
 #include "scenes.hpp"
+#include "simulate/simulate.hpp"
 
 namespace formalism_agree {
 
@@ -153,6 +155,98 @@ TEST_CASE("formalisms: all that apply give the same accelerations at random stat
             else
                 check_in_speeds(mechanism, all.equations[0], all.equations[k]);
     }
+}
+
+/// Two particles in the plane with springs, dampers and potentials whose constants change with coordinates, rates
+/// and time, as they come.
+class Springs {
+public:
+    explicit Springs(unsigned seed) : random_(seed) {}
+
+    std::string scene() {
+        const bool cartesian = one_of({"yes", "no"}) == "yes";
+        std::string text =
+            "gravity = [0, \"-g\"]\n[parameters]\nm = 2\nM = 1.5\nk = 3\nc = 0.4\nl = 0.7\ng = 9.81\n"
+            "[inputs]\nF = \"0.2*sin(3*t)\"\n"
+            "[coordinates]\nx = 0.5\ny = { initial = 0.3, rate = 0.2 }\nz = -0.4\n";
+        if (one_of({"yes", "no"}) == "yes") text += "[speeds]\nu = \"x' + y'\"\nv = \"y'\"\nw = \"2*z' - x'\"\n";
+        text +=
+            "[[particle]]\nname = \"A\"\nmass = \"m\"\nposition = [\"x\", \"y\"]\n"
+            "[[particle]]\nname = \"B\"\nmass = \"M\"\nposition = " +
+            std::string(cartesian ? "[\"z\", 2]\n" : "[\"x + l*sin(z)\", \"y - l*cos(z)\"]\n");
+        for (int k = 0; k < 2; ++k) {
+            text += "[[spring]]\n" + place() + "stiffness = \"k" + factor() + "\"\n";
+            text += one_of({"", "length = \"l" + factor() + "\"\n", "length = \"l + F\"\n"});
+        }
+        text +=
+            "[[damper]]\n" + place() + "damping = \"c" + one_of({factor(), "*(1 + x'^2)", "*(1 + z*y')"}) + "\"\n";
+        return text + "[energy]\npotential = \"k*x*y^2*cos(z)" + factor() + "\"\n[dissipation]\nrayleigh = \"c" +
+               factor() + "*(x' - z')^2/2\"\n";
+    }
+
+private:
+    std::string one_of(const std::vector<std::string>& list) { return list[random_() % list.size()]; }
+    std::string place() {
+        return one_of({"between = [\"O\", \"A\"]\n", "between = [\"A\", \"B\"]\n", "along = \"x + z\"\n",
+                       "along = \"0.3\"\n", "along = \"y*z + F\"\n"});
+    }
+    std::string factor() {
+        return one_of({"", "*(1 + x^2)", "*(2 + sin(y))", "*(3 + x*z/5)", "*(1 + t/10 + z^2)", "*(2 + F*y)"});
+    }
+    std::mt19937 random_;
+};
+
+// V = ½ k (d − l)² has the forces −½ ∂k/∂q (d − l)² and k ∂l/∂q (d − l) besides those along the spring.
+TEST_CASE("formalisms: springs and dampers whose constants change with coordinates give the same accelerations") {
+    std::set<std::string> met;
+    for (unsigned seed = 1; seed <= 16; ++seed) {
+        const std::string text = Springs(seed).scene();
+        CAPTURE(text);
+        const Mechanism mechanism = prepared(parse_scene(text, "springs.toml")).mechanism;
+        const Derivations all = derive_all(mechanism);
+        for (std::size_t k = 0; k < all.equations.size(); ++k) {
+            met.insert(all.equations[k].formalism);
+            if (k == 0) continue;
+            if (all.equations[k].speeds_are_rates())
+                check_numerically(mechanism, all.equations[0], all.equations[k]);
+            else
+                check_in_speeds(mechanism, all.equations[0], all.equations[k]);
+        }
+    }
+    for (const char* const name :
+         {"lagrange", "lagrange1", "kane", "dalembert", "appell", "schiehlen", "hamilton"})
+        CHECK(met.contains(name));
+}
+
+// ½ (1 + q²) k (d − l)² with q = 0.5, d = 0.3 and no length pulls with k q d², against m = 1 of the particle.
+TEST_CASE("formalisms: a spring that only its stiffness couples to a coordinate pulls along it") {
+    const Scene scene = parse_scene(
+        "parameters = { m = 1, k = 2, d = 0.3 }\ncoordinates = { q = 0.5 }\n[[particle]]\nname = \"P\"\nmass = "
+        "\"m\"\n"
+        "position = [\"q\", 0]\n[[spring]]\nalong = \"d\"\nstiffness = \"k*(1 + q^2)\"\n",
+        "spring.toml");
+    const Mechanism m = prepared(scene).mechanism;
+    const Derivations all = derive_all(m);
+    CHECK(all.equations.size() >= 8);
+    for (const Equations& e : all.equations) {
+        CAPTURE(e.formalism);
+        const Program program = lower(m, e, energy_of(m));
+        const std::vector<double> value = interpret(program, start_of(m).state());
+        CHECK(value[program.nodes_of(Group::acceleration)[0]] == doctest::Approx(-2 * 0.5 * 0.09).epsilon(1e-14));
+    }
+}
+
+TEST_CASE("simulate: a spring whose stiffness and length change keeps the energy of a scene in speeds") {
+    const Scene scene = parse_scene(
+        "parameters = { m = 1, k = 2, l = 1 }\ncoordinates = { x = { initial = 0.5, rate = 0.3 }, y = 0.7 }\n"
+        "[speeds]\nu = \"x' + y'\"\nv = \"y'\"\n[[particle]]\nname = \"P\"\nmass = \"m\"\n"
+        "position = [\"x\", \"y\"]\n[[spring]]\nbetween = [\"O\", \"P\"]\nstiffness = \"k*(1 + x^2)\"\n"
+        "length = \"l*(2 + sin(y))/3\"\n",
+        "spring.toml");
+    const Run run = simulate(scene, {.duration = 5, .tolerance = 1e-12, .estimate = false});
+    CHECK(run.equations.formalism == "kane");
+    CHECK(run.energy.conserved);
+    CHECK(run.energy.drift < 1e-10);
 }
 
 TEST_CASE("agree: scenes are proved") {

@@ -75,13 +75,10 @@ VirtualWork virtual_work(const Mechanism& m) {
     need_none(obstacle_to_dalembert(m));
     std::vector<std::pair<ex, ex>> pairs;
     for (const PlacedForce& force : conservative_forces(m)) pairs.emplace_back(force.place, force.force);
-    const std::vector<ex> known = m.z->pull_back(pairs, m.q), rest = potential_without_forces(m);
-    VirtualWork work{.conservative = {},
-                     .dissipative = work_of_loads(m, true),
-                     .applied = work_of_loads(m, false),
-                     .inertia = m.z->pull_back(moving(m).pairs, m.q)};
-    for (int i = 0; i < m.size(); ++i) work.conservative.push_back(m.z->name(known[i] + rest[i]));
-    return work;
+    return {.conservative = m.z->pull_back(pairs, m.q),
+            .dissipative = work_of_loads(m, true),
+            .applied = work_of_loads(m, false),
+            .inertia = m.z->pull_back(moving(m).pairs, m.q)};
 }
 
 Equations dalembert(const Mechanism& mechanism) {

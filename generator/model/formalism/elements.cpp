@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The force of a spring on its end P₂ is −k (1 − d₀/|d|) d, d = r₂ − r₁, and the opposite on P₁. Steiner (Zhang &
+// The force of a spring on its end P₂ is −k (1 − d₀/|d|) d, d = r₂ − r₁, and the opposite on P₁; of V = ½ k (|d| −
+// d₀)² the rest is −∂V/∂k along k and −∂V/∂d₀ along d₀, where these change with the coordinates. Steiner (Zhang &
 // Qin, chapter 2): I_C = I_P − m (d·d E − d dᵀ), d from P to C along the body's axes.
 #include "model/formalism/elements.hpp"
 
@@ -13,37 +14,77 @@ namespace alembert {
 
 using GiNaC::ex;
 
-std::vector<PlacedForce> conservative_forces(const Mechanism& m) {
-    Intermediates& z = *m.z;
-    std::vector<PlacedForce> forces;
-    const auto push = [&](const Origin& origin, const Vector3& place, const Vector3& force) {
+namespace {
+
+/// Makes the forces of V.
+class ForcesOfV {
+public:
+    explicit ForcesOfV(const Mechanism& m) : m_(m), z_(*m.z) {}
+
+    std::vector<PlacedForce> run() {
+        for (const MassElement& body : m_.masses)
+            push(gravity_on(body.origin), body.position, scale(body.mass, m_.gravity, z_));
+        for (const SpringElement& spring : m_.springs) add(spring);
+        for (const Part& part : m_.potential)
+            if (part.origin.kind != Origin::Kind::gravity && part.origin.kind != Origin::Kind::spring)
+                add_gradient(part);
+        return std::move(forces_);
+    }
+
+private:
+    void push(const Origin& origin, const Vector3& place, const Vector3& force) {
         for (int k = 0; k < 3; ++k)
-            if (!force[k].is_zero()) forces.push_back({origin, place[k], force[k]});
-    };
-    for (const MassElement& body : m.masses)
-        push(gravity_on(body.origin), body.position, scale(body.mass, m.gravity, z));
-    for (const SpringElement& spring : m.springs) {
+            if (!force[k].is_zero()) forces_.push_back({origin, place[k], force[k]});
+    }
+
+    void add(const SpringElement& spring) {
         if (!spring.between) {
-            forces.push_back(
-                {spring.origin, spring.along, z.name(spring.stiffness * (spring.free_length - spring.along))});
-            continue;
+            forces_.push_back(
+                {spring.origin, spring.along, z_.name(spring.stiffness * (spring.free_length - spring.along))});
+            add_along_constants(spring, spring.along);
+            return;
         }
         const auto& [first, second] = *spring.between;
-        const Vector3 d = add(second, scale(-1, first, z), z);
-        const ex pull = spring.free_length.is_zero()
-                            ? spring.stiffness
-                            : z.name(spring.stiffness * (1 - spring.free_length / norm(d, z)));
-        push(spring.origin, second, scale(-pull, d, z));
-        push(spring.origin, first, scale(pull, d, z));
+        const Vector3 d = alembert::add(second, scale(-1, first, z_), z_);
+        const bool is_long = !spring.free_length.is_zero();
+        const ex pull =
+            is_long ? z_.name(spring.stiffness * (1 - spring.free_length / norm(d, z_))) : spring.stiffness;
+        push(spring.origin, second, scale(-pull, d, z_));
+        push(spring.origin, first, scale(pull, d, z_));
+        if (is_long)
+            add_along_constants(spring, norm(d, z_));
+        else if (moves(spring.stiffness))
+            add_along_stiffness(spring, dot(d, d, z_));
     }
-    return forces;
-}
 
-std::vector<ex> potential_without_forces(const Mechanism& m) {
-    std::vector<std::pair<ex, ex>> targets;
-    for (const Part& part : m.potential)
-        if (part.origin.kind == Origin::Kind::given_potential) targets.emplace_back(part.value, -1);
-    return m.z->pull_back(targets, m.q);
+    void add_along_constants(const SpringElement& spring, const ex& length) {
+        if (moves(spring.free_length))
+            forces_.push_back({spring.origin, z_.name(spring.free_length),
+                               z_.name(spring.stiffness * (length - spring.free_length))});
+        if (moves(spring.stiffness)) add_along_stiffness(spring, pow(length - spring.free_length, 2));
+    }
+
+    void add_along_stiffness(const SpringElement& spring, const ex& square) {
+        forces_.push_back({spring.origin, z_.name(spring.stiffness), z_.name(-square / 2)});
+    }
+
+    bool moves(const ex& e) const { return z_.depends(e, m_.q); }
+
+    void add_gradient(const Part& part) {
+        const std::vector<ex> forces = z_.pull_back({{part.value, -1}}, m_.q);
+        for (std::size_t i = 0; i < forces.size(); ++i)
+            if (!forces[i].is_zero()) forces_.push_back({part.origin, m_.q[i], forces[i]});
+    }
+
+    const Mechanism& m_;
+    Intermediates& z_;
+    std::vector<PlacedForce> forces_;
+};
+
+}  // namespace
+
+std::vector<PlacedForce> conservative_forces(const Mechanism& m) {
+    return ForcesOfV(m).run();
 }
 
 std::vector<ex> work_of_loads(const Mechanism& m, bool dissipative) {

@@ -16,12 +16,11 @@ struct PlacedForce {
     GiNaC::ex place, force;  ///< if along an expression, one component
 };
 
-/// The forces of gravity on each mass and of springs, which replace the gradient of V. A spring between two points
-/// gives two opposite forces k (d − d₀) along the line; a spring `along` an expression gives −k (d − d₀) along it.
+/// The forces of all parts of V, which replace its gradient: gravity on each mass, what springs exert, and
+/// −∂V/∂q_i along each coordinate of a part whose forces are not known, [energy] potential. A spring between two
+/// points gives two opposite forces k (d − d₀) along the line; a spring `along` an expression gives −k (d − d₀)
+/// along it. Where k or d₀ changes with the coordinates, −½ (d − d₀)² acts along k, and k (d − d₀) along d₀.
 std::vector<PlacedForce> conservative_forces(const Mechanism& mechanism);
-
-/// −∂V/∂q of [energy] potential, whose forces are not known.
-std::vector<GiNaC::ex> potential_without_forces(const Mechanism& mechanism);
 
 /// Q_i of the loads by the virtual displacements ∂r/∂q of the points on which they act; for torques, where only an
 /// angular velocity is known, by ∂ω/∂q'.

@@ -72,10 +72,7 @@ std::vector<ex> InSpeeds::conservative() const {
         places.push_back(force.place);
         forces.push_back(force.force);
     }
-    std::vector<ex> result = generalized(m_.time_derivative(places), forces);
-    const std::vector<ex> rest = generalized({m_.qdot.begin(), m_.qdot.end()}, potential_without_forces(m_));
-    for (std::size_t r = 0; r < result.size(); ++r) result[r] += rest[r];
-    return result;
+    return generalized(m_.time_derivative(places), forces);
 }
 
 std::vector<ex> InSpeeds::loads(bool dissipative) const {

@@ -99,13 +99,9 @@ Equations lagrange1(const Mechanism& mechanism) {
         const std::vector<ex> gradient = m.z->pull_back({{force.place, force.force}}, m.q);
         for (int k = 0; k < m.size(); ++k) own[k].push_back(gradient[k]);
     }
-    const std::vector<ex> rest = potential_without_forces(m);
     equations.dissipative = m.generalized_forces(true);
     equations.applied = m.generalized_forces(false);
-    for (int i = 0; i < m.size(); ++i) {
-        own[i].push_back(rest[i]);
-        equations.own.push_back(m.z->name(GiNaC::add(std::move(own[i]))));
-    }
+    for (GiNaC::exvector& terms : own) equations.own.push_back(m.z->name(GiNaC::add(std::move(terms))));
     attach_constraints(m, equations);
     return equations;
 }

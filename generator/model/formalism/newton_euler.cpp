@@ -50,11 +50,11 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
     std::vector<std::pair<ex, ex>> springs;
     for (const PlacedForce& force : conservative_forces(m))
         if (force.origin.kind != Origin::Kind::gravity) springs.emplace_back(force.place, force.force);
-    const std::vector<ex> known = z.pull_back(springs, m.q), rest = potential_without_forces(m);
+    const std::vector<ex> known = z.pull_back(springs, m.q);
     for (int r = 0; r < n; ++r) {
         for (int s = 0; s <= r; ++s)
             equations.M(r, s) = equations.M(s, r) = z.name(GiNaC::add(GiNaC::exvector(mass[r * n + s])));
-        equations.own.push_back(z.name(GiNaC::add(GiNaC::exvector(own[r])) + known[r] + rest[r]));
+        equations.own.push_back(z.name(GiNaC::add(GiNaC::exvector(own[r])) + known[r]));
     }
     attach_constraints(m, equations);
     return equations;
