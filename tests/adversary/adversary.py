@@ -23,14 +23,18 @@ import time
 import traceback
 
 import constrained  # noqa: F401
+import more
 import poses
+import vary
 from families import FAMILIES
 from judge import FALSE, NEIGHBOUR, PRINTED, Examined, Program, derived
 from trees import NotRead, Undefined, ZERO, add, parts, plain, replaced, write
 from truth import Claim
 
-OTHERS = {"derive": None, **poses.KINDS}
-SHRUNK = 3  # findings of one family and word that are made small
+VERBS = {**poses.KINDS, **vary.KINDS, **more.KINDS}
+OTHERS = ["derive", *VERBS]
+FORMALISMS = [None, None, None, "lagrange", "kane", "dalembert", "appell", "nielsen", "maggi", "lagrange1", "routh"]
+KEPT = 2  # findings of one family and word that are made small and kept
 
 
 class Count(collections.Counter):
@@ -57,13 +61,14 @@ def examine(options, kind, seed):
     number = int(hashlib.sha256(f"{kind} {seed}".encode()).hexdigest()[:8], 16)
     try:
         if kind == "derive":
-            of = random.Random(f"derive {seed}").choice([k for k in FAMILIES if k not in ("primes", "solutions", "rest")])
+            choose = random.Random(f"derive {seed}")
+            of = choose.choice([k for k in FAMILIES if k not in ("primes", "solutions", "rest", "impact")])
             scene, _, _ = draw(of, f"derive {seed}")
-            findings, refused, count = derived(program, scene, number)
+            findings, refused, count = derived(program, scene, number, choose.choice(FORMALISMS))
             counts["claims"] += count
-        elif kind in poses.KINDS:
-            findings, refused, more = poses.KINDS[kind](program, random.Random(f"{kind} {seed}"))
-            counts.update(more)
+        elif kind in VERBS:
+            findings, refused, told = VERBS[kind](program, random.Random(f"{kind} {seed}"))
+            counts.update(told)
         else:
             scene, claims, rng = draw(kind, seed)
             at = Examined(program, scene, claims, number)
@@ -88,19 +93,25 @@ def examine(options, kind, seed):
 def guarded(task):
     options, kind, seed = task
     try:
-        counts, findings = examine(options, kind, seed)
-        kept = [smallest(options, kind, seed, f) if number < 2 else f for number, f in enumerate(findings)] if options.shrink \
-            else findings
-        return kind, seed, counts, [(f.word, f.claim.text if f.claim else "", f.text, _file(options, f)) for f in kept], None
+        return kind, seed, *examine(options, kind, seed), None
     except Exception:  # noqa: BLE001, a mistake of the adversary is told with its seed
         return kind, seed, Count(scenes=1), [], traceback.format_exc()
 
 
-def _file(options, finding):
+def made_small(task):
+    options, kind, word, finding = task
+    try:
+        return kind, word, smallest(options, finding)
+    except Exception:  # noqa: BLE001
+        finding.text += "\nIt could not be made smaller: " + traceback.format_exc(limit=2)
+        return kind, word, finding
+
+
+def _file(finding):
     """The scene with the claim, and what is to be known in its first lines."""
     if finding.scene is None:
         return finding.text + "\n"
-    verb = "derive" if finding.word == PRINTED else finding.claim.verb if hasattr(finding.claim, "verb") else "check"
+    verb = "derive" + (f" --by {finding.by}" if finding.by else "") if finding.word == PRINTED else finding.claim.verb if hasattr(finding.claim, "verb") else "check"
     claims = [finding.claim] if finding.claim and verb == "check" else []
     head = f"# alembert {verb} FILE: {finding.word}.\n" + "".join(f"# {line}\n" for line in finding.text.split("\n"))
     return finding.scene.text(claims, head.rstrip("\n"))
@@ -108,12 +119,12 @@ def _file(options, finding):
 
 # -- smaller
 
-def smallest(options, kind, seed, finding):
+def smallest(options, finding):
     """A smaller scene and claim of which the same false word is said."""
     if finding.claim is None or finding.scene is None or finding.word == NEIGHBOUR or hasattr(finding.claim, "verb"):
         return finding
     program = Program(options.program, os.path.join(options.folder, f"work-{os.getpid()}"))
-    best, left = None, 60
+    best, left = None, 40
 
     def same(scene, claim):
         nonlocal best, left
@@ -123,9 +134,9 @@ def smallest(options, kind, seed, finding):
         try:
             scene.changed()
             if finding.word == PRINTED:
-                found = derived(program, scene, seed_of(seed))[0]
+                found = derived(program, scene, 7, finding.by)[0]
             else:
-                at = Examined(program, scene, [claim], seed_of(seed))
+                at = Examined(program, scene, [claim], 7)
                 at.examine()
                 found = at.findings
         except (Undefined, NotRead, KeyError, IndexError, ZeroDivisionError):
@@ -154,10 +165,6 @@ def smallest(options, kind, seed, finding):
                 claim, going = other, True
                 break
     return best
-
-
-def seed_of(seed):
-    return int(hashlib.sha256(str(seed).encode()).hexdigest()[:8], 16)
 
 
 def _smaller_scenes(scene):
@@ -252,7 +259,7 @@ def arguments():
 def tasks(options, kinds):
     """Scenes of all families in turn, until there are enough claims of each."""
     each = max(1, round(options.claims / len(kinds)))
-    per_scene = {"derive": 1.6, **poses.PER_SCENE}
+    per_scene = {"derive": 1.6, **{kind: 1 for kind in VERBS}}
     for kind in kinds:
         for k in range(max(1, round(each / per_scene.get(kind, 7)))):
             yield options, kind, f"{options.seed} {k}"
@@ -270,20 +277,23 @@ def main():
         return 3
     options.program = os.path.abspath(options.program)
     os.makedirs(options.folder, exist_ok=True)
-    totals, begin, kept, broken = {k: Count() for k in kinds}, time.time(), collections.Counter(), 0
+    totals, begin, found, broken = {k: Count() for k in kinds}, time.time(), collections.defaultdict(list), 0
     with multiprocessing.Pool(options.jobs) as pool:
         for kind, seed, counts, findings, mistake in pool.imap_unordered(guarded, tasks(options, kinds)):
             totals[kind].update(counts)
             if mistake:
                 broken += 1
                 print(f"the adversary broke at {kind} {seed}:\n{mistake}", file=sys.stderr)
-            for word, claim, text, file in findings:
-                kept[kind, word] += 1
-                label = f"{kind}-{word.replace(' ', '-')}-{kept[kind, word]}.toml"
-                with open(os.path.join(options.folder, label), "w", encoding="utf-8") as out:
-                    out.write(file)
-                if kept[kind, word] <= SHRUNK:
-                    print(f"{label}: {claim}\n    {text}", flush=True)
+            for f in findings:
+                f.size = len(f.scene.text()) + 4 * len(f.claim.text if f.claim else "") if f.scene else 0
+                kept = found[kind, f.word] = sorted([*found[kind, f.word], f], key=lambda f: f.size)
+                del kept[KEPT:]
+        small = [(options, *key, f) for key, kept in found.items() for f in kept]
+        for number, (kind, word, f) in enumerate(pool.imap(made_small, small) if options.shrink else [s[1:] for s in small]):
+            label = f"{kind}-{word.replace(' ', '-')}-{number}.toml"
+            with open(os.path.join(options.folder, label), "w", encoding="utf-8") as out:
+                out.write(_file(f))
+            print(f"{label}: {f.claim.text if f.claim else ''}\n    {f.text}", flush=True)
     for folder in os.listdir(options.folder):
         if folder.startswith("work-"):
             shutil.rmtree(os.path.join(options.folder, folder), ignore_errors=True)

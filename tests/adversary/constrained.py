@@ -166,12 +166,12 @@ def angles(rng):
         here = {("a", 0): value(a0), ("b", 0): value(b0)}
         gap = of("cos", a) - of("cos", b)
         if abs(value(gap, here)) > NEAR:
-            c = s.coordinate("c", 1)
-            s.particle("Pc", number(3), [c, ZERO])
-            s.force("c", number(5))
+            c = s.coordinate("e", 1)
+            s.particle("Pe", number(3), [c, ZERO])
+            s.force("e", number(5))
             s.constraints.append(Constraint("z1", gap * (c - 1), c - 1))
             s.changed()
-            claims = claims[:4] + [Claim(name("c''"), ZERO), Claim(name("c''"), number(5) / 3), Claim(c, ONE), Claim(name("c'"), ZERO)]
+            claims = claims[:4] + [Claim(name("e''"), ZERO), Claim(name("e''"), number(5) / 3), Claim(c, ONE), Claim(name("e'"), ZERO)]
     return s, claims
 
 
@@ -210,7 +210,8 @@ def roots(rng):
     values = {**s.values(), ("x", 0): value(x0)}
     y0 = value(f, values)
     s.coordinate("x", x0)
-    y = s.coordinate("y", replaced(f, lambda n: x0 if n.op == "name" and n.args == ("x", 0) else None))
+    start = replaced(f, lambda n: x0 if n.op == "name" and n.args == ("x", 0) else None)
+    y = s.coordinate("y", start if kind != "max" else k * of("abs", x0 - d) if value(f, values) else ZERO)
     s.particle("P", m, [x, y])
     s.gravity = [ZERO, -g]
     s.constraints.append(Constraint("z0", y - f))

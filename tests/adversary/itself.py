@@ -9,6 +9,7 @@ from mpmath import mpf
 
 import constrained  # noqa: F401
 import judge
+import more  # noqa: F401
 import rest
 from families import FAMILIES
 from scene import Constraint, Scene
@@ -206,7 +207,7 @@ class Liar:
         self.right = {c.text: "proved" if t.kind == HOLDS else "refuted" for c, t in zip(claims, truths)}
         self.claims = claims
 
-    def ask(self, text, verb):
+    def ask(self, text, verb, *_):
         if verb == "derive":
             rows = [f"{write(left)} = {write(right)}" for left, right in self.printed]
             return 0, {"equations": [{"text": r} for r in rows], "where": []}, ""

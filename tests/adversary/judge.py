@@ -15,13 +15,15 @@ from truth import FAILS, HOLDS, UNKNOWN, Claim, Truth, has_nothing_of
 
 PROVED, REFUTED, VACUOUS = "proved wrongly", "refuted wrongly", "vacuous wrongly"
 STATE, REPAIR, SIDES, NEIGHBOUR, EXIT = "state wrong", "repair wrong", "holds_where wrong", "neighbours", "exit code"
+ACCEPTED, DEGREES, BRANCHES = "accepted wrongly", "degrees wrong", "branches wrong"
 PRINTED, STABLE, ROOTS = "printed wrong", "stable wrongly", "roots wrong"
-FALSE = [PROVED, REFUTED, VACUOUS, STABLE, ROOTS, PRINTED, STATE, REPAIR, SIDES, NEIGHBOUR, EXIT]
+FALSE = [PROVED, REFUTED, VACUOUS, STABLE, ROOTS, PRINTED, ACCEPTED, DEGREES, BRANCHES, STATE, REPAIR, SIDES, NEIGHBOUR, EXIT]
 
 
 class Finding:
     def __init__(self, word, claim, text, scene=None):
         self.word, self.claim, self.text, self.scene = word, claim, text, scene
+        self.by = None  # the formalism of printed equations
 
 
 class Program:
@@ -53,6 +55,17 @@ def shown(state, claim):
     if not state:
         return "every state"
     return ", ".join(f"{n + chr(39) * d} = {trees.mpmath.nstr(v, 8)}" for (n, d), v in sorted(state.items()) if n != "t" or v)
+
+
+def known(scene, word):
+    """The tree of a name of the scene in what the program answers."""
+    n = name(word)
+    if word in scene.definitions:
+        return scene.named(scene.definitions[word])
+    label = n.args[0]
+    if label not in {*scene.coordinates, *scene.parameters, *scene.inputs, "t"} and not label.startswith("lambda_"):
+        raise NotRead(word)
+    return n
 
 
 # -- claims
@@ -138,11 +151,7 @@ class Examined:
         self._found(PROVED, claim, f"{said}; it fails" + self._at(truth, claim))
 
     def _known(self, word):
-        n = name(word)
-        if n.args[0] not in self.scene.coordinates and n.args[0] not in self.scene.parameters and n.args[0] not in self.scene.inputs \
-                and n.args[0] != "t" and not n.args[0].startswith("lambda_"):
-            raise NotRead(word)
-        return n
+        return known(self.scene, word)
 
     def _conditions(self, where):
         return [read_condition(w, self._known)[1] for w in where]
@@ -193,7 +202,7 @@ class Examined:
             self._found(REFUTED, claim, f"refuted at {state}, where it {how}; it holds in {truth.cells} cells")
         elif truth.kind == HOLDS:
             self.counts["missed"] += 1
-        elif how in ("holds", "is off the constraints"):
+        elif how in ("holds", "is off the constraints") and not truth.note:  # of a jump a single state says nothing
             self._found(STATE, claim, f"refuted, rightly, at {state}, but that state {how}; it fails" + self._at(truth, claim))
         elif how != "valid":
             self.counts["no state"] += 1
@@ -220,7 +229,7 @@ class Examined:
             return False
         start = self.truth.start
         conditions = []
-        for s in trees.sides(claim.left - claim.right):
+        for s in trees.sides(claim.left - claim.right) + [name(q) for q in self.scene.coordinates]:
             if any(d for _, d in used(s)):
                 continue
             try:
@@ -265,7 +274,7 @@ class Examined:
         try:
             if claim.at == "rest":
                 return self._at_rest(claim, state)
-            if claim.at == "solution":
+            if claim.at in ("solution", "impact") or claim.near:
                 return "is not read"
             if not any(q in motion.q for q, _ in missing) or not motion.m:
                 before = dict(state)
@@ -306,30 +315,24 @@ class Examined:
 
 # -- printed equations
 
-def derived(program, scene, seed):
+def derived(program, scene, seed, by=None):
     """(findings, refused, how many equations): what `derive` prints at states of every cell."""
-    code, answer, message = program.ask(scene.text(), "derive")
+    code, answer, message = program.ask(scene.text(), "derive", *(["--by", by] if by else []))
     if code != 0 or answer is None:
-        return [], (code, message), 0
+        return [], None if by and code == 3 else (code, message), 0
     truth = Truth(scene, seed)
     texts = {d["name"]: d["text"] for d in answer.get("definitions", ())}
 
-    def known(word):
-        if word in texts:
-            return read(texts[word], known)
-        n = name(word)
-        if n.args[0] not in scene.coordinates and n.args[0] not in scene.parameters and n.args[0] not in scene.inputs \
-                and n.args[0] != "t" and not n.args[0].startswith("lambda_"):
-            raise NotRead(word)
-        return n
+    def named(word):
+        return read(texts[word], named) if word in texts else known(scene, word)
 
     findings = []
     try:
-        conditions = [read_condition(w, known)[1] for w in answer.get("where") or []]
-        equations = [read_equation(e["text"], known) for e in answer["equations"]]
+        conditions = [read_condition(w, named)[1] for w in answer.get("where") or []]
+        equations = [read_equation(e["text"], named) for e in answer["equations"]]
     except NotRead as no:
-        return [], (0, f"not read: {no}"), 0
-    said = " where " + ", ".join(answer["where"]) if answer.get("where") else ""
+        return [], None if by else (0, f"not read: {no}"), 0
+    said = (f" by {by}" if by else "") + (" where " + ", ".join(answer["where"]) if answer.get("where") else "")
     for (left, right), e in zip(equations, answer["equations"]):
         claim = Claim(left, right, text=e["text"])
         found = truth.holds_where(claim, conditions)
@@ -338,6 +341,8 @@ def derived(program, scene, seed):
     if not findings and not _determine(scene, truth, equations):
         findings.append(Finding(PRINTED, None, "the equations do not determine the accelerations: "
                                 + "; ".join(e["text"] for e in answer["equations"]), scene))
+    for f in findings:
+        f.by = by
     return findings, None, len(equations)
 
 

@@ -7,7 +7,6 @@ a normal form in two coordinates, have closed forms.
 """
 
 import collections
-import math
 
 import mpmath
 from mpmath import mpf
@@ -15,7 +14,7 @@ from mpmath import mpf
 import rest
 from judge import ROOTS, STABLE, Finding
 from scene import Scene
-from trees import ONE, PI, ZERO, Compiled, NotRead, Undefined, name, number, of, read_condition, value, write
+from trees import ONE, ZERO, Compiled, NotRead, Undefined, name, number, of, read_condition, value
 from writings import draws, threshold
 
 CLOSE = mpf("1e-3")
@@ -117,7 +116,7 @@ def line_pose(rng):
     elif kind == "pull":
         s.potential = 27 * q ** 2 / 2 - number(rng.choice([4, 3, 2])) / (1 - q)
     else:
-        s.force("x", rng.choice([1, -1]) * rng.choice([q ** 3, q ** 5, q ** 25, q ** 7, q ** 2, q ** 4, q * of("abs", q), q ** 3 - q ** 5]))
+        s.force("x", rng.choice([1, -1]) * rng.choice([q ** 3, q ** 5, q ** 25, q ** 7, q ** 2, q ** 4, q * of("abs", q), q ** 3 - q ** 5, q * of("exp", -1 / (q ** 2 + number("0.0001")))]))
         s.coordinates["x"] = (ZERO, ZERO, None, False)
     return Pose(s, _damping(rng, s, "x"))
 
@@ -319,8 +318,7 @@ def rotor(program, rng):
     damping = "ci*(x^2 + y^2)" if by_bend else "ci"
     for axis in "xy":
         s.extra += f'\n[[damper]]\nalong = "dot(pos(P), e{axis}(R))"\ndamping = "{damping}"'
-    s.extra += "\n[outputs]\nunused = \"" + write(k + ci + w) + '"'
-    s.parameters = dict(s.parameters)
+    s.needed = [k, ci, w]
     v = s.values()
     outer, inner, stiff, speed = value(ce), v["ci", 0], v["k", 0], v["W", 0]
     if by_bend:
@@ -330,19 +328,7 @@ def rotor(program, rng):
     else:
         margin = (outer + inner) ** 2 * stiff - (inner * speed) ** 2
         truth = None if abs(margin) < mpf("1e-6") else "asymptotically stable" if margin > 0 else "unstable"
-    s.text = _with_parameters(s)
     return _said(program, s, truth, (rng.choice(["stability", "stability", "equilibrium"]),))
-
-
-def _with_parameters(s):
-    """The text with all parameters, which what is beside the trees needs."""
-    plain_text = Scene.text
-
-    def text(claims=(), head=""):
-        made = plain_text(s, claims, head)
-        missing = [f"{k} = {p.text}" for k, p in s.parameters.items() if f"\n{k} = " not in made]
-        return made.replace("[parameters]\n", "[parameters]\n" + "".join(line + "\n" for line in missing), 1)
-    return text
 
 
 def normal(program, rng):
@@ -363,6 +349,5 @@ def normal(program, rng):
 
 
 KINDS = {"equilibrium": equilibria, "stability": stability}
-PER_SCENE = {"equilibrium": 1, "stability": 1}
 
-__all__ = ["KINDS", "PER_SCENE", "math", "PI"]
+__all__ = ["KINDS"]

@@ -12,8 +12,15 @@ import mpmath
 import numpy
 from mpmath import mpf
 
-from trees import (ONE, ZERO, Compiled, NotRead, Undefined, alias, derivative, name, number, of, plain, rate, read, replaced,
-                   sides, tree, used, value, write)
+from trees import (ONE, ZERO, Compiled, NotRead, Tree, Undefined, alias, derivative, name, number, of, plain, rate, read,
+                   replaced, sides, tree, used, value, write)
+
+
+BEFORE = 3  # in place of dots: the rate before an impact, written x'(-)
+
+
+def before(label):
+    return alias(f"{label}'(-)", Tree("name", label, BEFORE))
 
 
 class Constraint:
@@ -36,10 +43,15 @@ class Scene:
         self.parameters, self.coordinates, self.particles = {}, {}, []
         self.gravity, self.potential, self.kinetic, self.springs = None, ZERO, ZERO, []
         self.forces, self.pushes, self.frictions, self.constraints, self.inputs = {}, [], [], [], {}
-        self.impulses, self.extra = {}, ""
+        self.definitions = {}  # abbreviations: names in expressions, their trees here
+        self.impulses, self.extra, self.needed = {}, "", []  # extra: text, and the trees of what it names
         self.lengths = False  # roots of squares of positions, which may be told on the sheet of the start
         self.time = False  # whether t matters
         self.reach = 0.2  # by how much parameters may change
+
+    def __getstate__(self):
+        """Without what is compiled: scenes go from one process to another."""
+        return {k: v for k, v in self.__dict__.items() if k != "_motion"}
 
     # -- building
 
@@ -59,6 +71,11 @@ class Scene:
 
     def force(self, q, load):
         self.forces[q] = self.forces.get(q, ZERO) + load
+
+    def define(self, label, meaning):
+        """A name for an expression."""
+        self.definitions[label] = tree(meaning)
+        return alias(label, meaning)
 
     def velocity(self, label):
         """Components of a particle's velocity."""
@@ -113,6 +130,9 @@ class Scene:
             if speed != ZERO:
                 keys += f", {'rate_guess' if guess else 'rate'} = {_quoted(speed)}"
             lines.append(f"{q} = {{ {keys}" + (f', unit = "{unit}"' if unit else "") + " }")
+        if self.definitions:
+            lines.append("[definitions]")
+            lines += [f"{k} = {_quoted(e)}" for k, e in self.definitions.items()]
         for label, mass, position in self.particles:
             vector = ", ".join(_quoted(p) for p in position)
             lines += ["[[particle]]", f'name = "{label}"', f"mass = {_quoted(mass)}", f"position = [{vector}]"]
@@ -147,7 +167,7 @@ class Scene:
         found += [t for spring in self.springs for t in spring] + [t for _, vector in self.pushes for t in vector]
         found += [t for f in self.frictions for t in f[1:]] + [c.written for c in self.constraints]
         found += [t for i, r, _, _ in self.coordinates.values() for t in (i, r)] + list(self.impulses.values())
-        found += [t for claim in claims for t in claim.trees()]
+        found += [t for claim in claims for t in claim.trees()] + self.needed + list(self.definitions.values())
         return [plain(t) for t in found]
 
     # -- mechanics
@@ -361,6 +381,27 @@ class Motion:
                 states["lambda_" + c.label, 0] = x[:, n + k] / factors[k]
         return states
 
+    def struck(self, state):
+        """Rates after the impulses, of a state with the rates before as (name, BEFORE): M (v - v-) = S + A^T Lambda, A v = b."""
+        mass, _, _, rows, _, factors = self._parts(self.system.mp({**state, **{(q, 1): mpf(0) for q in self.q}}))
+        n, m = self.n, self.m
+        blow = Compiled([self.scene.named(self.scene.impulses.get(q, ZERO)) for q in self.q]).mp(state)
+        still = self.sliding.mp(state)[m * n:]
+        whole, right = mpmath.zeros(n + m), mpmath.zeros(n + m, 1)
+        for i in range(n):
+            right[i] = blow[i] + sum(mass[i][j] * state[q, BEFORE] for j, q in enumerate(self.q))
+            for j in range(n):
+                whole[i, j] = mass[i][j]
+        for k in range(m):
+            right[n + k] = -still[k]
+            for i in range(n):
+                whole[n + k, i], whole[i, n + k] = rows[k][i], -rows[k][i]
+        try:
+            x = mpmath.lu_solve(whole, right)
+        except ZeroDivisionError:
+            raise Undefined from None
+        return {**state, **{(q, 1): x[i] for i, q in enumerate(self.q)}}
+
     # -- states that obey the constraints
 
     def onto(self, states, count, most):
@@ -411,7 +452,7 @@ class Motion:
                 step = _least(a, flat[:k])
                 for i, q in enumerate(self.q):
                     state[q, 0] -= step[i]
-                if max(abs(s) for s in step) < mpf("1e-56") * (1 + max(abs(state[q, 0]) for q in self.q)):
+                if max(abs(s) for s in step) < mpf(10) ** (4 - mpmath.mp.dps) * (1 + max(abs(state[q, 0]) for q in self.q)):
                     break
             else:
                 raise Undefined

@@ -456,7 +456,8 @@ class Compiled:
         return variable
 
     def _function(self, kind):
-        if kind not in self.made:
+        key = kind, mpmath.mp.dps
+        if key not in self.made:
             space = dict(IN_MP if kind == "mp" else IN_NUMPY)
             if kind == "mp":
                 space["pi"] = +mpmath.pi
@@ -465,8 +466,8 @@ class Compiled:
                 space["pi"] = numpy.pi
                 space.update({k: numpy.float64(v) for k, v in self.constants.items()})
             exec(self.source, space)  # noqa: S102, of trees that were drawn here
-            self.made[kind] = space["made"]
-        return self.made[kind]
+            self.made[key] = space["made"]
+        return self.made[key]
 
     def mp(self, state):
         try:

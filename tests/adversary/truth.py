@@ -5,22 +5,26 @@ Many states are tried in doubles, to find where a claim might fail and which cel
 decides in 60 digits. States are drawn at several sizes, beside the start, and on both sides of each boundary of a cell.
 """
 
+import mpmath
 import numpy
 from mpmath import mpf
 
 import rest
-from trees import (ZERO, Compiled, NotRead, Undefined, name, parts, plain, rate, read_condition, replaced, sides, terms, used,
-                   write)
+from scene import BEFORE
+from trees import (ZERO, Compiled, NotRead, Undefined, derivative, name, over, parts, plain, rate, read_condition, replaced, sides,
+                   terms, used, value, write)
 
 HOLDS, FAILS, UNKNOWN = "holds", "fails", "unknown"
-SMALL, NOISE = mpf("1e-34"), mpf("1e-42")  # of the largest term; of what rounding leaves where all terms cancel
+SMALL = mpf("1e-34")  # of the largest term
+MORE = 140  # digits, in which rounding leaves less than in 60, and a difference the same
 
 
 class Claim:
     """left = right at motion, rest or solution; constants: names that stay the same along a motion."""
 
-    def __init__(self, left, right, at="motion", constants=(), where=(), text=None):
+    def __init__(self, left, right, at="motion", constants=(), where=(), text=None, near=None):
         self.left, self.right, self.at, self.constants, self.where = left, right, at, list(constants), list(where)
+        self.near = near or {}  # coordinate: value
         self.text = text or f"{write(left)} = {write(right)}"
 
     def lines(self):
@@ -31,13 +35,15 @@ class Claim:
             found.append("constants = [" + ", ".join(f'"{c}"' for c in self.constants) + "]")
         if self.where:
             found.append("where = [" + ", ".join(f'"{_condition(w)}"' for w in self.where) + "]")
+        if self.near:
+            found.append("near = { " + ", ".join(f'{q} = "{write(v)}"' for q, v in self.near.items()) + " }")
         return found
 
     def trees(self):
         return [self.left, self.right, *self.where]
 
     def like(self, left, right):
-        return Claim(left, right, self.at, self.constants, self.where)
+        return Claim(left, right, self.at, self.constants, self.where, near=self.near)
 
 
 def _condition(positive):
@@ -49,6 +55,16 @@ class Answer:
 
     def __init__(self, kind, state=None, residual=None, cells=0, note=""):
         self.kind, self.state, self.residual, self.cells, self.note = kind, state, residual, cells, note
+
+
+def confirmed(judge):
+    """The answer of judge(); a failure that shrinks with more digits was rounding."""
+    answer = judge()
+    if answer.kind == FAILS:
+        with mpmath.workdps(MORE):
+            if abs(judge().residual) < abs(answer.residual) / 1000:
+                answer.kind = HOLDS
+    return answer
 
 
 def drawn(rng, count):
@@ -211,6 +227,10 @@ class Truth:
                 return self._rest(claim)
             if claim.at == "solution":
                 return self._solution(claim)
+            if claim.at == "impact":
+                return self._impact(claim)
+            if claim.near:
+                return self._near_claim(claim)
             left, right = self.scene.named(claim.left), self.scene.named(claim.right)
             if claim.constants:
                 left = replaced(left - right, lambda n: ZERO if n.op == "name" and n.args[0] in claim.constants else None)
@@ -269,8 +289,7 @@ class Truth:
         """What holds at one state in 60 digits."""
         state = {key: v[at] for key, v in states.items()}
         try:
-            state = self.motion.polish(state)
-            return self.at(made, state)
+            return confirmed(lambda: self.at(made, self.motion.polish(state)))
         except Undefined:
             return None
 
@@ -278,8 +297,7 @@ class Truth:
     def at(made, state):
         left, right, *summands = made.mp(state)
         size = max([abs(left), abs(right), *[abs(s) for s in summands]])
-        fails = abs(left - right) > max(SMALL * size, NOISE)
-        return Answer(FAILS if fails else HOLDS, state, left - right)
+        return Answer(FAILS if abs(left - right) > SMALL * size else HOLDS, state, left - right)
 
     def _jumps(self, left, answer):
         """A quantity whose derivative is zero must not jump where a motion goes from one cell into another."""
@@ -316,6 +334,48 @@ class Truth:
         if abs(one - two) > mpf("1e-15") * (1 + abs(one)) and abs(moving) > mpf("1e-20"):
             return Answer(FAILS, before, one - two, note=f"jumps where {write(g)} = 0")
         return None
+
+    def _impact(self, claim):
+        """At the pose of the start, with the rates before that it has, for all parameters."""
+        left, right = self.scene.named(claim.left), self.scene.named(claim.right)
+        made = Compiled([left, right, *terms(left), *terms(right)])
+        seen = 0
+        for at in range(0, self.count, max(1, self.count // 9)):
+            state = {**self.start, **{(label, 0): mpf(float(self.states[label, 0][at])) for label in self.scene.parameters}}
+            try:
+                for q, (initial, speed, *_) in self.scene.coordinates.items():
+                    state[q, 0], state[q, 1] = value(initial, state), value(speed, state)
+                state = self.motion.polish(state)
+                state.update({(q, BEFORE): state[q, 1] for q in self.motion.q})
+                answer = self.at(made, self.motion.struck(state))
+            except Undefined:
+                continue
+            seen += 1
+            if answer.kind == FAILS:
+                return answer
+        return Answer(HOLDS if seen else UNKNOWN, cells=seen)
+
+    def _near_claim(self, claim):
+        """To first order at rest at a value, with one coordinate: what is linear in x, x' and x'' along the linearized motion."""
+        q, = self.motion.q
+        gap = self.scene.named(claim.left - claim.right)
+        a = over(self.motion.force[0] - self.motion.bias[0], self.motion.mass[0][0])
+        pieces = [gap] + [derivative(gap, (q, d)) for d in (0, 1, 2)] + [derivative(a, (q, d)) for d in (0, 1)]
+        made = Compiled([*pieces, a])
+        seen = 0
+        for values in self._parameters():
+            try:
+                state = {**values, ("t", 0): mpf(0), (q, 0): value(claim.near[q], values), (q, 1): mpf(0), (q, 2): mpf(0)}
+                whole, by, by_rate, by_second, stiff, damped, there = made.mp(state)
+            except Undefined:
+                continue
+            if abs(there) > mpf("1e-40"):
+                return Answer(UNKNOWN, note="no rest")
+            seen += 1
+            for miss, size in ((whole, 1), (by + by_second * stiff, abs(by)), (by_rate + by_second * damped, abs(by_rate))):
+                if abs(miss) > SMALL * max(1, size):
+                    return Answer(FAILS, state, miss)
+        return Answer(HOLDS if seen else UNKNOWN, cells=seen)
 
     def _rest(self, claim):
         if self.found_rest is None:
@@ -356,7 +416,7 @@ class Truth:
                 for c in claim.constants:
                     state[c, 0] = mpf(float(drawn(self.rng, 1)[0]))
                 try:
-                    answer = self.at(made, state)
+                    answer = confirmed(lambda s=state: self.at(made, s))
                 except Undefined:
                     continue
                 seen += 1
@@ -388,7 +448,7 @@ def has_nothing_of(scene, claim):
     for _ in range(40):
         state = {key: mpf(float(drawn(rng, 1)[0])) for key in used(left) | used(right)}
         try:
-            if Truth.at(made, state).kind == FAILS:
+            if confirmed(lambda s=state: Truth.at(made, s)).kind == FAILS:
                 return False
             seen += 1
         except Undefined:
