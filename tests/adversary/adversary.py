@@ -29,7 +29,6 @@ import vary
 from families import FAMILIES
 from judge import FALSE, NEIGHBOUR, PRINTED, Examined, Program, derived
 from trees import NotRead, Undefined, ZERO, add, parts, plain, replaced, write
-from truth import Claim
 
 VERBS = {**poses.KINDS, **vary.KINDS, **more.KINDS}
 OTHERS = ["derive", *VERBS]
@@ -111,13 +110,18 @@ def _file(finding):
     """The scene with the claim, and what is to be known in its first lines."""
     if finding.scene is None:
         return finding.text + "\n"
-    verb = "derive" + (f" --by {finding.by}" if finding.by else "") if finding.word == PRINTED else finding.claim.verb if hasattr(finding.claim, "verb") else "check"
+    verb = (
+        "derive" + (f" --by {finding.by}" if finding.by else "")
+        if finding.word == PRINTED
+        else finding.claim.verb if hasattr(finding.claim, "verb") else "check"
+    )
     claims = [finding.claim] if finding.claim and verb == "check" else []
     head = f"# alembert {verb} FILE: {finding.word}.\n" + "".join(f"# {line}\n" for line in finding.text.split("\n"))
     return finding.scene.text(claims, head.rstrip("\n"))
 
 
 # -- smaller
+
 
 def smallest(options, finding):
     """A smaller scene and claim of which the same false word is said."""
@@ -174,7 +178,7 @@ def _smaller_scenes(scene):
             yield left
     for table in ("springs", "pushes", "frictions"):
         for k in range(len(getattr(scene, table))):
-            yield _with(scene, **{table: getattr(scene, table)[:k] + getattr(scene, table)[k + 1:]})
+            yield _with(scene, **{table: getattr(scene, table)[:k] + getattr(scene, table)[k + 1 :]})
     if scene.gravity:
         yield _with(scene, gravity=None)
     for energy in ("potential", "kinetic"):
@@ -203,7 +207,7 @@ def _smaller_trees(node):
         if n.op == "+":
             for k in range(len(n.args)):
                 total = ZERO
-                for a in n.args[:k] + n.args[k + 1:]:
+                for a in n.args[:k] + n.args[k + 1 :]:
                     total = add(total, a)
                 yield replaced(plain(node), lambda x, n=n, w=total: w if x == n else None)
         elif n.op in ("*", "/", "neg", "^", "max", "min", "sqrt"):
@@ -223,23 +227,32 @@ def _smaller_claims(claim):
 
 # -- all of them
 
+
 def report(totals, seconds):
     words = [w for w in FALSE if any(c[w] for c in totals.values())]
-    print(f"{'family':<12}{'scenes':>8}{'claims':>8}" + "".join(f"{w.replace(' wrongly', '').replace(' wrong', ''):>12}" for w in words)
-          + f"{'undecided':>11}{'on sheets':>11}{'other exits':>13}{'seconds':>9}")
+    print(
+        f"{'family':<12}{'scenes':>8}{'claims':>8}"
+        + "".join(f"{w.replace(' wrongly', '').replace(' wrong', ''):>12}" for w in words)
+        + f"{'undecided':>11}{'on sheets':>11}{'other exits':>13}{'seconds':>9}"
+    )
     whole = Count()
     for kind, c in [*totals.items(), ("all", None)]:
         if c is None:
             c = whole
         else:
             whole.update(c)
-        print(f"{kind:<12}{c['scenes']:>8}{c['claims']:>8}" + "".join(f"{c[w]:>12}" for w in words)
-              + f"{c['undecided']:>11}{c['sheets']:>11}{c['other exits']:>13}{c['seconds']:>9.0f}")
+        print(
+            f"{kind:<12}{c['scenes']:>8}{c['claims']:>8}"
+            + "".join(f"{c[w]:>12}" for w in words)
+            + f"{c['undecided']:>11}{c['sheets']:>11}{c['other exits']:>13}{c['seconds']:>9.0f}"
+        )
     for word, number in sorted((k, v) for k, v in whole.items() if k.startswith("exit ")):
         print(f"  {number} x {word}")
     wrong = sum(whole[w] for w in FALSE)
-    print(f"{wrong} false words; {whole['undecided']} of {whole['claims']} undecided; {whole['missed']} counterexamples in cells "
-          f"that were not looked at here; {whole['holds']} claims hold; {seconds:.0f} s")
+    print(
+        f"{wrong} false words; {whole['undecided']} of {whole['claims']} undecided; {whole['missed']} counterexamples in cells "
+        f"that were not looked at here; {whole['holds']} claims hold; {seconds:.0f} s"
+    )
     return wrong
 
 
@@ -269,6 +282,7 @@ def main():
     options = arguments()
     if options.itself:
         import itself
+
         return itself.all()
     kinds = options.kinds.split(",")
     unknown = [k for k in kinds if k not in FAMILIES and k not in OTHERS]
@@ -303,5 +317,3 @@ def main():
 
 if __name__ == "__main__":
     sys.exit(main())
-
-__all__ = ["Claim"]

@@ -2,9 +2,9 @@
 """Families of scenes and claims where something must be assumed: draw(rng) gives a scene and its claims."""
 
 from scene import Scene
-from trees import ONE, PI, ZERO, Tree, alias, name, number, of, parts, plain, replaced, terms, used
+from trees import ONE, PI, ZERO, alias, name, number, of, parts, plain, replaced, used
 from truth import Claim
-from writings import (draws, identity, linear, never_vanishing, one_sided, rewritten, slipped, threshold, vanishing)
+from writings import draws, identity, linear, never_vanishing, one_sided, rewritten, slipped, threshold, vanishing
 
 FAMILIES = {}
 
@@ -15,6 +15,7 @@ def family(draw):
 
 
 # -- scenes that several families use
+
 
 def line(rng, start=None, speed=None, count=1):
     """One or two particles on lines."""
@@ -35,12 +36,23 @@ def sided_load(rng, s, v, label):
     if rng.random() < 0.4 and d != ZERO:
         d = s.parameter("d" + label, d)
     e = rng.choice([v - d, -v - d, d - v, v + d])
-    return rng.choice([
-        lambda: -k * of("max", 0, v - d), lambda: k * of("max", 0, -v - d), lambda: k * of("max", 0, d - v),
-        lambda: -k * of("min", 0, v + d), lambda: -k * of("abs", e), lambda: -k * of("sqrt", e ** 2),
-        lambda: -k * v * of("abs", v), lambda: -k * of("sign", e), lambda: -k * e * of("sign", v),
-        lambda: of("max", -k, of("min", k, -3 * v)), lambda: -k * of("max", 0, e) ** 2,
-        lambda: -k * of("max", 0, v - d) + k * of("max", 0, -v - d), lambda: -of("min", k * v, d + 1)])()
+    return rng.choice(
+        [
+            lambda: -k * of("max", 0, v - d),
+            lambda: k * of("max", 0, -v - d),
+            lambda: k * of("max", 0, d - v),
+            lambda: -k * of("min", 0, v + d),
+            lambda: -k * of("abs", e),
+            lambda: -k * of("sqrt", e**2),
+            lambda: -k * v * of("abs", v),
+            lambda: -k * of("sign", e),
+            lambda: -k * e * of("sign", v),
+            lambda: of("max", -k, of("min", k, -3 * v)),
+            lambda: -k * of("max", 0, e) ** 2,
+            lambda: -k * of("max", 0, v - d) + k * of("max", 0, -v - d),
+            lambda: -of("min", k * v, d + 1),
+        ]
+    )()
 
 
 def plain_load(rng, s, q):
@@ -135,9 +147,23 @@ def rates(rng):
     elif kind == "plane" or rng.random() < 0.5:
         s.pushes.append(("P", [-c * s.norm("P") * u for u in velocity]))
     else:
-        s.force(q, rng.choice([-c * v * of("abs", v), -c * of("sqrt", v ** 2) * v, -c * of("sign", v) * v ** 2,
-                               -c * of("sign", v), -c * of("max", 0, v), -c * of("sign", v - 2), -c * v ** 3 / of("abs", v),
-                               -c * v / of("sqrt", v ** 2), -c * of("abs", v) ** 3 * of("sign", v), -c * of("max", v, -v)]))
+        s.force(
+            q,
+            rng.choice(
+                [
+                    -c * v * of("abs", v),
+                    -c * of("sqrt", v**2) * v,
+                    -c * of("sign", v) * v**2,
+                    -c * of("sign", v),
+                    -c * of("max", 0, v),
+                    -c * of("sign", v - 2),
+                    -c * v**3 / of("abs", v),
+                    -c * v / of("sqrt", v**2),
+                    -c * of("abs", v) ** 3 * of("sign", v),
+                    -c * of("max", v, -v),
+                ]
+            ),
+        )
     claims = equation_claims(rng, s, 5)
     for left, right in s.equations()[:2]:  # quadratic drag with the sign that it has at the start, or without any
         bare = replaced(plain(right), lambda n: v if n.op in ("abs", "sqrt") and (q, 1) in used(n) else None)
@@ -150,30 +176,45 @@ def lengths(rng):
     """Roots of squares of positions: springs along coordinates, which may be told on the sheet of the start."""
     s = Scene()
     s.lengths = True
-    m, k, l0 = s.parameter("m", draws(rng, (5, 30))), s.parameter("k", draws(rng, (5, 50))), s.parameter("l0", draws(rng, (2, 15)))
+    m, k, l0 = (
+        s.parameter("m", draws(rng, (5, 30))),
+        s.parameter("k", draws(rng, (5, 50))),
+        s.parameter("l0", draws(rng, (2, 15))),
+    )
     r0 = draws(rng, (2, 30)) * rng.choice([1, -1])
     polar = rng.random() < 0.5
     if polar:
-        r, th = s.coordinate("r", r0, draws(rng, (-10, 10))), s.coordinate("theta", draws(rng, (-10, 10)), draws(rng, (-10, 10)))
+        r, th = s.coordinate("r", r0, draws(rng, (-10, 10))), s.coordinate(
+            "theta", draws(rng, (-10, 10)), draws(rng, (-10, 10))
+        )
         s.particle("P", m, [r * of("cos", th), r * of("sin", th)])
         x, y = [e for e in s.particles[0][2]]
-        length = of("sqrt", x ** 2 + y ** 2)
+        length = of("sqrt", x**2 + y**2)
     else:
         r = s.coordinate("x", r0, draws(rng, (-10, 10)))
         s.particle("P", m, [r, ZERO])
-        length = of("sqrt", r ** 2)
+        length = of("sqrt", r**2)
     s.springs.append((alias('["O", "P"]', length), k, l0))
     sign = ONE if r0.args[0] > 0 else -ONE
     v, a, label = name(r.args[0] + "'"), name(r.args[0] + "''"), r.args[0]
     turn = m * r * name("theta'") ** 2 if polar else ZERO
-    claims = [Claim(m * a - turn + k * (r - l0), ZERO), Claim(m * a - turn + k * (r + l0), ZERO),
-              Claim(m * a - turn + k * (of("abs", r) - l0) * of("sign", r), ZERO),
-              Claim(m * a - turn, -k * (r - l0 * r / of("sqrt", r ** 2))), Claim(of("sqrt", r ** 2), sign * r),
-              Claim(of("sqrt", r ** 2), -sign * r), Claim(of("abs", r), sign * r),
-              Claim(of("sqrt", v ** 2), v), Claim(of("sqrt", v ** 2), of("abs", v)),
-              Claim(of("sqrt", (r - 1) ** 2), r - 1),
-              Claim(m * v ** 2 / 2 + (m * r ** 2 * name("theta'") ** 2 / 2 if polar else ZERO)
-                    + k * (of("sqrt", r ** 2) - l0) ** 2 / 2, name("C"), constants=["C"])]
+    claims = [
+        Claim(m * a - turn + k * (r - l0), ZERO),
+        Claim(m * a - turn + k * (r + l0), ZERO),
+        Claim(m * a - turn + k * (of("abs", r) - l0) * of("sign", r), ZERO),
+        Claim(m * a - turn, -k * (r - l0 * r / of("sqrt", r**2))),
+        Claim(of("sqrt", r**2), sign * r),
+        Claim(of("sqrt", r**2), -sign * r),
+        Claim(of("abs", r), sign * r),
+        Claim(of("sqrt", v**2), v),
+        Claim(of("sqrt", v**2), of("abs", v)),
+        Claim(of("sqrt", (r - 1) ** 2), r - 1),
+        Claim(
+            m * v**2 / 2 + (m * r**2 * name("theta'") ** 2 / 2 if polar else ZERO) + k * (of("sqrt", r**2) - l0) ** 2 / 2,
+            name("C"),
+            constants=["C"],
+        ),
+    ]
     return s, rng.sample(claims, 6) + [Claim(*identity(rng, [name(label), v]))]
 
 
@@ -189,9 +230,9 @@ def parameters(rng):
         degrees = rng.choice([15, 18, 20, 30, 36, 40, 45, 60, 70])
         by_pi = rng.random() < 0.4
         angles = []
-        for label in ("alpha", "beta")[:1 if kind == "slope" else 2]:
+        for label in ("alpha", "beta")[: 1 if kind == "slope" else 2]:
             meaning = number(degrees) * PI / 180
-            text = f'"{degrees}*pi/180"' if by_pi else f"{{ value = {degrees}, unit = \"deg\" }}"
+            text = f'"{degrees}*pi/180"' if by_pi else f'{{ value = {degrees}, unit = "deg" }}'
             if degrees in (30, 45, 60) and by_pi:
                 text = f'"pi/{180 // degrees}"'
             if rng.random() < 0.15:
@@ -205,47 +246,77 @@ def parameters(rng):
         a = name("s''")
         total = sum(masses[1:], masses[0])
         pull = masses[0] * g * of("sin", angles[0]) - (masses[1] * g * of("sin", angles[1]) if len(masses) == 2 else ZERO)
-        numbers = [(of("sin", angles[0]), number("0.5")), (of("sin", angles[0]), of("sqrt", number(2)) / 2),
-                   (of("sin", angles[0]), of("sqrt", number(3)) / 2), (of("sin", angles[0]), of("cos", angles[0])),
-                   (of("sin", angles[0]), of("cos", 2 * angles[0])), (of("sin", angles[-1]), of("sin", angles[0])),
-                   (of("sin", angles[0]), of("sin", PI - 3 * angles[0])), (g, number("9.81")), (masses[-1], masses[0])]
-        claims = [Claim(total * a, pull), Claim(a, pull / total), Claim(a, g * of("cos", angles[0])),
-                  Claim(total * a, (masses[0] - masses[-1] if len(masses) == 2 else masses[0]) * g * of("sin", angles[-1]))]
+        numbers = [
+            (of("sin", angles[0]), number("0.5")),
+            (of("sin", angles[0]), of("sqrt", number(2)) / 2),
+            (of("sin", angles[0]), of("sqrt", number(3)) / 2),
+            (of("sin", angles[0]), of("cos", angles[0])),
+            (of("sin", angles[0]), of("cos", 2 * angles[0])),
+            (of("sin", angles[-1]), of("sin", angles[0])),
+            (of("sin", angles[0]), of("sin", PI - 3 * angles[0])),
+            (g, number("9.81")),
+            (masses[-1], masses[0]),
+        ]
+        claims = [
+            Claim(total * a, pull),
+            Claim(a, pull / total),
+            Claim(a, g * of("cos", angles[0])),
+            Claim(total * a, (masses[0] - masses[-1] if len(masses) == 2 else masses[0]) * g * of("sin", angles[-1])),
+        ]
     elif kind == "oscillator":
         m = s.parameter("m", rng.choice([number(2), of("sqrt", number(2)), of("sqrt", number(3)), of("sqrt", number(7))]))
         f0 = s.parameter("f0", draws(rng, (5, 20)))
         w = s.parameter("w", rng.choice([2 * PI * f0, 2 * PI, PI / 4, of("sqrt", number(5))]))
         q = s.coordinate("x", draws(rng, (-20, 20)), draws(rng, (-20, 20)))
         s.particle("P", m, [q, ZERO])
-        s.force("x", -m * w ** 2 * q + f0)
-        numbers = [(w ** 2, 4 * PI ** 2), (w ** 2, number(5)), (w ** 2, 4 * PI ** 2 * f0 ** 2), (m ** 2, number(2)),
-                   (m * w ** 2, 3 * w ** 2), (w, PI / 4), (m ** 2, number(7))]
-        claims = [Claim(m * name("x''") + m * w ** 2 * q, f0), Claim(m ** 2 * name("x''") + m ** 2 * w ** 2 * q, f0 * m)]
+        s.force("x", -m * w**2 * q + f0)
+        numbers = [
+            (w**2, 4 * PI**2),
+            (w**2, number(5)),
+            (w**2, 4 * PI**2 * f0**2),
+            (m**2, number(2)),
+            (m * w**2, 3 * w**2),
+            (w, PI / 4),
+            (m**2, number(7)),
+        ]
+        claims = [Claim(m * name("x''") + m * w**2 * q, f0), Claim(m**2 * name("x''") + m**2 * w**2 * q, f0 * m)]
     elif kind == "pendulum":
         same = draws(rng, (5, 20))
         m, length, big = s.parameter("m", same), s.parameter("l", same), s.parameter("M", same)
-        inertia = s.parameter("J", m * length ** 2 / 3) if rng.random() < 0.5 else s.parameter("J", draws(rng, (1, 10)))
+        inertia = s.parameter("J", m * length**2 / 3) if rng.random() < 0.5 else s.parameter("J", draws(rng, (1, 10)))
         s.gravity = [ZERO, -g]
         q = s.coordinate("theta", draws(rng, (-10, 10)))
         s.particle("P", m, [length * of("sin", q), -length * of("cos", q)])
         s.kinetic = inertia * name("theta'") ** 2 / 2
         s.force("theta", big * of("cos", q))
-        numbers = [(inertia, m * length ** 2 / 3), (big, m), (length, m), (g, number("9.81")), (m * length, big ** 2)]
-        claims = [Claim((m * length ** 2 + inertia) * name("theta''") + m * g * length * of("sin", q), big * of("cos", q)),
-                  Claim((m * length ** 2 + m * length ** 2 / 3) * name("theta''") + m * g * length * of("sin", q), big * of("cos", q))]
+        numbers = [(inertia, m * length**2 / 3), (big, m), (length, m), (g, number("9.81")), (m * length, big**2)]
+        claims = [
+            Claim((m * length**2 + inertia) * name("theta''") + m * g * length * of("sin", q), big * of("cos", q)),
+            Claim((m * length**2 + m * length**2 / 3) * name("theta''") + m * g * length * of("sin", q), big * of("cos", q)),
+        ]
     else:
         degrees = rng.choice([30, 40, 45, 60])
         a = s.parameter("a", number(degrees) * PI / 180, f'"{degrees} deg"', kind="shift")
         w = s.parameter("w", draws(rng, (10, 40)))
         s.gravity, s.time = [ZERO, ZERO, -g], True
         r, t = s.coordinate("r", draws(rng, (2, 20)), draws(rng, (-10, 10))), name("t")
-        s.particle("bead", number(1), [r * of("sin", a) * of("cos", w * t), r * of("sin", a) * of("sin", w * t), r * of("cos", a)])
-        right = w ** 2 * of("sin", a) ** 2 * r - g * of("cos", a)
-        numbers = [(of("sin", a) ** 2, number("0.25")), (of("sin", a) ** 2, number("0.5")), (of("sin", a), of("cos", a)),
-                   (of("cos", a), 1 - of("sin", a)), (of("sin", a) ** 2, 1 - of("cos", a) ** 2)]
+        s.particle(
+            "bead", number(1), [r * of("sin", a) * of("cos", w * t), r * of("sin", a) * of("sin", w * t), r * of("cos", a)]
+        )
+        right = w**2 * of("sin", a) ** 2 * r - g * of("cos", a)
+        numbers = [
+            (of("sin", a) ** 2, number("0.25")),
+            (of("sin", a) ** 2, number("0.5")),
+            (of("sin", a), of("cos", a)),
+            (of("cos", a), 1 - of("sin", a)),
+            (of("sin", a) ** 2, 1 - of("cos", a) ** 2),
+        ]
         form = g * of("cos", a) / (w * of("sin", a)) ** 2
-        claims = [Claim(name("r''"), right), Claim(r, form + name("A") * of("exp", w * of("sin", a) * t), "solution", ["A"]),
-                  Claim(r, form + name("B") * of("exp", w * of("cos", a) * t), "solution", ["B"])]
+        claims = [
+            Claim(name("r''"), right),
+            Claim(r, form + name("A") * of("exp", w * of("sin", a) * t), "solution", ["A"]),
+            Claim(r, form + name("B") * of("exp", w * of("cos", a) * t), "solution", ["B"]),
+        ]
     base = claims[0]
     for old, new in rng.sample(numbers, min(4, len(numbers))):
         change = lambda e, o=old, w=new: replaced(e, lambda n: w if n == o else None)  # noqa: E731
@@ -264,33 +335,78 @@ def integrals(rng):
     s = Scene()
     m, k = s.parameter("m", draws(rng, (5, 30))), s.parameter("k", draws(rng, (5, 50)))
     if rng.random() < 0.3:
-        x, y = s.coordinate("x", draws(rng, (2, 20)), draws(rng, (-20, 20))), s.coordinate("y", draws(rng, (-20, 20)), draws(rng, (2, 20)))
+        x, y = s.coordinate("x", draws(rng, (2, 20)), draws(rng, (-20, 20))), s.coordinate(
+            "y", draws(rng, (-20, 20)), draws(rng, (2, 20))
+        )
         s.particle("P", m, [x, y])
-        s.potential = k * (x ** 2 + y ** 2) / 2
+        s.potential = k * (x**2 + y**2) / 2
         moment = m * (x * name("y'") - y * name("x'"))
         energy = m * (name("x'") ** 2 + name("y'") ** 2) / 2 + s.potential
-        good = [moment, of("abs", moment), moment ** 2, of("sign", moment), of("sqrt", moment ** 2), energy, energy * moment,
-                of("abs", moment) + energy, of("max", moment, energy), m * name("x'") ** 2 / 2 + k * x ** 2 / 2]
-        bad = [x * name("y'") + y * name("x'"), of("abs", x * name("y'")) - of("abs", y * name("x'")),
-               energy + of("sign", x), moment * of("sign", y), of("atan2", y, x) - of("atan", y / x)]
+        good = [
+            moment,
+            of("abs", moment),
+            moment**2,
+            of("sign", moment),
+            of("sqrt", moment**2),
+            energy,
+            energy * moment,
+            of("abs", moment) + energy,
+            of("max", moment, energy),
+            m * name("x'") ** 2 / 2 + k * x**2 / 2,
+        ]
+        bad = [
+            x * name("y'") + y * name("x'"),
+            of("abs", x * name("y'")) - of("abs", y * name("x'")),
+            energy + of("sign", x),
+            moment * of("sign", y),
+            of("atan2", y, x) - of("atan", y / x),
+        ]
     else:
         x = s.coordinate("x", draws(rng, (-30, 30)), draws(rng, (-20, 20)))
         v = name("x'")
         s.particle("P", m, [x, ZERO])
         d = threshold(rng)
         form = rng.randrange(5)
-        s.force("x", [-k * x, -k * of("abs", x), -k * of("max", 0, x - d) + k * of("max", 0, -x - d), -k * x - k * of("abs", x - d),
-                      -k * of("sign", x - d)][form])
-        stored = [k * x ** 2 / 2, k * x * of("abs", x) / 2, k * of("max", 0, x - d) ** 2 / 2 + k * of("max", 0, -x - d) ** 2 / 2,
-                  k * x ** 2 / 2 + k * (x - d) * of("abs", x - d) / 2, k * of("abs", x - d)][form]
-        energy = m * v ** 2 / 2 + stored
+        s.force(
+            "x",
+            [
+                -k * x,
+                -k * of("abs", x),
+                -k * of("max", 0, x - d) + k * of("max", 0, -x - d),
+                -k * x - k * of("abs", x - d),
+                -k * of("sign", x - d),
+            ][form],
+        )
+        stored = [
+            k * x**2 / 2,
+            k * x * of("abs", x) / 2,
+            k * of("max", 0, x - d) ** 2 / 2 + k * of("max", 0, -x - d) ** 2 / 2,
+            k * x**2 / 2 + k * (x - d) * of("abs", x - d) / 2,
+            k * of("abs", x - d),
+        ][form]
+        energy = m * v**2 / 2 + stored
         a = draws(rng, (2, 30))
-        good = [energy, rewritten(rng, energy), 2 * energy, energy ** 2, of("abs", energy), energy + a]
-        bad = [of("sign", x), of("sign", v), of("min", x ** 2, number(20)), of("max", x, number(30)), energy + a * of("sign", x),
-               energy + a * of("sign", x - d), energy + a * of("max", 0, x - 20), energy + a * of("sign", v), energy * of("sign", x),
-               x / of("abs", x), of("sign", x) * of("sign", v), of("abs", x) / x + energy, of("atan2", 0 * x + 1, x) - of("atan", 1 / x),
-               of("sign", x ** 2 + 1), of("acos", of("sign", x)), one_sided(rng, energy) or energy * x,
-               one_sided(rng, rewritten(rng, energy, 1)) or energy + x, slipped(rng, energy, s) or x]
+        good = [energy, rewritten(rng, energy), 2 * energy, energy**2, of("abs", energy), energy + a]
+        bad = [
+            of("sign", x),
+            of("sign", v),
+            of("min", x**2, number(20)),
+            of("max", x, number(30)),
+            energy + a * of("sign", x),
+            energy + a * of("sign", x - d),
+            energy + a * of("max", 0, x - 20),
+            energy + a * of("sign", v),
+            energy * of("sign", x),
+            x / of("abs", x),
+            of("sign", x) * of("sign", v),
+            of("abs", x) / x + energy,
+            of("atan2", 0 * x + 1, x) - of("atan", 1 / x),
+            of("sign", x**2 + 1),
+            of("acos", of("sign", x)),
+            one_sided(rng, energy) or energy * x,
+            one_sided(rng, rewritten(rng, energy, 1)) or energy + x,
+            slipped(rng, energy, s) or x,
+        ]
     chosen = rng.sample(good, 3) + rng.sample(bad, 4)
     return s, [Claim(f, name(f"C{n}"), constants=[f"C{n}"]) for n, f in enumerate(chosen)]
 
@@ -315,15 +431,31 @@ def rest(rng):
         a = number(rng.choice(["2", "3", "5", "7", "1.5", "6", "4"]))
         b = number(rng.choice(["2", "3", "5", "7", "11"]))
         if kind == "well":
-            s.force("x", a * q - q ** 3 - c * name("x'"))
+            s.force("x", a * q - q**3 - c * name("x'"))
             start = rng.choice([ZERO, of("sqrt", a), -of("sqrt", a), number("0.4")])
-            pairs = [(q, ZERO), (q ** 2, a), (q * (q ** 2 - a), ZERO), (q ** 3, a * q), (q - of("sqrt", a), ZERO),
-                     (q * of("abs", q), ZERO), (of("abs", q), of("sqrt", a)), (q ** 5, a ** 2 * q), (q ** 3 * (q ** 2 - a), ZERO)]
+            pairs = [
+                (q, ZERO),
+                (q**2, a),
+                (q * (q**2 - a), ZERO),
+                (q**3, a * q),
+                (q - of("sqrt", a), ZERO),
+                (q * of("abs", q), ZERO),
+                (of("abs", q), of("sqrt", a)),
+                (q**5, a**2 * q),
+                (q**3 * (q**2 - a), ZERO),
+            ]
         elif kind == "product":
-            s.force("x", (q ** 2 - a) * (q ** 2 - b) * (1 if rng.random() < 0.5 else -q))
+            s.force("x", (q**2 - a) * (q**2 - b) * (1 if rng.random() < 0.5 else -q))
             start = rng.choice([of("sqrt", a), of("sqrt", b), ZERO])
-            pairs = [(q ** 2, a), (q ** 2, b), ((q ** 2 - a) * (q ** 2 - b), ZERO), (q * (q ** 2 - a) * (q ** 2 - b), ZERO),
-                     (q, ZERO), (q * (q ** 2 - a), ZERO), (q ** 4 + a * b, (a + b) * q ** 2)]
+            pairs = [
+                (q**2, a),
+                (q**2, b),
+                ((q**2 - a) * (q**2 - b), ZERO),
+                (q * (q**2 - a) * (q**2 - b), ZERO),
+                (q, ZERO),
+                (q * (q**2 - a), ZERO),
+                (q**4 + a * b, (a + b) * q**2),
+            ]
         elif kind == "stop":
             k, d = s.parameter("k", draws(rng, (10, 50))), threshold(rng)
             load = draws(rng, (-60, 60))
@@ -332,17 +464,31 @@ def rest(rng):
             big = s.parameter("ks", draws(rng, (10, 50)))
             if rng.random() < 0.5:
                 s.force("x", -big * q)
-            pairs = [(q, d + load / k), (q, -d + load / k), (load - k * of("max", 0, q - d) + k * of("max", 0, -q - d), ZERO),
-                     (k * of("max", 0, q - d), load), (of("max", 0, -q - d), ZERO), (of("max", 0, q - d), ZERO),
-                     (q, load / big), (big * q + k * of("max", 0, q - d), load + k * of("max", 0, -q - d))]
+            pairs = [
+                (q, d + load / k),
+                (q, -d + load / k),
+                (load - k * of("max", 0, q - d) + k * of("max", 0, -q - d), ZERO),
+                (k * of("max", 0, q - d), load),
+                (of("max", 0, -q - d), ZERO),
+                (of("max", 0, q - d), ZERO),
+                (q, load / big),
+                (big * q + k * of("max", 0, q - d), load + k * of("max", 0, -q - d)),
+            ]
         else:
             y = s.coordinate("y", rng.choice([ZERO, of("sqrt", b)]))
             s.particle("Q", unit, [ZERO, y])
-            s.force("x", a * q - q ** 3)
-            s.force("y", (y ** 2 - b) * (1 if rng.random() < 0.5 else y))
+            s.force("x", a * q - q**3)
+            s.force("y", (y**2 - b) * (1 if rng.random() < 0.5 else y))
             start = rng.choice([ZERO, of("sqrt", a)])
-            pairs = [(q, ZERO), (y ** 2, b), (q * (q ** 2 - a), ZERO), (q * y, ZERO), (q ** 2 + y ** 2, a + b), (y ** 3, b * y),
-                     (q * (y ** 2 - b), ZERO)]
+            pairs = [
+                (q, ZERO),
+                (y**2, b),
+                (q * (q**2 - a), ZERO),
+                (q * y, ZERO),
+                (q**2 + y**2, a + b),
+                (y**3, b * y),
+                (q * (y**2 - b), ZERO),
+            ]
         s.coordinates["x"] = (start, ZERO, None, False)
     return s, [Claim(*p, at="rest") for p in rng.sample(pairs, min(6, len(pairs)))]
 
@@ -358,7 +504,9 @@ def factors(rng):
         found.append(claim)
         for make in (vanishing, never_vanishing):
             factor = make(rng, variables)
-            found.append(Claim(factor * left, factor * right) if rng.random() < 0.6 else Claim(factor * (left - right), ZERO))
+            found.append(
+                Claim(factor * left, factor * right) if rng.random() < 0.6 else Claim(factor * (left - right), ZERO)
+            )
     return s, found
 
 
@@ -372,9 +520,17 @@ def neighbours(rng):
     e = q - d
     s.force("x", -k * name("x") - k * of("abs", e))
     a, m = name("x''"), name("m")
-    claims = [Claim(m * a + k * name("x") + k * (d - q), ZERO), Claim(m * a + k * name("x") + k * (q - d), ZERO),
-              Claim(of("sqrt", e ** 2), -e), Claim(of("sqrt", e ** 2), e), Claim(of("abs", e), -e), Claim(of("sign", e), -ONE),
-              Claim(m * a + k * name("x") + k * of("sqrt", e ** 2), ZERO), Claim(of("max", q, d), d), Claim(of("sqrt", e ** 2), of("abs", e))]
+    claims = [
+        Claim(m * a + k * name("x") + k * (d - q), ZERO),
+        Claim(m * a + k * name("x") + k * (q - d), ZERO),
+        Claim(of("sqrt", e**2), -e),
+        Claim(of("sqrt", e**2), e),
+        Claim(of("abs", e), -e),
+        Claim(of("sign", e), -ONE),
+        Claim(m * a + k * name("x") + k * of("sqrt", e**2), ZERO),
+        Claim(of("max", q, d), d),
+        Claim(of("sqrt", e**2), of("abs", e)),
+    ]
     return s, rng.sample(claims, 5)
 
 
@@ -384,13 +540,21 @@ def primes(rng):
     s = line(rng)
     k, q, a = s.parameter("k", draws(rng, (5, 30))), name("x"), name("x''")
     s.force("x", -k * q)
-    p = 2 ** 61 - 1
+    p = 2**61 - 1
     big, one = number(p * rng.randint(1, 3)), number(p * rng.randint(1, 3) + 1)
     m = name("m")
-    claims = [Claim(m * a + k * q + big * q ** rng.randint(1, 5), ZERO), Claim(one * a, a), Claim(of("cos", one * q), ONE),
-              Claim(of("exp", number((p - 1) // 2) * q), of("exp", 0 * q)), Claim(m * a + one * k * q, ZERO),
-              Claim(of("sin", one * q), of("sin", q)), Claim(m * a + k * q, big * name("x'")), Claim(of("cos", number(p - 1) * q), of("cos", 0 * q)),
-              Claim(of("abs", big * q), big * q), Claim(one * m * a + one * k * q, ZERO)]
+    claims = [
+        Claim(m * a + k * q + big * q ** rng.randint(1, 5), ZERO),
+        Claim(one * a, a),
+        Claim(of("cos", one * q), ONE),
+        Claim(of("exp", number((p - 1) // 2) * q), of("exp", 0 * q)),
+        Claim(m * a + one * k * q, ZERO),
+        Claim(of("sin", one * q), of("sin", q)),
+        Claim(m * a + k * q, big * name("x'")),
+        Claim(of("cos", number(p - 1) * q), of("cos", 0 * q)),
+        Claim(of("abs", big * q), big * q),
+        Claim(one * m * a + one * k * q, ZERO),
+    ]
     return s, rng.sample(claims, 6)
 
 
@@ -402,7 +566,9 @@ def where(rng):
     claims = []
     for claim in equation_claims(rng, s, 3) + [Claim(*identity(rng, [name("x"), name("x'")])) for _ in range(4)]:
         inner = [n.args[0] for t in (claim.left, claim.right) for n in parts(t) if n.op in ("abs", "sign")]
-        inner += [n.args[0].args[0] for t in (claim.left, claim.right) for n in parts(t) if n.op == "sqrt" and n.args[0].op == "^"]
+        inner += [
+            n.args[0].args[0] for t in (claim.left, claim.right) for n in parts(t) if n.op == "sqrt" and n.args[0].op == "^"
+        ]
         e = rng.choice(inner) if inner else linear(rng, [name("x"), name("x'")])
         claims.append(Claim(claim.left, claim.right, where=[rng.choice([e, -e])]))
     return s, claims
@@ -416,7 +582,9 @@ def smooth(rng):
     m, g = s.parameter("m", draws(rng, (5, 30))), s.parameter("g", number("9.81"))
     s.gravity = [ZERO, -g]
     if kind == "pendulum":
-        length, q = s.parameter("l", draws(rng, (5, 20))), s.coordinate("theta", draws(rng, (-20, 20)), draws(rng, (-20, 20)))
+        length, q = s.parameter("l", draws(rng, (5, 20))), s.coordinate(
+            "theta", draws(rng, (-20, 20)), draws(rng, (-20, 20))
+        )
         s.particle("P", m, [length * of("sin", q), -length * of("cos", q)])
         s.force("theta", -s.parameter("c", draws(rng, (1, 9))) * name("theta'"))
     elif kind == "cart":
@@ -426,11 +594,11 @@ def smooth(rng):
         s.particle("P", m, [x + length * of("sin", q), -length * of("cos", q)])
     elif kind == "bead":
         q, a = s.coordinate("x", draws(rng, (-20, 20)), draws(rng, (-20, 20))), s.parameter("a", draws(rng, (2, 20)))
-        s.particle("P", m, [q, a * q ** 2])
+        s.particle("P", m, [q, a * q**2])
     elif kind == "plane":
         x, y = s.coordinate("x", draws(rng, (-20, 20))), s.coordinate("y", draws(rng, (-20, 20)), draws(rng, (-20, 20)))
         s.particle("P", m, [x, y])
-        s.potential = s.parameter("k", draws(rng, (5, 30))) * (x ** 2 + y ** 2) ** 2 / 4 + of("exp", x)
+        s.potential = s.parameter("k", draws(rng, (5, 30))) * (x**2 + y**2) ** 2 / 4 + of("exp", x)
     else:
         a, b = s.coordinate("a", draws(rng, (-20, 20))), s.coordinate("b", draws(rng, (-20, 20)), draws(rng, (-20, 20)))
         s.particle("P", m, [of("sin", a), -of("cos", a)])
@@ -445,14 +613,24 @@ def switching(rng):
     s.time = True
     a, b = s.parameter("a", draws(rng, (5, 30))), s.parameter("b", draws(rng, (2, 20)))
     q, t, w = name("x"), name("t"), number(rng.choice(["1", "2", "3"]))
-    wave = rng.choice([of("sign", of("sin", w * t)), of("sign", of("sin", w * t + 1)), of("sign", t - 3), of("abs", of("sin", w * t)),
-                       of("max", 0, of("cos", w * t)), of("sign", 5 - t)])
-    s.potential = (a + b * wave) * q ** 2 / 2
+    wave = rng.choice(
+        [
+            of("sign", of("sin", w * t)),
+            of("sign", of("sin", w * t + 1)),
+            of("sign", t - 3),
+            of("abs", of("sin", w * t)),
+            of("max", 0, of("cos", w * t)),
+            of("sign", 5 - t),
+        ]
+    )
+    s.potential = (a + b * wave) * q**2 / 2
     v, m = name("x'"), name("m")
-    energy = m * v ** 2 / 2 + s.potential
+    energy = m * v**2 / 2 + s.potential
     claims = equation_claims(rng, s, 4)
-    claims += [Claim(f, name(f"C{k}"), constants=[f"C{k}"]) for k, f in
-               enumerate([energy, m * v ** 2 / 2 + (a + b) * q ** 2 / 2, wave, m * v ** 2 / 2])]
+    claims += [
+        Claim(f, name(f"C{k}"), constants=[f"C{k}"])
+        for k, f in enumerate([energy, m * v**2 / 2 + (a + b) * q**2 / 2, wave, m * v**2 / 2])
+    ]
     return s, claims + [Claim(wave, rng.choice([ONE, -ONE, ZERO])), Claim(of("abs", of("sin", w * t)), of("sin", w * t))]
 
 
@@ -463,14 +641,24 @@ def solutions(rng):
     m, q, t = name("m"), name("x"), name("t")
     k = s.parameter("k", rng.choice([draws(rng, (5, 50)), of("sqrt", number(2)), PI / 3]))
     stop = rng.random() < 0.4
-    s.force("x", -k * q + (s.parameter("ks", number(9)) * of("max", 0, -q - number(rng.choice(["0.05", "2", "20"]))) if stop else ZERO))
+    s.force(
+        "x",
+        -k * q
+        + (s.parameter("ks", number(9)) * of("max", 0, -q - number(rng.choice(["0.05", "2", "20"]))) if stop else ZERO),
+    )
     w = of("sqrt", k / m)
     a, b = name("A"), name("B")
-    found = [a * of("cos", w * t) + b * of("sin", w * t), a * of("cos", w * t + b), a * of("sin", w * t), a * of("cosh", w * t),
-             a * of("cos", k / m * t), a * of("exp", -w * t), of("cos", w * t), a * of("abs", of("cos", w * t)), a * of("cos", w * t) ** 2]
+    found = [
+        a * of("cos", w * t) + b * of("sin", w * t),
+        a * of("cos", w * t + b),
+        a * of("sin", w * t),
+        a * of("cosh", w * t),
+        a * of("cos", k / m * t),
+        a * of("exp", -w * t),
+        of("cos", w * t),
+        a * of("abs", of("cos", w * t)),
+        a * of("cos", w * t) ** 2,
+    ]
     form = rng.choice(found)
     constants = sorted({n for n, _ in used(form)} & {"A", "B"})
     return s, [Claim(q, form, "solution", constants), *equation_claims(rng, s, 2)]
-
-
-__all__ = ["FAMILIES", "Tree", "family", "terms"]

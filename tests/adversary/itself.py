@@ -13,7 +13,7 @@ import more  # noqa: F401
 import rest
 from families import FAMILIES
 from scene import Constraint, Scene
-from trees import (PI, ZERO, Compiled, NotRead, Undefined, derivative, name, number, of, plain, read, sides, used, value, write)
+from trees import PI, ZERO, Compiled, NotRead, Undefined, derivative, name, number, of, plain, read, used, value, write
 from truth import FAILS, HOLDS, Claim, Truth
 
 
@@ -27,6 +27,7 @@ def same(a, b, what, bound="1e-50"):
 
 
 # -- expressions
+
 
 def expressions():
     """Trees are written, read again and differentiated; doubles agree with 60 digits; slopes with differences of mpmath."""
@@ -54,6 +55,7 @@ def expressions():
 
 # -- mechanics
 
+
 def _at(scene, **values):
     state = scene.values()
     for key, v in values.items():
@@ -73,7 +75,9 @@ def mechanics():
     s.particle("bob", parameters["m"], [x + parameters["l"] * of("sin", q), -parameters["l"] * of("cos", q)])
     there = _at(s, x="0.3", theta="0.7", x_="1.1", theta_="-2.3")
     th, w = mpf("0.7"), mpf("-2.3")
-    acceleration = (m * l * w ** 2 * mpmath.sin(th) + m * g * mpmath.sin(th) * mpmath.cos(th)) / (big + m * mpmath.sin(th) ** 2)
+    acceleration = (m * l * w**2 * mpmath.sin(th) + m * g * mpmath.sin(th) * mpmath.cos(th)) / (
+        big + m * mpmath.sin(th) ** 2
+    )
     same(there["x", 2], acceleration, "a pendulum on a cart, x''")
     same(there["theta", 2], -(g * mpmath.sin(th) + acceleration * mpmath.cos(th)) / l, "a pendulum on a cart, theta''")
 
@@ -84,15 +88,17 @@ def mechanics():
     x = s.coordinate("x", parameters["l"] * of("sin", angle))
     y = s.coordinate("y", -parameters["l"] * of("cos", angle))
     s.particle("bob", parameters["m"], [x, y])
-    own = x ** 2 + y ** 2 - parameters["l"] ** 2
+    own = x**2 + y**2 - parameters["l"] ** 2
     s.constraints.append(Constraint("rod", own * (x + 7), own))
     state = s.start()
     state["x", 1], state["y", 1] = l * w * mpmath.cos(th), l * w * mpmath.sin(th)
     there = s.motion().polish(state)
     turned = -g / l * mpmath.sin(th)
-    same(there["x", 2], l * turned * mpmath.cos(th) - l * w ** 2 * mpmath.sin(th), "a pendulum by x and y, x''")
-    tension = m * (l * w ** 2 + g * mpmath.cos(th))
-    same(there["lambda_rod", 0] * 2 * l * (l * mpmath.sin(th) + 7), -tension, "its multiplier, of the product that is written")
+    same(there["x", 2], l * turned * mpmath.cos(th) - l * w**2 * mpmath.sin(th), "a pendulum by x and y, x''")
+    tension = m * (l * w**2 + g * mpmath.cos(th))
+    same(
+        there["lambda_rod", 0] * 2 * l * (l * mpmath.sin(th) + 7), -tension, "its multiplier, of the product that is written"
+    )
 
     s = Scene()  # quadratic drag upwards and downwards, by the length of the velocity
     parameters = {k: s.parameter(k, number(v)) for k, v in (("g", "9.81"), ("c", "0.3"), ("m", "0.5"))}
@@ -109,10 +115,12 @@ def roots():
     s = Scene()
     x = s.coordinate("x")
     s.particle("P", number(1), [x, ZERO])
-    cases = [((x ** 2 - 3) * (x - number("0.4")) ** 2, {mpmath.sqrt(3): "rising", -mpmath.sqrt(3): "falling", mpf(2) / 5: "below"}),
-             (3 * x - x ** 3, {mpf(0): "rising", mpmath.sqrt(3): "falling", -mpmath.sqrt(3): "falling"}),
-             (-9 - 100 * of("max", 0, x - 1) + 100 * of("max", 0, -x - 1), {mpf("-1.09"): "falling"}),
-             (-of("sign", x - 2), {})]
+    cases = [
+        ((x**2 - 3) * (x - number("0.4")) ** 2, {mpmath.sqrt(3): "rising", -mpmath.sqrt(3): "falling", mpf(2) / 5: "below"}),
+        (3 * x - x**3, {mpf(0): "rising", mpmath.sqrt(3): "falling", -mpmath.sqrt(3): "falling"}),
+        (-9 - 100 * of("max", 0, x - 1) + 100 * of("max", 0, -x - 1), {mpf("-1.09"): "falling"}),
+        (-of("sign", x - 2), {}),
+    ]
     for force, expected in cases:
         found = dict(rest.roots(force, "x", {}))
         if len(found) != len(expected):
@@ -127,6 +135,7 @@ def roots():
 
 # -- verdicts that are known
 
+
 def _stop():
     s = Scene()
     m, k, ks = s.parameter("m", number("1.5")), s.parameter("k", number(30)), s.parameter("ks", number(200))
@@ -135,14 +144,23 @@ def _stop():
     stop = ks * of("max", 0, -x - number("0.05"))
     s.force("x", -k * x + stop)
     a, v = name("x''"), name("x'")
-    energy = m * v ** 2 / 2 + k * x ** 2 / 2
-    return s, [(Claim(m * a + k * x, ZERO), FAILS), (Claim(m * a + k * x + stop, ZERO), FAILS), (Claim(m * a + k * x - stop, ZERO), HOLDS),
-               (Claim(of("abs", x - 20), 20 - x), FAILS), (Claim(of("sign", v + 4), number(1)), FAILS),
-               (Claim(of("max", 0, x - 3), ZERO), FAILS), (Claim(of("sqrt", (x - 20) ** 2), of("abs", x - 20)), HOLDS),
-               (Claim(energy, name("C"), constants=["C"]), FAILS), (Claim(of("sign", x), name("C"), constants=["C"]), FAILS),
-               (Claim(energy + ks * of("max", 0, -x - number("0.05")) ** 2 / 2, name("C"), constants=["C"]), HOLDS),
-               (Claim(of("min", x ** 2, 20), name("C"), constants=["C"]), FAILS), (Claim(x, ZERO, "rest"), HOLDS),
-               (Claim(of("sqrt", (x - 20) ** 2), 20 - x, where=[20 - x]), HOLDS), (Claim(of("sqrt", x ** 2), x, where=[-x]), FAILS)]
+    energy = m * v**2 / 2 + k * x**2 / 2
+    return s, [
+        (Claim(m * a + k * x, ZERO), FAILS),
+        (Claim(m * a + k * x + stop, ZERO), FAILS),
+        (Claim(m * a + k * x - stop, ZERO), HOLDS),
+        (Claim(of("abs", x - 20), 20 - x), FAILS),
+        (Claim(of("sign", v + 4), number(1)), FAILS),
+        (Claim(of("max", 0, x - 3), ZERO), FAILS),
+        (Claim(of("sqrt", (x - 20) ** 2), of("abs", x - 20)), HOLDS),
+        (Claim(energy, name("C"), constants=["C"]), FAILS),
+        (Claim(of("sign", x), name("C"), constants=["C"]), FAILS),
+        (Claim(energy + ks * of("max", 0, -x - number("0.05")) ** 2 / 2, name("C"), constants=["C"]), HOLDS),
+        (Claim(of("min", x**2, 20), name("C"), constants=["C"]), FAILS),
+        (Claim(x, ZERO, "rest"), HOLDS),
+        (Claim(of("sqrt", (x - 20) ** 2), 20 - x, where=[20 - x]), HOLDS),
+        (Claim(of("sqrt", x**2), x, where=[-x]), FAILS),
+    ]
 
 
 def _branches():
@@ -151,8 +169,13 @@ def _branches():
     s.particle("P", number(1), [a, ZERO])
     s.particle("Q", number(2), [b, ZERO])
     s.constraints.append(Constraint("z0", of("cos", 3 * a) - of("cos", 3 * b), b - a - 2 * PI / 3))
-    return s, [(Claim(of("cos", a), of("cos", b)), FAILS), (Claim(name("b'"), name("a'")), HOLDS), (Claim(name("b'"), -name("a'")), FAILS),
-               (Claim(of("cos", 3 * a), of("cos", 3 * b)), HOLDS), (Claim(of("sin", b - a), of("sqrt", number(3)) / 2), HOLDS)]
+    return s, [
+        (Claim(of("cos", a), of("cos", b)), FAILS),
+        (Claim(name("b'"), name("a'")), HOLDS),
+        (Claim(name("b'"), -name("a'")), FAILS),
+        (Claim(of("cos", 3 * a), of("cos", 3 * b)), HOLDS),
+        (Claim(of("sin", b - a), of("sqrt", number(3)) / 2), HOLDS),
+    ]
 
 
 def _lines():
@@ -160,28 +183,37 @@ def _lines():
     x, y = s.coordinate("x", of("sqrt", number(3))), s.coordinate("y", number(1))
     s.particle("P", number(1), [x, ZERO])
     s.particle("Q", number(2), [y, ZERO])
-    s.constraints.append(Constraint("z0", (x - y) * (x ** 2 - 3 * y ** 2), x - of("sqrt", number(3)) * y))
-    return s, [(Claim(x, y), FAILS), (Claim(name("x'"), name("y'")), FAILS), (Claim(name("x'"), of("sqrt", number(3)) * name("y'")), HOLDS),
-               (Claim(x ** 2, 3 * y ** 2), HOLDS), (Claim(x, -of("sqrt", number(3)) * y), FAILS)]
+    s.constraints.append(Constraint("z0", (x - y) * (x**2 - 3 * y**2), x - of("sqrt", number(3)) * y))
+    return s, [
+        (Claim(x, y), FAILS),
+        (Claim(name("x'"), name("y'")), FAILS),
+        (Claim(name("x'"), of("sqrt", number(3)) * name("y'")), HOLDS),
+        (Claim(x**2, 3 * y**2), HOLDS),
+        (Claim(x, -of("sqrt", number(3)) * y), FAILS),
+    ]
 
 
 def _slope():
     s = Scene()
     g = s.parameter("g", number("9.81"))
-    alpha = s.parameter("alpha", number(45) * PI / 180, "{ value = 45, unit = \"deg\" }", kind="shift")
+    alpha = s.parameter("alpha", number(45) * PI / 180, '{ value = 45, unit = "deg" }', kind="shift")
     s.gravity = [ZERO, -g]
     q = s.coordinate("s")
     s.particle("P", number(1), [q * of("cos", alpha), -q * of("sin", alpha)])
     a = name("s''")
-    return s, [(Claim(a, g * of("cos", alpha)), FAILS), (Claim(a, number("9.81") * of("sin", alpha)), FAILS), (Claim(a, g * of("sin", alpha)), HOLDS)]
+    return s, [
+        (Claim(a, g * of("cos", alpha)), FAILS),
+        (Claim(a, number("9.81") * of("sin", alpha)), FAILS),
+        (Claim(a, g * of("sin", alpha)), HOLDS),
+    ]
 
 
 def _well():
     s = Scene()
     x = s.coordinate("x", of("sqrt", number(3)))
     s.particle("P", number(1), [x, ZERO])
-    s.force("x", 3 * x - x ** 3 - name("x'") / 10)
-    return s, [(Claim(x, ZERO, "rest"), FAILS), (Claim(x ** 3, 3 * x, "rest"), HOLDS), (Claim(x ** 2, number(3), "rest"), FAILS)]
+    s.force("x", 3 * x - x**3 - name("x'") / 10)
+    return s, [(Claim(x, ZERO, "rest"), FAILS), (Claim(x**3, 3 * x, "rest"), HOLDS), (Claim(x**2, number(3), "rest"), FAILS)]
 
 
 def known():
@@ -198,6 +230,7 @@ def known():
 
 
 # -- a program that lies
+
 
 class Liar:
     """Says what is true, but of one claim, or in one printed equation."""
@@ -277,6 +310,3 @@ def all():  # noqa: A001
         print(f"wrong: {no}")
         return 1
     return 0
-
-
-__all__ = ["all", "sides"]

@@ -8,16 +8,31 @@ import subprocess
 
 from mpmath import mpf
 
+import rest
 import trees
-from scene import Scene
-from trees import Compiled, NotRead, Undefined, name, read, read_condition, read_equation, terms, used
+from trees import Compiled, NotRead, Undefined, name, read, read_conditions, read_equation, terms, used
 from truth import FAILS, HOLDS, UNKNOWN, Claim, Truth, has_nothing_of
 
 PROVED, REFUTED, VACUOUS = "proved wrongly", "refuted wrongly", "vacuous wrongly"
 STATE, REPAIR, SIDES, NEIGHBOUR, EXIT = "state wrong", "repair wrong", "holds_where wrong", "neighbours", "exit code"
 ACCEPTED, DEGREES, BRANCHES = "accepted wrongly", "degrees wrong", "branches wrong"
 PRINTED, STABLE, ROOTS = "printed wrong", "stable wrongly", "roots wrong"
-FALSE = [PROVED, REFUTED, VACUOUS, STABLE, ROOTS, PRINTED, ACCEPTED, DEGREES, BRANCHES, STATE, REPAIR, SIDES, NEIGHBOUR, EXIT]
+FALSE = [
+    PROVED,
+    REFUTED,
+    VACUOUS,
+    STABLE,
+    ROOTS,
+    PRINTED,
+    ACCEPTED,
+    DEGREES,
+    BRANCHES,
+    STATE,
+    REPAIR,
+    SIDES,
+    NEIGHBOUR,
+    EXIT,
+]
 
 
 class Finding:
@@ -40,9 +55,14 @@ class Program:
             out.write(text)
         self.runs += 1
         limit = (self.patience, self.patience + 1)
-        done = subprocess.run([self.path, words[0], file, *words[1:], "--json"], capture_output=True, check=False, text=True,
-                              env={**os.environ, "LC_ALL": "C.UTF-8"},
-                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, limit))
+        done = subprocess.run(
+            [self.path, words[0], file, *words[1:], "--json"],
+            capture_output=True,
+            check=False,
+            text=True,
+            env={**os.environ, "LC_ALL": "C.UTF-8"},
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, limit),
+        )
         try:
             answer = json.loads(done.stdout) if done.stdout.strip() else None
         except ValueError:
@@ -54,7 +74,9 @@ def shown(state, claim):
     """A state as options, what the claim and the equations need of it."""
     if not state:
         return "every state"
-    return ", ".join(f"{n + chr(39) * d} = {trees.mpmath.nstr(v, 8)}" for (n, d), v in sorted(state.items()) if n != "t" or v)
+    return ", ".join(
+        f"{n + chr(39) * d} = {trees.mpmath.nstr(v, 8)}" for (n, d), v in sorted(state.items()) if n != "t" or v
+    )
 
 
 def known(scene, word):
@@ -69,6 +91,7 @@ def known(scene, word):
 
 
 # -- claims
+
 
 class Examined:
     """Claims of one scene with their truth, and what was said of them."""
@@ -137,8 +160,9 @@ class Examined:
     def _at(truth, claim):
         if truth.kind != FAILS:
             return ""
-        return f": left - right = {trees.mpmath.nstr(truth.residual, 6)} at {shown(truth.state, claim)}" + \
-            (f" ({truth.note})" if truth.note else "")
+        return f": left - right = {trees.mpmath.nstr(truth.residual, 6)} at {shown(truth.state, claim)}" + (
+            f" ({truth.note})" if truth.note else ""
+        )
 
     def _proved(self, claim, truth, row):
         if truth.kind != FAILS:
@@ -154,7 +178,7 @@ class Examined:
         return known(self.scene, word)
 
     def _conditions(self, where):
-        return [read_condition(w, self._known)[1] for w in where]
+        return [c for w in where for c in read_conditions(w, self._known)]
 
     def _on_its_sheet(self, claim, where):
         """A sheet of roots of lengths, which is that of the start, and on which the claim holds."""
@@ -190,7 +214,9 @@ class Examined:
             return e if sign > 0 else -e
 
         try:
-            left, right = trees.replaced(self.scene.named(claim.left), change), trees.replaced(self.scene.named(claim.right), change)
+            left, right = trees.replaced(self.scene.named(claim.left), change), trees.replaced(
+                self.scene.named(claim.right), change
+            )
         except Undefined:
             return None
         return claim.like(left, right) if changed else None
@@ -203,7 +229,9 @@ class Examined:
         elif truth.kind == HOLDS:
             self.counts["missed"] += 1
         elif how in ("holds", "is off the constraints") and not truth.note:  # of a jump a single state says nothing
-            self._found(STATE, claim, f"refuted, rightly, at {state}, but that state {how}; it fails" + self._at(truth, claim))
+            self._found(
+                STATE, claim, f"refuted, rightly, at {state}, but that state {how}; it fails" + self._at(truth, claim)
+            )
         elif how != "valid":
             self.counts["no state"] += 1
         self._repair(claim, row)
@@ -279,7 +307,11 @@ class Examined:
             if not any(q in motion.q for q, _ in missing) or not motion.m:
                 before = dict(state)
                 state = motion.polish(state)
-                if any(abs(state[key] - before[key]) > mpf("1e-6") * (1 + abs(before[key])) for key in before if key[0] in motion.q):
+                if any(
+                    abs(state[key] - before[key]) > mpf("1e-6") * (1 + abs(before[key]))
+                    for key in before
+                    if key[0] in motion.q
+                ):
                     return "is off the constraints"
             else:
                 return "is not read"
@@ -295,7 +327,9 @@ class Examined:
             if Compiled([self.scene.named(w)]).mp(state)[0] <= 0:
                 return "does not obey its assumption"
         if claim.constants:
-            zeroed = trees.replaced(left - right, lambda n: trees.ZERO if n.op == "name" and n.args[0] in claim.constants else None)
+            zeroed = trees.replaced(
+                left - right, lambda n: trees.ZERO if n.op == "name" and n.args[0] in claim.constants else None
+            )
             left, right = trees.rate(zeroed, self.scene.motion().q), trees.ZERO
         made = Compiled([left, right, *terms(left), *terms(right)])
         left, right, *summands = made.mp(state)
@@ -303,7 +337,7 @@ class Examined:
         return "valid" if abs(left - right) > mpf("1e-9") * size else "holds"
 
     def _at_rest(self, claim, state):
-        import rest
+
         if self.scene.constraints:
             return "is not read"
         flat = {**state, **{(q, 1): mpf(0) for q in self.scene.coordinates}}
@@ -314,6 +348,7 @@ class Examined:
 
 
 # -- printed equations
+
 
 def derived(program, scene, seed, by=None):
     """(findings, refused, how many equations): what `derive` prints at states of every cell."""
@@ -328,7 +363,7 @@ def derived(program, scene, seed, by=None):
 
     findings = []
     try:
-        conditions = [read_condition(w, named)[1] for w in answer.get("where") or []]
+        conditions = [c for w in answer.get("where") or [] for c in read_conditions(w, named)]
         equations = [read_equation(e["text"], named) for e in answer["equations"]]
     except NotRead as no:
         return [], None if by else (0, f"not read: {no}"), 0
@@ -339,8 +374,14 @@ def derived(program, scene, seed, by=None):
         if found.kind == FAILS:
             findings.append(Finding(PRINTED, claim, f"printed{said}; it fails" + Examined._at(found, claim), scene))
     if not findings and not _determine(scene, truth, equations):
-        findings.append(Finding(PRINTED, None, "the equations do not determine the accelerations: "
-                                + "; ".join(e["text"] for e in answer["equations"]), scene))
+        findings.append(
+            Finding(
+                PRINTED,
+                None,
+                "the equations do not determine the accelerations: " + "; ".join(e["text"] for e in answer["equations"]),
+                scene,
+            )
+        )
     for f in findings:
         f.by = by
     return findings, None, len(equations)
@@ -357,9 +398,9 @@ def _determine(scene, truth, equations):
             state = motion.polish({k: v[at] for k, v in truth.states.items()})
             flat = Compiled(rows).mp(state)
             held = Compiled([e for row in moved for e in row]).mp(state) if moved else []
-            matrix = [flat[i:i + len(unknowns)] for i in range(0, len(flat), len(unknowns))]
+            matrix = [flat[i : i + len(unknowns)] for i in range(0, len(flat), len(unknowns))]
             n = len(scene.coordinates)
-            matrix += [held[i * n:(i + 1) * n] + [mpf(0)] * len(scene.constraints) for i in range(len(moved))]
+            matrix += [held[i * n : (i + 1) * n] + [mpf(0)] * len(scene.constraints) for i in range(len(moved))]
             if _rank(matrix) >= len(unknowns):
                 return True
     except Undefined:
@@ -381,6 +422,3 @@ def _rank(rows):
         if rank == len(rows):
             break
     return rank
-
-
-__all__ = ["FALSE", "Examined", "Finding", "Program", "Scene", "derived"]

@@ -14,7 +14,7 @@ from mpmath import mpf
 import rest
 from judge import ROOTS, STABLE, Finding
 from scene import Scene
-from trees import ONE, ZERO, Compiled, NotRead, Undefined, name, number, of, read_condition, value
+from trees import ONE, ZERO, Compiled, NotRead, Undefined, name, number, of, read_conditions, value
 from writings import draws, threshold
 
 CLOSE = mpf("1e-3")
@@ -51,8 +51,16 @@ def _damping(rng, s, q):
     kind = rng.choice(["none", "none", "linear", "linear", "quadratic", "negative", "blown"])
     v = name(q + "'")
     c = number(rng.choice(["0.1", "0.5", "1", "3"]))
-    s.force(q, {"none": ZERO, "linear": -c * v, "quadratic": -c * of("abs", v) * v, "negative": c * v,
-                "blown": c * of("abs", v) * v}[kind])
+    s.force(
+        q,
+        {
+            "none": ZERO,
+            "linear": -c * v,
+            "quadratic": -c * of("abs", v) * v,
+            "negative": c * v,
+            "blown": c * of("abs", v) * v,
+        }[kind],
+    )
     return {"none": 0, "linear": 1, "quadratic": 1, "negative": -1, "blown": -1}[kind]
 
 
@@ -106,7 +114,7 @@ def line_pose(rng):
     elif kind == "well":
         a = number(rng.choice(["2", "3", "5", "7"]))
         s.coordinates["x"] = (rng.choice([ZERO, of("sqrt", a), number("1.5")]), ZERO, None, False)
-        s.force("x", rng.choice([1, 1, -1]) * (a * q - q ** 3))
+        s.force("x", rng.choice([1, 1, -1]) * (a * q - q**3))
     elif kind == "stop":
         k, d = s.parameter("k", draws(rng, (10, 60))), threshold(rng)
         load = draws(rng, (-60, 60))
@@ -114,9 +122,25 @@ def line_pose(rng):
         if rng.random() < 0.4:
             s.force("x", -s.parameter("ks", draws(rng, (5, 30))) * q)
     elif kind == "pull":
-        s.potential = 27 * q ** 2 / 2 - number(rng.choice([4, 3, 2])) / (1 - q)
+        s.potential = 27 * q**2 / 2 - number(rng.choice([4, 3, 2])) / (1 - q)
     else:
-        s.force("x", rng.choice([1, -1]) * rng.choice([q ** 3, q ** 5, q ** 25, q ** 7, q ** 2, q ** 4, q * of("abs", q), q ** 3 - q ** 5, q * of("exp", -1 / (q ** 2 + number("0.0001")))]))
+        s.force(
+            "x",
+            rng.choice([1, -1])
+            * rng.choice(
+                [
+                    q**3,
+                    q**5,
+                    q**25,
+                    q**7,
+                    q**2,
+                    q**4,
+                    q * of("abs", q),
+                    q**3 - q**5,
+                    q * of("exp", -1 / (q**2 + number("0.0001"))),
+                ]
+            ),
+        )
         s.coordinates["x"] = (ZERO, ZERO, None, False)
     return Pose(s, _damping(rng, s, "x"))
 
@@ -127,6 +151,7 @@ def _nearest(pose, roots, x):
     def far(r):
         d = abs(r - x)
         return min(d % turn, turn - d % turn) if pose.angle else d
+
     return min(((far(r), r, kind) for r, kind in roots), default=(mpf("inf"), None, None), key=lambda f: f[0])
 
 
@@ -168,8 +193,11 @@ def equilibria(program, rng):
         truth = pose.truth(kind)
         said = e.get("stable")
         if truth and ((said == "yes" and truth == "unstable") or (said == "no" and truth != "unstable")):
-            found(STABLE, f"{mpmath.nstr(x, 14)} is called {'stable' if said == 'yes' else 'unstable'} ({e.get('because')}); "
-                          f"it is {truth}: the force is {kind} there")
+            found(
+                STABLE,
+                f"{mpmath.nstr(x, 14)} is called {'stable' if said == 'yes' else 'unstable'} ({e.get('because')}); "
+                f"it is {truth}: the force is {kind} there",
+            )
         counts["undecided"] |= said == "undecided"
     if answer.get("complete"):
         for r, kind in roots:
@@ -207,22 +235,37 @@ def stability(program, rng):
     if rng.random() < 0.6 and roots:
         r = rng.choice([r for r, _ in roots if abs(r) < 20] or [mpf(0)])
         quotient = r / mpmath.pi * 6
-        text = f"{int(mpmath.nint(quotient))}*pi/6" if pose.angle and abs(quotient - mpmath.nint(quotient)) < 1e-9 else repr(float(r))
+        text = (
+            f"{int(mpmath.nint(quotient))}*pi/6"
+            if pose.angle and abs(quotient - mpmath.nint(quotient)) < 1e-9
+            else repr(float(r))
+        )
         words += ["--at", f"{pose.q}={text}"]
     code, answer, message = program.ask(pose.scene.text(), *words)
     if code not in (0, 1, 2) or answer is None:
         return [], None if code == 3 else (code, message), counts
     said = answer.get("verdict")
     counts["undecided"] += said == "undecided"
-    x = mpf(answer["coordinates"][pose.q]) if answer.get("coordinates") else value(pose.scene.coordinates[pose.q][0], pose.scene.values())
+    x = (
+        mpf(answer["coordinates"][pose.q])
+        if answer.get("coordinates")
+        else value(pose.scene.coordinates[pose.q][0], pose.scene.values())
+    )
     far, root, kind = _nearest(pose, roots, x)
     if far > CLOSE:
         return [], None, counts
     truth, findings = pose.truth(kind), []
     verb = Verb(" ".join(words))
     if wrong(said, truth):
-        findings.append(Finding(STABLE, verb, f"{said} ({answer.get('theorem')}) at {pose.q} = {mpmath.nstr(x, 14)}; it is {truth}: "
-                                              f"the force is {kind} at {mpmath.nstr(root, 14)}", pose.scene))
+        findings.append(
+            Finding(
+                STABLE,
+                verb,
+                f"{said} ({answer.get('theorem')}) at {pose.q} = {mpmath.nstr(x, 14)}; it is {truth}: "
+                f"the force is {kind} at {mpmath.nstr(root, 14)}",
+                pose.scene,
+            )
+        )
     if {0: 0, 1: 1, 2: 2}[code] != {"unstable": 1, "undecided": 2}.get(said, 0):
         findings.append(Finding("exit code", verb, f"exit code {code} with {said}", pose.scene))
     findings += _conditions(pose, answer, root, truth, verb)
@@ -236,14 +279,21 @@ def _conditions(pose, answer, root, truth, verb):
     if not conditions or slope is None or abs(slope) < mpf("1e-6"):
         return []
     try:
-        values = [Compiled([pose.scene.named(read_condition(c)[1])]).mp(pose.scene.values())[0] for c in conditions]
+        values = [Compiled([pose.scene.named(e)]).mp(pose.scene.values())[0] for c in conditions for e in read_conditions(c)]
     except (NotRead, Undefined, KeyError):
         return []
     hold = all(v > 0 for v in values)
     expected = slope < 0 and pose.damped >= 0
     if hold != expected and truth:
-        return [Finding(STABLE, verb, f"conditions {', '.join(conditions)} {'hold' if hold else 'do not hold'} at the scene's values; "
-                                      f"it is {truth} at {pose.q} = {mpmath.nstr(root, 12)}", pose.scene)]
+        return [
+            Finding(
+                STABLE,
+                verb,
+                f"conditions {', '.join(conditions)} {'hold' if hold else 'do not hold'} at the scene's values; "
+                f"it is {truth} at {pose.q} = {mpmath.nstr(root, 12)}",
+                pose.scene,
+            )
+        ]
     return []
 
 
@@ -260,12 +310,23 @@ def _said(program, scene, truth, words=("stability",)):
         return [], None if code == 3 else (code, message), counts
     if words[0] == "equilibrium":
         found = [e for e in answer.get("equilibria", ()) if e.get("stable") == "yes" and truth == "unstable"]
-        return [Finding(STABLE, Verb(words[0]), f"called stable ({found[0].get('because')}); it is {truth}", scene)] if found else [], \
-            None, counts
+        return (
+            (
+                [Finding(STABLE, Verb(words[0]), f"called stable ({found[0].get('because')}); it is {truth}", scene)]
+                if found
+                else []
+            ),
+            None,
+            counts,
+        )
     said = answer.get("verdict")
     counts["undecided"] += said == "undecided"
     if wrong(said, truth):
-        return [Finding(STABLE, Verb(" ".join(words)), f"{said} ({answer.get('theorem')}); it is {truth}", scene)], None, counts
+        return (
+            [Finding(STABLE, Verb(" ".join(words)), f"{said} ({answer.get('theorem')}); it is {truth}", scene)],
+            None,
+            counts,
+        )
     return [], None, counts
 
 
@@ -276,7 +337,9 @@ def wave(program, rng):
     w, p = number(rng.choice([1, 2, 3])), number(rng.choice([0, 1]))
     q = s.coordinate("x", ZERO)
     s.particle("P", ONE, [q, ZERO])
-    s.force("x", -(s.parameter("a", a) + s.parameter("b", b) * of("sign", of("sin", w * name("t") + p))) * q - d * name("x'"))
+    s.force(
+        "x", -(s.parameter("a", a) + s.parameter("b", b) * of("sign", of("sin", w * name("t") + p))) * q - d * name("x'")
+    )
     whole = mpmath.eye(2)
     for sign in (1, -1):
         k = mpf(a.args[0].numerator) / a.args[0].denominator + sign * mpf(b.args[0].numerator) / b.args[0].denominator
@@ -299,7 +362,9 @@ def switch(program, rng):
         s.inputs["u"] = step
         step = name("u")
     s.force("x", -q + step * v)
-    return _said(program, s, "unstable" if sign > 0 else "asymptotically stable", (rng.choice(["stability", "equilibrium"]),))
+    return _said(
+        program, s, "unstable" if sign > 0 else "asymptotically stable", (rng.choice(["stability", "equilibrium"]),)
+    )
 
 
 def rotor(program, rng):
@@ -310,7 +375,7 @@ def rotor(program, rng):
     w, ce = s.parameter("W", draws(rng, (1, 60))), draws(rng, (0, 5))
     x, y = s.coordinate("x", ZERO), s.coordinate("y", ZERO)
     s.particle("P", m, [x, y])
-    s.potential = k * (x ** 2 + y ** 2) / 2
+    s.potential = k * (x**2 + y**2) / 2
     if ce != ZERO:
         for q in "xy":
             s.force(q, -ce * name(q + "'"))
@@ -349,5 +414,3 @@ def normal(program, rng):
 
 
 KINDS = {"equilibrium": equilibria, "stability": stability}
-
-__all__ = ["KINDS"]

@@ -67,8 +67,12 @@ def roots(force, q, base):
                 found.append((mpf(at[k]), "flat" if f[k + 1] == 0 or (k and f[k - 1] == 0) else "crossing"))
             elif f[k] * f[k + 1] < 0:
                 found += _bisected(made, sign, base, key, mpf(at[k]), mpf(at[k + 1]))
-            elif 0 < k and abs(f[k]) <= min(abs(f[k - 1]), abs(f[k + 1])) and f[k - 1] * f[k + 1] > 0 \
-                    and abs(f[k]) < 0.45 * max(abs(f[k - 1]), abs(f[k + 1])):
+            elif (
+                0 < k
+                and abs(f[k]) <= min(abs(f[k - 1]), abs(f[k + 1]))
+                and f[k - 1] * f[k + 1] > 0
+                and abs(f[k]) < 0.45 * max(abs(f[k - 1]), abs(f[k + 1]))
+            ):
                 x = _touched(made, slope, base, key, mpf(at[k]))
                 if x is not None:
                     found.append((x, "touching"))

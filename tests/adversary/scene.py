@@ -12,9 +12,26 @@ import mpmath
 import numpy
 from mpmath import mpf
 
-from trees import (ONE, ZERO, Compiled, NotRead, Tree, Undefined, alias, derivative, name, number, of, plain, rate, read,
-                   replaced, sides, tree, used, value, write)
-
+from trees import (
+    ONE,
+    ZERO,
+    Compiled,
+    Tree,
+    Undefined,
+    alias,
+    derivative,
+    name,
+    number,
+    of,
+    plain,
+    rate,
+    replaced,
+    sides,
+    tree,
+    used,
+    value,
+    write,
+)
 
 BEFORE = 3  # in place of dots: the rate before an impact, written x'(-)
 
@@ -84,7 +101,7 @@ class Scene:
 
     def norm(self, label):
         x, *more = [v for v in self.velocity(label) if v != ZERO] or [ZERO]
-        size = of("abs", x) if not more else of("sqrt", sum((v ** 2 for v in more), x ** 2))
+        size = of("abs", x) if not more else of("sqrt", sum((v**2 for v in more), x**2))
         return alias(f"norm(vel({label}))", size)
 
     def without(self, label):
@@ -138,7 +155,9 @@ class Scene:
             lines += ["[[particle]]", f'name = "{label}"', f"mass = {_quoted(mass)}", f"position = [{vector}]"]
         if self.potential != ZERO or self.kinetic != ZERO:
             lines.append("[energy]")
-            lines += [f"{k} = {_quoted(e)}" for k, e in (("kinetic", self.kinetic), ("potential", self.potential)) if e != ZERO]
+            lines += [
+                f"{k} = {_quoted(e)}" for k, e in (("kinetic", self.kinetic), ("potential", self.potential)) if e != ZERO
+            ]
         for along, stiffness, length in self.springs:
             lines += ["[[spring]]", _between(along), f"stiffness = {_quoted(stiffness)}"]
             lines += [f"length = {_quoted(length)}"] if length != ZERO else []
@@ -148,8 +167,13 @@ class Scene:
             lines.append("[forces]")
             lines += [f"{q} = {_quoted(f)}" for q, f in self.forces.items()]
         for label, coefficient, slip, normal in self.frictions:
-            lines += ["[[friction]]", f'name = "{label}"', f"coefficient = {_quoted(coefficient)}",
-                      f"slip = {_quoted(slip)}", f"normal = {_quoted(normal)}"]
+            lines += [
+                "[[friction]]",
+                f'name = "{label}"',
+                f"coefficient = {_quoted(coefficient)}",
+                f"slip = {_quoted(slip)}",
+                f"normal = {_quoted(normal)}",
+            ]
         if self.impulses:
             lines.append("[impulses]")
             lines += [f"{q} = {_quoted(f)}" for q, f in self.impulses.items()]
@@ -174,6 +198,7 @@ class Scene:
 
     def named(self, node):
         """Without aliases and inputs, which become their expressions of t."""
+
         def change(n):
             if n.op == "alias":
                 return self.named(n.args[1])
@@ -183,6 +208,7 @@ class Scene:
                     e = derivative(e, ("t", 0))
                 return self.named(e)
             return None
+
         return replaced(node, change)
 
     def energies(self):
@@ -311,19 +337,19 @@ class Motion:
             return ONE
         dots = 0 if constraint.holonomic else 1
         whole = sum((derivative(written, (q, dots)) * r for q, r in zip(self.q, row)), ZERO)
-        return whole / sum((r ** 2 for r in row), ZERO)
+        return whole / sum((r**2 for r in row), ZERO)
 
     # -- accelerations
 
     def _parts(self, flat):
         n, m = self.n, self.m
-        mass = [flat[i * n:(i + 1) * n] for i in range(n)]
+        mass = [flat[i * n : (i + 1) * n] for i in range(n)]
         at = n * n
-        bias, force = flat[at:at + n], flat[at + n:at + 2 * n]
+        bias, force = flat[at : at + n], flat[at + n : at + 2 * n]
         at += 2 * n
-        rows = [flat[at + k * n:at + (k + 1) * n] for k in range(m)]
+        rows = [flat[at + k * n : at + (k + 1) * n] for k in range(m)]
         at += m * n
-        return mass, bias, force, rows, flat[at:at + m], flat[at + m:at + 2 * m]
+        return mass, bias, force, rows, flat[at : at + m], flat[at + m : at + 2 * m]
 
     def accelerate(self, state):
         """Adds q'' and the multipliers to a state in 60 digits."""
@@ -386,7 +412,7 @@ class Motion:
         mass, _, _, rows, _, factors = self._parts(self.system.mp({**state, **{(q, 1): mpf(0) for q in self.q}}))
         n, m = self.n, self.m
         blow = Compiled([self.scene.named(self.scene.impulses.get(q, ZERO)) for q in self.q]).mp(state)
-        still = self.sliding.mp(state)[m * n:]
+        still = self.sliding.mp(state)[m * n :]
         whole, right = mpmath.zeros(n + m), mpmath.zeros(n + m, 1)
         for i in range(n):
             right[i] = blow[i] + sum(mass[i][j] * state[q, BEFORE] for j, q in enumerate(self.q))
@@ -479,6 +505,3 @@ def _least(a, miss):
 
 def sides_of(trees):
     return list(dict.fromkeys(s for t in trees for s in sides(plain(t))))
-
-
-__all__ = ["Constraint", "Motion", "NotRead", "Parameter", "Scene", "number", "read", "sides_of"]

@@ -169,6 +169,7 @@ def power(a, b):
 
 # -- text
 
+
 def _digits(value):
     """A decimal where there is a short one, else a quotient."""
     if value.denominator == 1:
@@ -225,6 +226,7 @@ def write(node, least=0):
 
 
 # -- parts
+
 
 def parts(node):
     """This node and all in it; of an alias its meaning."""
@@ -306,15 +308,25 @@ def terms(node):
 
 # -- derivatives
 
+
 def _chain(node):
     """The derivative of a function of one argument."""
     u = node.args[0]
     return {
-        "sin": lambda: of("cos", u), "cos": lambda: -of("sin", u), "tan": lambda: 1 + of("tan", u) ** 2,
-        "sqrt": lambda: 1 / (2 * node), "exp": lambda: node, "log": lambda: 1 / u, "abs": lambda: of("sign", u),
-        "sign": lambda: ZERO, "sinh": lambda: of("cosh", u), "cosh": lambda: of("sinh", u),
-        "tanh": lambda: 1 - of("tanh", u) ** 2, "atan": lambda: 1 / (1 + u ** 2),
-        "asin": lambda: 1 / of("sqrt", 1 - u ** 2), "acos": lambda: -1 / of("sqrt", 1 - u ** 2),
+        "sin": lambda: of("cos", u),
+        "cos": lambda: -of("sin", u),
+        "tan": lambda: 1 + of("tan", u) ** 2,
+        "sqrt": lambda: 1 / (2 * node),
+        "exp": lambda: node,
+        "log": lambda: 1 / u,
+        "abs": lambda: of("sign", u),
+        "sign": lambda: ZERO,
+        "sinh": lambda: of("cosh", u),
+        "cosh": lambda: of("sinh", u),
+        "tanh": lambda: 1 - of("tanh", u) ** 2,
+        "atan": lambda: 1 / (1 + u**2),
+        "asin": lambda: 1 / of("sqrt", 1 - u**2),
+        "acos": lambda: -1 / of("sqrt", 1 - u**2),
     }[node.op]()
 
 
@@ -337,7 +349,7 @@ def derivative(node, by):
     if op == "*":
         total = ZERO
         for k, d in enumerate(inner):
-            total = total + rebuilt(node, args[:k] + (d,) + args[k + 1:])
+            total = total + rebuilt(node, args[:k] + (d,) + args[k + 1 :])
         return total
     if op == "/":
         first = over(inner[0], args[1])
@@ -370,6 +382,7 @@ def rate(node, coordinates, inputs=None):
 
 # -- numbers
 
+
 def _real(function):
     def guarded(*args):
         try:
@@ -379,6 +392,7 @@ def _real(function):
         if not isinstance(value, mpf):
             raise Undefined
         return value
+
     return guarded
 
 
@@ -387,30 +401,63 @@ def _mp_power(a, b):
         return a ** int(b)
     if a < 0:
         raise Undefined
-    return a ** b
+    return a**b
 
 
 def _mp_divide(a, b):
     return a / b
 
 
-IN_MP = {"sin": mpmath.sin, "cos": mpmath.cos, "tan": mpmath.tan, "exp": mpmath.exp, "sinh": mpmath.sinh,
-         "cosh": mpmath.cosh, "tanh": mpmath.tanh, "atan": mpmath.atan, "abs": abs,
-         "sign": lambda u: mpf((u > 0) - (u < 0)), "min": min, "max": max, "atan2": _real(mpmath.atan2),
-         "sqrt": _real(mpmath.sqrt), "log": _real(mpmath.log), "asin": _real(mpmath.asin), "acos": _real(mpmath.acos),
-         "power": _real(_mp_power), "divide": _real(_mp_divide), "pick": lambda g, a, b: a if g > 0 else b}
+IN_MP = {
+    "sin": mpmath.sin,
+    "cos": mpmath.cos,
+    "tan": mpmath.tan,
+    "exp": mpmath.exp,
+    "sinh": mpmath.sinh,
+    "cosh": mpmath.cosh,
+    "tanh": mpmath.tanh,
+    "atan": mpmath.atan,
+    "abs": abs,
+    "sign": lambda u: mpf((u > 0) - (u < 0)),
+    "min": min,
+    "max": max,
+    "atan2": _real(mpmath.atan2),
+    "sqrt": _real(mpmath.sqrt),
+    "log": _real(mpmath.log),
+    "asin": _real(mpmath.asin),
+    "acos": _real(mpmath.acos),
+    "power": _real(_mp_power),
+    "divide": _real(_mp_divide),
+    "pick": lambda g, a, b: a if g > 0 else b,
+}
 
 
 def _np_power(a, b):
     return numpy.power(a, b)
 
 
-IN_NUMPY = {"sin": numpy.sin, "cos": numpy.cos, "tan": numpy.tan, "exp": numpy.exp, "sinh": numpy.sinh,
-            "cosh": numpy.cosh, "tanh": numpy.tanh, "atan": numpy.arctan, "abs": numpy.abs, "sign": numpy.sign,
-            "atan2": numpy.arctan2, "sqrt": numpy.sqrt, "log": numpy.log, "asin": numpy.arcsin, "acos": numpy.arccos,
-            "power": _np_power, "divide": numpy.divide, "pick": lambda g, a, b: numpy.where(g > 0, a, b),
-            "min": lambda *a: numpy.minimum.reduce(numpy.broadcast_arrays(*a)),
-            "max": lambda *a: numpy.maximum.reduce(numpy.broadcast_arrays(*a))}
+IN_NUMPY = {
+    "sin": numpy.sin,
+    "cos": numpy.cos,
+    "tan": numpy.tan,
+    "exp": numpy.exp,
+    "sinh": numpy.sinh,
+    "cosh": numpy.cosh,
+    "tanh": numpy.tanh,
+    "atan": numpy.arctan,
+    "abs": numpy.abs,
+    "sign": numpy.sign,
+    "atan2": numpy.arctan2,
+    "sqrt": numpy.sqrt,
+    "log": numpy.log,
+    "asin": numpy.arcsin,
+    "acos": numpy.arccos,
+    "power": _np_power,
+    "divide": numpy.divide,
+    "pick": lambda g, a, b: numpy.where(g > 0, a, b),
+    "min": lambda *a: numpy.minimum.reduce(numpy.broadcast_arrays(*a)),
+    "max": lambda *a: numpy.maximum.reduce(numpy.broadcast_arrays(*a)),
+}
 
 
 class Compiled:
@@ -550,7 +597,9 @@ class _Reader:
         digits, word, sign = self.tokens[self.at]
         self.at += 1
         if digits:
-            return Tree("num", Fraction(digits))
+            degrees = self.tokens[self.at : self.at + 1] and (self.tokens[self.at][1] == "deg" or self.sign() == "\u00b0")
+            self.at += bool(degrees)
+            return Tree("num", Fraction(digits)) * (PI / 180 if degrees else ONE)
         if word and self.sign() == "(":
             self.at += 1
             args = [self.sum()]
@@ -568,7 +617,7 @@ class _Reader:
         if sign == "(":
             inner = self.sum()
             self.take(")")
-            if self.tokens[self.at:self.at + 1] and self.tokens[self.at][2] == "'":
+            if self.tokens[self.at : self.at + 1] and self.tokens[self.at][2] == "'":
                 raise NotRead("a derivative of parentheses")
             return inner
         raise NotRead(self.text)
@@ -588,10 +637,13 @@ def read_equation(text, known=None):
     return read(left, known), read(right, known) if right else ZERO
 
 
-def read_condition(text, known=None):
-    """e > f, e < f, e >= f … as a tree that is then positive (or zero)."""
-    found = re.match(r"(.*?)(<=|>=|<|>|!=)(.*)$", text)
-    if not found:
+def read_conditions(text, known=None):
+    """e > f, e <= f, e != f, e < f < g … as trees that are positive where it holds (or zero at its edge)."""
+    pieces = re.split(r"(<=|>=|!=|<|>)", text)
+    if len(pieces) < 3:
         raise NotRead(text)
-    a, b = read(found[1], known), read(found[3], known)
-    return found[2], (a - b if found[2][0] in ">!" else b - a)
+    found = []
+    for left, sign, right in zip(pieces[::2], pieces[1::2], pieces[2::2]):
+        a, b = read(left, known), read(right, known)
+        found.append(of("abs", a - b) if sign == "!=" else a - b if sign[0] == ">" else b - a)
+    return found

@@ -11,8 +11,22 @@ from mpmath import mpf
 
 import rest
 from scene import BEFORE
-from trees import (ZERO, Compiled, NotRead, Undefined, derivative, name, over, parts, plain, rate, read_condition, replaced, sides,
-                   terms, used, value, write)
+from trees import (
+    ZERO,
+    Compiled,
+    NotRead,
+    Undefined,
+    derivative,
+    name,
+    over,
+    rate,
+    replaced,
+    sides,
+    terms,
+    used,
+    value,
+    write,
+)
 
 HOLDS, FAILS, UNKNOWN = "holds", "fails", "unknown"
 SMALL = mpf("1e-34")  # of the largest term
@@ -118,9 +132,9 @@ class Truth:
         """Rates onto the velocity constraints, by least squares."""
         m, n = self.motion.m, self.motion.n
         flat = self.motion.sliding.many(states, count)
-        a = numpy.stack(flat[:m * n], axis=1).reshape(count, m, n)
+        a = numpy.stack(flat[: m * n], axis=1).reshape(count, m, n)
         v = numpy.stack([numpy.broadcast_to(states[q, 1], (count,)) for q in self.motion.q], axis=1)
-        miss = numpy.einsum("cmn,cn->cm", a, v) + numpy.stack(flat[m * n:], axis=1)
+        miss = numpy.einsum("cmn,cn->cm", a, v) + numpy.stack(flat[m * n :], axis=1)
         with numpy.errstate(all="ignore"):
             good = numpy.isfinite(a).all(axis=(1, 2)) & numpy.isfinite(miss).all(axis=1)
         a[~good], miss[~good] = 0, 0
@@ -152,6 +166,7 @@ class Truth:
 
     def _steps(self, here, alive, count):
         """Walks from given states; the length of a step grows where Newton's method has nothing to mend."""
+
         def kept(which):
             return {key: v[which].copy() for key, v in here.items()}
 
@@ -171,8 +186,15 @@ class Truth:
             for q in self.motion.q:
                 here[q, 0] = numpy.where(good, there[q, 0], here[q, 0])
             found.append(kept(good))
-            length = numpy.where(~arrived, length / 3, numpy.where(moved < 1e-9 * length, numpy.minimum(length * 1.6, 8),
-                                                                   numpy.where(moved > 0.2 * length, length / 2, length)))
+            length = numpy.where(
+                ~arrived,
+                length / 3,
+                numpy.where(
+                    moved < 1e-9 * length,
+                    numpy.minimum(length * 1.6, 8),
+                    numpy.where(moved > 0.2 * length, length / 2, length),
+                ),
+            )
             alive &= length > 1e-3
         return found
 
@@ -182,7 +204,9 @@ class Truth:
         if self.motion.positions:
             return None
         for g in boundaries:
-            movable = [k for k in sorted(used(g)) if (k[0] in self.motion.q and k[1] < 2) or (k == ("t", 0) and self.scene.time)]
+            movable = [
+                k for k in sorted(used(g)) if (k[0] in self.motion.q and k[1] < 2) or (k == ("t", 0) and self.scene.time)
+            ]
             if not movable or any(k[1] == 2 for k in used(g)):
                 continue
             made = Compiled([g])
@@ -277,8 +301,10 @@ class Truth:
         with numpy.errstate(all="ignore"):
             for c in rest_of[:conditions]:
                 allowed &= c > 0
-            signs = numpy.stack([numpy.sign(b) for b in rest_of[conditions:conditions + boundaries]] or [numpy.zeros(count)])
-            size = sum(numpy.abs(s) for s in rest_of[conditions + boundaries:]) + 1e-12
+            signs = numpy.stack(
+                [numpy.sign(b) for b in rest_of[conditions : conditions + boundaries]] or [numpy.zeros(count)]
+            )
+            size = sum(numpy.abs(s) for s in rest_of[conditions + boundaries :]) + 1e-12
             miss = numpy.where(allowed, numpy.abs(left - right) / size, 0)
         for at in numpy.flatnonzero(allowed):
             if miss[at] > 1e-7:
@@ -357,7 +383,7 @@ class Truth:
 
     def _near_claim(self, claim):
         """To first order at rest at a value, with one coordinate: what is linear in x, x' and x'' along the linearized motion."""
-        q, = self.motion.q
+        (q,) = self.motion.q
         gap = self.scene.named(claim.left - claim.right)
         a = over(self.motion.force[0] - self.motion.bias[0], self.motion.mass[0][0])
         pieces = [gap] + [derivative(gap, (q, d)) for d in (0, 1, 2)] + [derivative(a, (q, d)) for d in (0, 1)]
@@ -454,6 +480,3 @@ def has_nothing_of(scene, claim):
         except Undefined:
             continue
     return seen > 0
-
-
-__all__ = ["Answer", "Claim", "Truth", "has_nothing_of", "parts", "plain", "read_condition"]

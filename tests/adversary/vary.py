@@ -8,7 +8,7 @@ from mpmath import mpf
 from judge import BRANCHES, Finding
 from poses import Verb
 from scene import Scene
-from trees import ONE, ZERO, Compiled, name, number, of
+from trees import ONE, ZERO, name, number, of
 from writings import draws
 
 
@@ -17,7 +17,14 @@ class Known:
     Places are angles modulo whole turns where `turns`."""
 
     def __init__(self, scene, label, ends, equilibria, special, turns=False):
-        self.scene, self.label, self.ends, self.equilibria, self.special, self.turns = scene, label, ends, equilibria, special, turns
+        self.scene, self.label, self.ends, self.equilibria, self.special, self.turns = (
+            scene,
+            label,
+            ends,
+            equilibria,
+            special,
+            turns,
+        )
 
 
 def _line(force, label, start, values, ends, equilibria, special):
@@ -38,19 +45,43 @@ def scenes(rng):
     ends = (low, high) if rng.random() < 0.5 else (high, low)
     start = number(f"{shift + 0.3:.1f}")
     if kind == "pitchfork":
-        return _line(lambda x, p: (p - a) * x - x ** 3, "p", start, ZERO, ends, lambda p: [(0, p < shift)] + (
-            [(r, True) for r in (-(p - shift) ** 0.5, (p - shift) ** 0.5)] if p > shift else []), {("pitchfork", shift)})
+        return _line(
+            lambda x, p: (p - a) * x - x**3,
+            "p",
+            start,
+            ZERO,
+            ends,
+            lambda p: [(0, p < shift)]
+            + ([(r, True) for r in (-((p - shift) ** 0.5), (p - shift) ** 0.5)] if p > shift else []),
+            {("pitchfork", shift)},
+        )
     if kind == "fold":
-        return _line(lambda x, p: (p - a) - x ** 2, "p", start, number("0.5"), ends,
-                     lambda p: [((p - shift) ** 0.5, True), (-(p - shift) ** 0.5, False)] if p > shift else [], {("fold", shift)})
+        return _line(
+            lambda x, p: (p - a) - x**2,
+            "p",
+            start,
+            number("0.5"),
+            ends,
+            lambda p: [((p - shift) ** 0.5, True), (-((p - shift) ** 0.5), False)] if p > shift else [],
+            {("fold", shift)},
+        )
     if kind == "transcritical":
-        return _line(lambda x, p: (p - a) * x - x ** 2, "p", start, ZERO, ends,
-                     lambda p: [(0, p < shift), (p - shift, p > shift)], {("transcritical", shift)})
+        return _line(
+            lambda x, p: (p - a) * x - x**2,
+            "p",
+            start,
+            ZERO,
+            ends,
+            lambda p: [(0, p < shift), (p - shift, p > shift)],
+            {("transcritical", shift)},
+        )
     if kind == "cubic":
         ends = (-3, 3) if rng.random() < 0.5 else (3, -3)
-        return _line(lambda x, p: p + 3 * x - x ** 3, "p", number("0.3"), ZERO, ends, _cubic, {("fold", -2.0), ("fold", 2.0)})
+        return _line(lambda x, p: p + 3 * x - x**3, "p", number("0.3"), ZERO, ends, _cubic, {("fold", -2.0), ("fold", 2.0)})
     if kind == "bent":  # nothing happens here
-        return _line(lambda x, p: p - x ** 3 - x, "p", start, ZERO, ends, lambda p: [(r, True) for r in _real([1, 0, 1, -p])], set())
+        return _line(
+            lambda x, p: p - x**3 - x, "p", start, ZERO, ends, lambda p: [(r, True) for r in _real([1, 0, 1, -p])], set()
+        )
     if kind == "spring":
         low = rng.choice([1, 0.5])
         ends = rng.choice([(low, 3), (3, low)])
@@ -62,21 +93,26 @@ def scenes(rng):
     mass = s.parameter("m", number(1))
     s.particle("bob", mass, [size * of("sin", q), -size * of("cos", q)])
     if kind == "pendulum":
-        label, ends = rng.choice([("l", (1, 2)), ("l", (2, 1)), ("m", (2, 1)), ("g", (5, 12)), ("g", (12, 5)), ("m", (0.5, 3))])
+        label, ends = rng.choice(
+            [("l", (1, 2)), ("l", (2, 1)), ("m", (2, 1)), ("g", (5, 12)), ("g", (12, 5)), ("m", (0.5, 3))]
+        )
         return Known(s, label, ends, lambda p: [(0, True), (mpf("3.14159265358979"), False)], set(), True)
     w = s.parameter("w", number(5))
-    s.force("theta", mass * size ** 2 * w ** 2 * of("sin", q) * of("cos", q))
+    s.force("theta", mass * size**2 * w**2 * of("sin", q) * of("cos", q))
     critical = (9.81 / 2) ** 0.5
 
     def hoop(p):
         from mpmath import acos, pi
-        c = 9.81 / 2 / p ** 2
+
+        c = 9.81 / 2 / p**2
         return [(0, c > 1), (pi, False)] + ([(acos(c), True), (-acos(c), True)] if c < 1 else [])
+
     return Known(s, "w", rng.choice([(1, 6), (6, 1)]), hoop, {("pitchfork", critical)}, True)
 
 
 def _real(coefficients):
     import numpy
+
     return [float(r.real) for r in numpy.roots(coefficients) if abs(r.imag) < 1e-9]
 
 
@@ -100,8 +136,11 @@ def branches(program, rng):
 
 def _special(known, answer):
     found = [(p["kind"], p["parameter"]) for p in answer.get("points", ())]
-    said = [f"{kind} at {known.label} = {value:.10g}, where there is none; there are {sorted(known.special)}" for kind, value in found
-            if not any(kind == k and abs(value - v) < 1e-4 for k, v in known.special)]
+    said = [
+        f"{kind} at {known.label} = {value:.10g}, where there is none; there are {sorted(known.special)}"
+        for kind, value in found
+        if not any(kind == k and abs(value - v) < 1e-4 for k, v in known.special)
+    ]
     for kind, value in known.special:
         near = [v for k, v in found if k == kind and abs(v - value) < 1e-4]
         if min(known.ends) < value < max(known.ends) and not near:
@@ -123,8 +162,10 @@ def _followed(known, answer):
         for x, stable in known.equilibria(p):
             near = [s for y, s in told if _far(known, x, y) < 0.05 * max(1, abs(float(x)))]
             if not near:
-                said.append(f"no branch goes through {float(x):.6g} at {known.label} = {p:.6g}; there are {told} "
-                            f"in {len(answer.get('branches', ()))} pieces")
+                said.append(
+                    f"no branch goes through {float(x):.6g} at {known.label} = {p:.6g}; there are {told} "
+                    f"in {len(answer.get('branches', ()))} pieces"
+                )
             elif any(s == ("no" if stable else "yes") for s in near):
                 said.append(f"{float(x):.6g} at {known.label} = {p:.6g} is called {'un' if stable else ''}stable")
     return said
@@ -157,8 +198,17 @@ def crossings(program, rng):
     p, q = s.parameter("p", number(f"{shift + rng.choice([0.3, -0.4]):.1f}")), s.coordinate("x", ZERO)
     s.particle("P", ONE, [q, ZERO])
     v = name("x'")
-    force, there = rng.choice([((p - a) * q - q ** 3, True), ((a - p) * q, True), (-q + (p - a) * v, True), (-q - v - (p - a) ** 2 * q, False),
-                               ((p - a) * q - v - q * of("abs", q), True), (-2 * q - v, False), (of("sin", q) * (a - p) - v / 5, True)])
+    force, there = rng.choice(
+        [
+            ((p - a) * q - q**3, True),
+            ((a - p) * q, True),
+            (-q + (p - a) * v, True),
+            (-q - v - (p - a) ** 2 * q, False),
+            ((p - a) * q - v - q * of("abs", q), True),
+            (-2 * q - v, False),
+            (of("sin", q) * (a - p) - v / 5, True),
+        ]
+    )
     s.force("x", force + ZERO * p)
     s.needed = [p]
     low, high = shift - rng.choice([0.5, 1, 2]), shift + rng.choice([0.7, 1, 2.3])
@@ -177,5 +227,3 @@ def crossings(program, rng):
 
 
 KINDS = {"branches_over": branches, "crossings": crossings}
-
-__all__ = ["KINDS", "Compiled"]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The same thing written in another way, with one side taken for both, or with a slip: what claims are made of."""
 
-from trees import ONE, PI, ZERO, Tree, name, number, of, parts, plain, rebuilt, replaced, terms, used, value
+from trees import ONE, PI, ZERO, Tree, name, number, of, parts, plain, rebuilt, replaced, used, value
 
 THRESHOLDS = ["0", "0.05", "0.3", "1", "2.5", "3", "7", "20"]
 
@@ -32,34 +32,61 @@ def linear(rng, variables):
         return d - v
     if form < 0.93:
         return 2 * v - d
-    return v ** 2 - d
+    return v**2 - d
 
 
 # -- |e|, max, sign in other words
 
+
 def _abs(rng, e):
-    return rng.choice([
-        lambda: of("abs", e), lambda: of("sqrt", e ** 2), lambda: of("max", e, -e), lambda: -of("min", e, -e),
-        lambda: e * of("sign", e), lambda: 2 * of("max", 0, e) - e, lambda: e ** 2 / of("abs", e), lambda: of("abs", -e),
-        lambda: e ** 2 / of("sqrt", e ** 2), lambda: of("max", 0, e) - of("min", 0, e),
-        lambda: of("sqrt", of("abs", e)) ** 2])()
+    return rng.choice(
+        [
+            lambda: of("abs", e),
+            lambda: of("sqrt", e**2),
+            lambda: of("max", e, -e),
+            lambda: -of("min", e, -e),
+            lambda: e * of("sign", e),
+            lambda: 2 * of("max", 0, e) - e,
+            lambda: e**2 / of("abs", e),
+            lambda: of("abs", -e),
+            lambda: e**2 / of("sqrt", e**2),
+            lambda: of("max", 0, e) - of("min", 0, e),
+            lambda: of("sqrt", of("abs", e)) ** 2,
+        ]
+    )()
 
 
 def _max(rng, a, b):
-    return rng.choice([
-        lambda: of("max", a, b), lambda: of("max", b, a), lambda: -of("min", -a, -b),
-        lambda: (a + b + of("abs", a - b)) / 2, lambda: b + of("max", 0, a - b), lambda: a + of("max", 0, b - a),
-        lambda: (a + b + of("sqrt", (a - b) ** 2)) / 2])()
+    return rng.choice(
+        [
+            lambda: of("max", a, b),
+            lambda: of("max", b, a),
+            lambda: -of("min", -a, -b),
+            lambda: (a + b + of("abs", a - b)) / 2,
+            lambda: b + of("max", 0, a - b),
+            lambda: a + of("max", 0, b - a),
+            lambda: (a + b + of("sqrt", (a - b) ** 2)) / 2,
+        ]
+    )()
 
 
 def _sign(rng, e):
-    return rng.choice([
-        lambda: of("sign", e), lambda: e / of("abs", e), lambda: of("abs", e) / e, lambda: e / of("sqrt", e ** 2),
-        lambda: -of("sign", -e), lambda: of("sign", e ** 3), lambda: of("sign", e) ** 3])()
+    return rng.choice(
+        [
+            lambda: of("sign", e),
+            lambda: e / of("abs", e),
+            lambda: of("abs", e) / e,
+            lambda: e / of("sqrt", e**2),
+            lambda: -of("sign", -e),
+            lambda: of("sign", e**3),
+            lambda: of("sign", e) ** 3,
+        ]
+    )()
 
 
 def rewritten(rng, node, chance=0.5):
     """The same value, but where an argument is zero."""
+
     def change(n):
         if rng.random() > chance:
             return None
@@ -76,6 +103,7 @@ def rewritten(rng, node, chance=0.5):
         if n.op == "alias":
             return rewritten(rng, n.args[1], 0.8)
         return None
+
     return replaced(node, change)
 
 
@@ -104,6 +132,7 @@ def one_sided(rng, node):
 
 
 # -- slips
+
 
 def slipped(rng, node, scene):
     """One change somewhere; it may still be true."""
@@ -150,58 +179,90 @@ def _slip(rng, n, scene):
 
 # -- factors
 
+
 def vanishing(rng, variables):
     v = rng.choice(variables)
     d = number(rng.choice(["0.6", "0.2", "1", "20"]))
-    return rng.choice([lambda: v, lambda: v - d, lambda: of("sin", v), lambda: of("max", 0, v - d), lambda: of("abs", v) - v,
-                       lambda: v ** 2 - d, lambda: 1 + of("sign", v - d), lambda: of("cos", v) - 1,
-                       lambda: of("abs", v - d) + v - d, lambda: of("min", v, d) - d])()
+    return rng.choice(
+        [
+            lambda: v,
+            lambda: v - d,
+            lambda: of("sin", v),
+            lambda: of("max", 0, v - d),
+            lambda: of("abs", v) - v,
+            lambda: v**2 - d,
+            lambda: 1 + of("sign", v - d),
+            lambda: of("cos", v) - 1,
+            lambda: of("abs", v - d) + v - d,
+            lambda: of("min", v, d) - d,
+        ]
+    )()
 
 
 def never_vanishing(rng, variables):
     v = rng.choice(variables)
-    return rng.choice([lambda: v ** 2 + 1, lambda: of("exp", v), lambda: 2 + of("sin", v), lambda: number(3),
-                       lambda: of("sqrt", 1 + v ** 2), lambda: 2 + of("sign", v), lambda: 1 + of("abs", v),
-                       lambda: PI, lambda: of("max", 1, v), lambda: number(-2) - v ** 4, lambda: of("cosh", v)])()
+    return rng.choice(
+        [
+            lambda: v**2 + 1,
+            lambda: of("exp", v),
+            lambda: 2 + of("sin", v),
+            lambda: number(3),
+            lambda: of("sqrt", 1 + v**2),
+            lambda: 2 + of("sign", v),
+            lambda: 1 + of("abs", v),
+            lambda: PI,
+            lambda: of("max", 1, v),
+            lambda: number(-2) - v**4,
+            lambda: of("cosh", v),
+        ]
+    )()
 
 
 # -- identities, true and half true
 
+
 def identity(rng, variables):
     e, f = linear(rng, variables), linear(rng, variables)
     one = [
-        lambda: (of("abs", e), rng.choice([e, -e])), lambda: (of("abs", e), _abs(rng, e)),
-        lambda: (of("max", 0, e), rng.choice([ZERO, e, _max(rng, ZERO, e)])), lambda: (of("min", 0, e), rng.choice([ZERO, e])),
+        lambda: (of("abs", e), rng.choice([e, -e])),
+        lambda: (of("abs", e), _abs(rng, e)),
+        lambda: (of("max", 0, e), rng.choice([ZERO, e, _max(rng, ZERO, e)])),
+        lambda: (of("min", 0, e), rng.choice([ZERO, e])),
         lambda: (of("max", e, f), rng.choice([e, f, _max(rng, e, f)])),
-        lambda: (of("min", e, f) + of("max", e, f), e + f), lambda: (of("max", e, f) - of("min", e, f), of("abs", e - f)),
+        lambda: (of("min", e, f) + of("max", e, f), e + f),
+        lambda: (of("max", e, f) - of("min", e, f), of("abs", e - f)),
         lambda: (of("sign", e), rng.choice([ONE, -ONE, _sign(rng, e)])),
-        lambda: (of("sqrt", e ** 2), rng.choice([e, -e, _abs(rng, e)])),
+        lambda: (of("sqrt", e**2), rng.choice([e, -e, _abs(rng, e)])),
         lambda: (of("sign", e) * of("sign", f), rng.choice([of("sign", e * f), ONE])),
         lambda: (of("abs", e) * of("abs", f), rng.choice([of("abs", e * f), e * f, -e * f])),
         lambda: (of("abs", e + f), of("abs", e) + of("abs", f)),
         lambda: (of("atan2", e, 1), rng.choice([of("atan", e), -of("atan", e)])),
         lambda: (of("atan2", 1, e), rng.choice([PI / 2 - of("atan", e), of("atan", 1 / e)])),
-        lambda: (of("atan2", of("sin", e), of("cos", e)), rng.choice([e, of("acos", of("cos", e)) * _sign(rng, of("sin", e))])),
+        lambda: (
+            of("atan2", of("sin", e), of("cos", e)),
+            rng.choice([e, of("acos", of("cos", e)) * _sign(rng, of("sin", e))]),
+        ),
         lambda: (of("atan2", e, f), rng.choice([of("atan", e / f), PI / 2 - of("atan2", f, e)])),
-        lambda: (of("acos", of("cos", e)), e), lambda: (of("asin", of("sin", e)), e), lambda: (of("atan", of("tan", e)), e),
-        lambda: (of("acos", e) + of("asin", e), PI / 2), lambda: (of("sin", of("asin", e)), e),
-        lambda: (of("sin", of("acos", e)), of("sqrt", 1 - e ** 2)),
-        lambda: (of("cos", of("atan", e)), 1 / of("sqrt", 1 + e ** 2)),
-        lambda: (of("abs", e) ** 3, rng.choice([e ** 3, e ** 2 * of("abs", e)])),
-        lambda: (of("abs", e) ** 2, e ** 2), lambda: (of("sqrt", e ** 4), rng.choice([e ** 2, e * of("abs", e)])),
-        lambda: (of("sqrt", e ** 2 * f ** 2), rng.choice([e * f, of("abs", e) * of("abs", f), of("abs", e * f)])),
-        lambda: (of("sqrt", e ** 2 - 2 * e * f + f ** 2), rng.choice([e - f, f - e, of("abs", e - f)])),
+        lambda: (of("acos", of("cos", e)), e),
+        lambda: (of("asin", of("sin", e)), e),
+        lambda: (of("atan", of("tan", e)), e),
+        lambda: (of("acos", e) + of("asin", e), PI / 2),
+        lambda: (of("sin", of("asin", e)), e),
+        lambda: (of("sin", of("acos", e)), of("sqrt", 1 - e**2)),
+        lambda: (of("cos", of("atan", e)), 1 / of("sqrt", 1 + e**2)),
+        lambda: (of("abs", e) ** 3, rng.choice([e**3, e**2 * of("abs", e)])),
+        lambda: (of("abs", e) ** 2, e**2),
+        lambda: (of("sqrt", e**4), rng.choice([e**2, e * of("abs", e)])),
+        lambda: (of("sqrt", e**2 * f**2), rng.choice([e * f, of("abs", e) * of("abs", f), of("abs", e * f)])),
+        lambda: (of("sqrt", e**2 - 2 * e * f + f**2), rng.choice([e - f, f - e, of("abs", e - f)])),
         lambda: (of("abs", of("abs", e) - of("abs", f)), rng.choice([of("abs", e - f), of("abs", e) - of("abs", f)])),
         lambda: (of("sqrt", 1 - of("sin", e) ** 2), rng.choice([of("cos", e), of("abs", of("cos", e))])),
         lambda: (of("sqrt", (1 - of("cos", e)) / 2), rng.choice([of("sin", e / 2), of("abs", of("sin", e / 2))])),
         lambda: (of("max", e, f, 0), rng.choice([of("max", of("max", e, f), 0), of("max", e, f)])),
-        lambda: (of("sign", of("exp", e)), ONE), lambda: (of("abs", e ** 2 + 1), e ** 2 + 1),
-        lambda: (of("log", e ** 2), 2 * of("log", of("abs", e))),
+        lambda: (of("sign", of("exp", e)), ONE),
+        lambda: (of("abs", e**2 + 1), e**2 + 1),
+        lambda: (of("log", e**2), 2 * of("log", of("abs", e))),
         lambda: (of("tanh", of("abs", e)), rng.choice([of("abs", of("tanh", e)), of("tanh", e)])),
     ]
     left, right = rng.choice(one)()
     return (left, right) if rng.random() < 0.7 else (left * f, right * f)
-
-
-__all__ = ["draws", "identity", "linear", "never_vanishing", "one_sided", "rewritten", "slipped", "terms", "threshold",
-           "vanishing"]
