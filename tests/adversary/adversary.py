@@ -146,7 +146,7 @@ def smallest(options, finding):
         except (Undefined, NotRead, KeyError, IndexError, ZeroDivisionError):
             return False
         for f in found:
-            if f.word == finding.word:
+            if f.word == finding.word and ("fails" in f.text) == ("fails" in finding.text):
                 best = f
                 return True
         return False

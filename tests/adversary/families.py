@@ -314,8 +314,7 @@ def parameters(rng):
         form = g * of("cos", a) / (w * of("sin", a)) ** 2
         claims = [
             Claim(name("r''"), right),
-            Claim(r, form + name("A") * of("exp", w * of("sin", a) * t), "solution", ["A"]),
-            Claim(r, form + name("B") * of("exp", w * of("cos", a) * t), "solution", ["B"]),
+            Claim(r, form + name("A") * of("exp", w * of(rng.choice(["sin", "sin", "cos"]), a) * t), "solution", ["A"]),
         ]
     base = claims[0]
     for old, new in rng.sample(numbers, min(4, len(numbers))):

@@ -389,7 +389,9 @@ def derived(program, scene, seed, by=None):
 
 def _determine(scene, truth, equations):
     """Whether the equations leave no acceleration or multiplier free, at one state."""
-    unknowns = [(q, 2) for q in scene.coordinates] + [("lambda_" + c.label, 0) for c in scene.constraints]
+    named = {n for left, right in equations for side in (left, right) for n, _ in used(side)}
+    multipliers = ["lambda_" + c.label for c in scene.constraints if "lambda_" + c.label in named]
+    unknowns = [(q, 2) for q in scene.coordinates] + [(label, 0) for label in multipliers]
     rows = [trees.derivative(scene.named(left - right), u) for left, right in equations for u in unknowns]
     motion = scene.motion()
     moved = [r for r, h in zip(motion.rows, motion.holds)]
@@ -400,7 +402,7 @@ def _determine(scene, truth, equations):
             held = Compiled([e for row in moved for e in row]).mp(state) if moved else []
             matrix = [flat[i : i + len(unknowns)] for i in range(0, len(flat), len(unknowns))]
             n = len(scene.coordinates)
-            matrix += [held[i * n : (i + 1) * n] + [mpf(0)] * len(scene.constraints) for i in range(len(moved))]
+            matrix += [held[i * n : (i + 1) * n] + [mpf(0)] * len(multipliers) for i in range(len(moved))]
             if _rank(matrix) >= len(unknowns):
                 return True
     except Undefined:

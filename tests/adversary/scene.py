@@ -467,6 +467,9 @@ class Motion:
     def polish(self, state):
         """The state in 60 digits, on the own factors, its rates too; its accelerations are added."""
         state = {key: mpf(v) if isinstance(v, (int, mpf)) else mpf(float(v)) for key, v in state.items() if key[1] < 2}
+        for label, p in self.scene.parameters.items():
+            if used(p.value):  # given by others, which doubles have rounded
+                state[label, 0] = value(p.value, state)
         k, n = len(self.positions), self.n
         if k:
             for _ in range(12):

@@ -369,6 +369,9 @@ class Truth:
         for at in range(0, self.count, max(1, self.count // 9)):
             state = {**self.start, **{(label, 0): mpf(float(self.states[label, 0][at])) for label in self.scene.parameters}}
             try:
+                for label, p in self.scene.parameters.items():
+                    if used(p.value):
+                        state[label, 0] = value(p.value, state)
                 for q, (initial, speed, *_) in self.scene.coordinates.items():
                     state[q, 0], state[q, 1] = value(initial, state), value(speed, state)
                 state = self.motion.polish(state)
@@ -418,7 +421,7 @@ class Truth:
             except Undefined:
                 continue
             seen += 1
-            if abs(left - right) > mpf("1e-20") * max([1, *[abs(s) for s in summands]]):
+            if abs(left - right) > mpf("1e-9") * max([1, *[abs(s) for s in summands]]):  # a multiple root is less exact
                 return Answer(FAILS, state, left - right, cells=seen)
         return Answer(HOLDS if seen else UNKNOWN, cells=seen)
 
