@@ -7,6 +7,7 @@ a normal form in two coordinates, have closed forms.
 """
 
 import collections
+from fractions import Fraction
 
 import mpmath
 from mpmath import mpf
@@ -234,12 +235,7 @@ def stability(program, rng):
     words = ["stability"]
     if rng.random() < 0.6 and roots:
         r = rng.choice([r for r, _ in roots if abs(r) < 20] or [mpf(0)])
-        quotient = r / mpmath.pi * 6
-        text = (
-            f"{int(mpmath.nint(quotient))}*pi/6"
-            if pose.angle and abs(quotient - mpmath.nint(quotient)) < 1e-9
-            else repr(float(r))
-        )
+        text = _in_pi(r) if pose.angle else repr(float(r))
         words += ["--at", f"{pose.q}={text}"]
     code, answer, message = program.ask(pose.scene.text(), *words)
     if code not in (0, 1, 2) or answer is None:
@@ -270,6 +266,16 @@ def stability(program, rng):
         findings.append(Finding("exit code", verb, f"exit code {code} with {said}", pose.scene))
     findings += _conditions(pose, answer, root, truth, verb)
     return findings, None, counts
+
+
+def _in_pi(x):
+    """2*pi/3 for its number; a decimal for what is no such multiple."""
+    sixths = x / mpmath.pi * 6
+    if abs(sixths - mpmath.nint(sixths)) > 1e-9 or abs(sixths) < 1e-9:
+        return repr(float(x))
+    part = Fraction(int(mpmath.nint(sixths)), 6)
+    text = {1: "pi", -1: "-pi"}.get(part.numerator, f"{part.numerator}*pi")
+    return text if part.denominator == 1 else f"{text}/{part.denominator}"
 
 
 def _conditions(pose, answer, root, truth, verb):
