@@ -8,9 +8,7 @@
 function(alembert_together target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "MOST" "ALONE")
   set(most 24)
-  if(ALEMBERT_MOST_TOGETHER)  # web/read.sh
-    set(most ${ALEMBERT_MOST_TOGETHER})
-  elseif(arg_MOST)
+  if(arg_MOST)
     set(most ${arg_MOST})
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)

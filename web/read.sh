@@ -16,9 +16,8 @@ key=$({ cat "$root"/web/{headers,configure,read,reader}.sh "$root"/web/libraries
 if [ "$key" != "$(cat "$folder/complete" 2>/dev/null)" ]; then
   rm -rf "$folder/program" "$folder/complete"
   "$root/web/headers.sh" "$folder/root"
-  # Rooms are read as a whole: what their files share is read once.
   "$root/web/configure.sh" "$folder/program" "$folder/root" -DCMAKE_CXX_COMPILER_LAUNCHER="$root/web/reader.sh" \
-    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DALEMBERT_MOST_TOGETHER=1000 >"$folder/configured.log" 2>&1 ||
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >"$folder/configured.log" 2>&1 ||
     { tail -n 20 "$folder/configured.log"; exit 1; }
   echo "$key" >"$folder/complete"
 fi
