@@ -19,6 +19,13 @@ std::optional<Certain> exact_of(const ex& value) {
     return Certain(Rational(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N())));
 }
 
+/// Of a constant such as √69 or π/4, with all that is known of it.
+Certain constant_of(const Mechanism& m, const ex& value) {
+    Program program = begun(m);
+    const int node = lower_expression(program, m, value);
+    return interpret(program, State<Expansion>())[node].value();
+}
+
 std::optional<Certain> typed(const ExactOverrides& exact_at, const std::string& name) {
     for (const auto& [known, text] : exact_at)
         if (known == name)
@@ -40,6 +47,7 @@ CertainVector exact_parameters(const Mechanism& m, const Start& start, const Exa
         if (!p.independent) continue;
         std::optional<Certain> exact = typed(exact_at, p.symbol.get_name());
         if (!exact) exact = exact_of(p.value);
+        if (!exact) exact = constant_of(m, p.value);
         const double in_use = start.parameters[result.size()];
         result.push_back(exact && std::abs(exact->number() - in_use) <= 4e-16 * std::abs(in_use)
                              ? *exact
