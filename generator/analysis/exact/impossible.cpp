@@ -167,10 +167,12 @@ bool is_impossible(const std::vector<ex>& positive, const std::vector<GiNaC::sym
     if (generators.list.size() < positive.size()) return false;
     std::vector<ex> monomials;
     for (const auto& one : generators.list)
-        for (const auto& [monomial, coefficient] : one.terms)
+        for (const auto& term : one.terms) {
+            const ex& monomial = term.first;
             if (!monomial.is_equal(1) && std::none_of(monomials.begin(), monomials.end(),
                                                       [&](const ex& m) { return m.is_equal(monomial); }))
                 monomials.push_back(monomial);
+        }
     for (const ex& monomial : monomials) generators.add(monomial);
     // A row for each monomial, one for the constant with what it lacks to zero, and one that says that a strict
     // one is used.
