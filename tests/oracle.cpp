@@ -69,7 +69,7 @@ Series power(const Series& a, int n) {
 
 class Reading {
 public:
-    Reading(const Scene& scene, const Mechanism& m, const Equations& e, const State<Digits>& s) : scene_(scene) {
+    Reading(const Scene& scene, const Mechanism& m, const State<Digits>& s) : scene_(scene) {
         known_.emplace("t", Series({s.t, 1, 0}, 2));
         known_.emplace("pi", constant(acos(Digits(-1))));
         std::size_t independent = 0;
@@ -77,12 +77,13 @@ public:
             if (p.independent) known_.emplace(p.symbol.get_name(), constant(s.parameters[independent++]));
         for (std::size_t i = 0; i < m.q.size(); ++i)
             known_.emplace(m.q[i].get_name(), Series({s.q[i], s.qdot[i], s.qddot[i]}, 2));
-        for (std::size_t k = 0; k < e.lambda.size(); ++k)
-            known_.emplace(e.lambda[k].get_name(), Series({s.unknown[k], 0, 0}, 0));
+        std::size_t next = 0;
+        for (const auto* list : {&m.constraints, &m.redundant})
+            for (const Mechanism::Constraint& c : *list)
+                known_.emplace(c.multiplier.get_name(), Series({s.unknown[next++], 0, 0}, 0));
         for (std::size_t k = 0; k < m.speeds.size(); ++k)
-            known_.emplace(
-                m.speeds[k].u.get_name(),
-                Series({s.unknown[e.lambda.size() + 2 * k], s.unknown[e.lambda.size() + 2 * k + 1], 0}, 1));
+            known_.emplace(m.speeds[k].u.get_name(),
+                           Series({s.unknown[next + 2 * k], s.unknown[next + 2 * k + 1], 0}, 1));
     }
 
     Series of(const Tree& tree) {
@@ -146,6 +147,25 @@ private:
         return chain(base, y, e * y / x, e * (e - 1) * y / (x * x));
     }
 
+    /// The angle φ of (x, y) up to a positive factor, by φ' = (x y' − y x')/(x² + y²).
+    Series angle(const std::string& f, const Tree& tree) {
+        const Series a = of(*tree.args[0]), one = constant(1);
+        const auto leg = [&] {
+            const Series square = one + constant(-1) * a * a;
+            const Digits y = sqrt(square.at[0]);
+            return chain(square, y, 1 / (2 * y), -1 / (4 * y * square.at[0]));
+        };
+        const Series y = f == "acos" ? leg() : a, x = f == "atan2"  ? of(*tree.args[1])
+                                                      : f == "atan" ? one
+                                                      : f == "asin" ? leg()
+                                                                    : a;
+        Series result({atan2(y.at[0], x.at[0]), 0, 0}, std::min(x.known, y.known));
+        if (result.known == 0) return result;
+        const Series rate = (x * y.derivative() + constant(-1) * y * x.derivative()) * power(x * x + y * y, -1);
+        for (std::size_t k = 0; k < 2; ++k) result.at[k + 1] = rate.at[k], result.size[k + 1] = rate.size[k];
+        return result;
+    }
+
     Series called(const Tree& tree) {
         const std::string& f = tree.text;
         const auto arg = [&](std::size_t k) { return of(*tree.args[k]); };
@@ -173,6 +193,19 @@ private:
         if (f == "abs") {
             const Series a = arg(0);
             return a.at[0] < 0 ? constant(-1) * a : a;
+        }
+        if (f == "sign") return constant(arg(0).at[0] < 0 ? -1 : 1);
+        if (f == "min" || f == "max") {
+            Series result = arg(0);
+            for (std::size_t k = 1; k < tree.args.size(); ++k)
+                if (const Series next = arg(k); (next.at[0] < result.at[0]) == (f == "min")) result = next;
+            return result;
+        }
+        if (f == "atan2" || f == "atan" || f == "asin" || f == "acos") return angle(f, tree);
+        if (f == "tanh") {
+            const Series a = arg(0);
+            const Digits y = tanh(a.at[0]), slope = 1 - y * y;
+            return chain(a, y, slope, -2 * y * slope);
         }
         if (f == "sinh" || f == "cosh") {
             const Series a = arg(0);
@@ -249,7 +282,7 @@ bool obey(State<Digits>& state, const Program& p, const Mechanism& m) {
     return off.empty() || project(state.qdot, A, off);
 }
 
-/// Each speed and its derivative, in q, q', q'' and t.
+/// Each speed and its derivative, in q, q', q'', t and inputs.
 std::vector<GiNaC::ex> forms_and_rates(const Mechanism& m) {
     std::vector<GiNaC::ex> list;
     for (const Mechanism::Speed& speed : m.speeds) {
@@ -257,6 +290,8 @@ std::vector<GiNaC::ex> forms_and_rates(const Mechanism& m) {
         GiNaC::ex rate = form.diff(m.t);
         for (std::size_t i = 0; i < m.q.size(); ++i)
             rate += form.diff(m.q[i]) * m.qdot[i] + form.diff(m.qdot[i]) * m.qddot[i];
+        for (const Mechanism::Input& input : m.inputs)
+            for (std::size_t k = 0; k < 2; ++k) rate += form.diff(input.derivative[k]) * input.derivative[k + 1];
         list.insert(list.end(), {form, rate});
     }
     return list;
@@ -265,7 +300,7 @@ std::vector<GiNaC::ex> forms_and_rates(const Mechanism& m) {
 }  // namespace
 
 Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsigned seed, int states)
-    : scene_(scene), m_(m), e_(e) {
+    : scene_(scene), m_(m) {
     Mechanism plain = m;  // the motion is found in coordinates, and speeds are what their forms say
     plain.speeds.clear();
     const Program p = lower(plain, e, energy_of(plain));
@@ -285,7 +320,8 @@ Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsig
             for (const double x : start.q) s.q.push_back(Digits(x) + uniform(-0.4, 0.6));
             for (const double x : start.qdot) s.qdot.push_back(Digits(x) / 2 + uniform(-1.5, 2));
             s.qddot.resize(s.q.size());
-            s.unknown.resize(e.lambda.size() + form_nodes.size());
+            const std::size_t multipliers = m.constraints.size() + m.redundant.size();
+            s.unknown.resize(multipliers + form_nodes.size());
             if (!obey(s, p, m)) continue;
             const std::vector<Digits> value = interpret<Digits>(p, s);
             const auto take = [&](Group group, std::vector<Digits>& to) {
@@ -295,8 +331,7 @@ Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsig
             take(Group::acceleration, s.qddot);
             take(Group::multiplier, s.unknown);
             const std::vector<Digits> speeds = interpret<Digits>(forms, s);
-            for (std::size_t k = 0; k < form_nodes.size(); ++k)
-                s.unknown[e.lambda.size() + k] = speeds[form_nodes[k]];
+            for (std::size_t k = 0; k < form_nodes.size(); ++k) s.unknown[multipliers + k] = speeds[form_nodes[k]];
             states_.push_back(std::move(s));
         } catch (const std::exception&) {  // a pole, a root of a negative number
         }
@@ -305,7 +340,7 @@ Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsig
 std::optional<double> Oracle::misfit(const Equality& claim) const {
     std::optional<double> worst;
     for (const State<Digits>& state : states_) try {
-            Reading reading(scene_, m_, e_, state);
+            Reading reading(scene_, m_, state);
             const Series lhs = reading.of(*claim.lhs.tree), rhs = reading.of(*claim.rhs.tree);
             const Digits off = lhs.at[0] - rhs.at[0];
             // An acceleration that is zero has no size but that of its rounding.

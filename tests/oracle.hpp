@@ -37,7 +37,6 @@ public:
 private:
     const Scene& scene_;
     const Mechanism& m_;
-    const Equations& e_;
     std::vector<State<Digits>> states_;  ///< unknown: the multipliers, then each speed and its derivative
 };
 

@@ -46,6 +46,7 @@ public:
         for (const Mechanism::Constraint& c : m_.constraints) result_.degrees_of_freedom -= is_gap(c) ? 0 : 1;
         gaps();
         frictions();
+        constraints();
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
         for (int i = 0; i < e_.size(); ++i)
             result_.rows.push_back(symbol_of(e_.speeds_are_rates() ? m_.q[i] : e_.u[i]));
@@ -54,7 +55,7 @@ public:
             if (const auto f = normal(pole))
                 result_.poles.push_back(
                     readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
-        if (!readable_equations()) return with_definitions();
+        if (!too_long_.empty() || !readable_equations()) return with_definitions();
         if (names_.any()) keep_names_where_shorter();
         if (!energies()) return with_definitions();
         tell(0.7);
@@ -63,7 +64,6 @@ public:
         forces();
         tell(0.85);
         derivatives();
-        constraints();
         shares();
         return std::move(result_);
     }
@@ -296,13 +296,24 @@ private:
         }
     }
 
+    /// Sets a part of the result to this value as it is read, or puts that off until there are intermediate
+    /// symbols for it.
+    void write(const ex& value, std::function<Phrase&(Derivation&)> place) {
+        if (const auto f = normal(value))
+            place(result_) = readable(*f);
+        else
+            too_long_.emplace_back(value, std::move(place));
+    }
+
     void constraints() {
         for (const Mechanism::Constraint& c : m_.constraints) {
             if (is_gap(c)) continue;
             GiNaC::exvector terms{c.drift};
             for (int i = 0; i < m_.size(); ++i) terms.push_back(c.row[i] * m_.qdot[i]);
-            if (const auto f = normal(c.position ? *c.position : ex(GiNaC::add(std::move(terms)))))
-                result_.constraints.emplace_back(c.name, readable(*f));
+            const std::size_t k = result_.constraints.size();
+            result_.constraints.emplace_back(c.name, Phrase());
+            write(c.position ? *c.position : ex(GiNaC::add(std::move(terms))),
+                  [k](Derivation& d) -> Phrase& { return d.constraints[k].second; });
         }
     }
 
@@ -315,19 +326,22 @@ private:
 
     void frictions() {
         for (const Mechanism::Friction& f : m_.frictions) {
-            const auto slip = normal(f.slip), sliding = normal(f.coefficient * f.normal),
-                       sticking = normal(f.resting * f.normal);
-            const auto across = f.across ? normal(*f.across) : std::nullopt;
-            if (!slip || !sliding || !sticking || f.across.has_value() != across.has_value()) continue;
-            result_.frictions.push_back({f.name, readable(*slip), readable(*sliding), readable(*sticking)});
-            if (across) result_.frictions.back().across = readable(*across);
+            const std::size_t k = result_.frictions.size();
+            result_.frictions.push_back({.name = f.name, .slip = {}, .sliding = {}, .sticking = {}});
+            write(f.slip, [k](Derivation& d) -> Phrase& { return d.frictions[k].slip; });
+            write(f.coefficient * f.normal, [k](Derivation& d) -> Phrase& { return d.frictions[k].sliding; });
+            write(f.resting * f.normal, [k](Derivation& d) -> Phrase& { return d.frictions[k].sticking; });
+            if (!f.across) continue;
+            write(*f.across, [k](Derivation& d) -> Phrase& { return d.frictions[k].across.emplace(); });
         }
     }
 
     void gaps() {
-        for (const Mechanism::Unilateral& contact : m_.unilateral)
-            if (const auto f = normal(*contact.gap.position))
-                result_.gaps.emplace_back(contact.gap.name, readable(*f));
+        for (const Mechanism::Unilateral& contact : m_.unilateral) {
+            const std::size_t k = result_.gaps.size();
+            result_.gaps.emplace_back(contact.gap.name, Phrase());
+            write(*contact.gap.position, [k](Derivation& d) -> Phrase& { return d.gaps[k].second; });
+        }
     }
 
     Derivation with_definitions() {
@@ -335,9 +349,14 @@ private:
         m_.z->adopt(*energy.z);
         energy.kinetic = unit_(energy.kinetic);
         energy.potential = unit_(energy.potential);
-        IntermediateForm form = intermediate_form(lower(m_, e_, energy), m_, e_);
+        std::vector<ex> others;
+        for (const auto& [value, place] : too_long_) others.push_back(unit_(value));
+        const LowerOptions for_reader{.reactions_are_letters = true};
+        IntermediateForm form = intermediate_form(lower(m_, e_, energy, for_reader), m_, e_, others);
         if (unit_.any()) {
-            IntermediateForm other = intermediate_form(lower(m_, given_, energy_of(m_)), m_, given_);
+            for (std::size_t k = 0; k < others.size(); ++k) others[k] = too_long_[k].first;
+            IntermediateForm other =
+                intermediate_form(lower(m_, given_, energy_of(m_), for_reader), m_, given_, others);
             if (other.definitions.size() < form.definitions.size()) {
                 form = std::move(other);
                 result_.has_unit_quaternions = false;
@@ -348,6 +367,8 @@ private:
         result_.kinematics = std::move(form.kinematics);
         result_.kinetic = std::move(form.kinetic);
         result_.potential = std::move(form.potential);
+        for (std::size_t k = 0; k < too_long_.size(); ++k)
+            too_long_[k].second(result_) = std::move(form.others[k]);
         result_.energies.clear();
         return std::move(result_);
     }
@@ -360,6 +381,8 @@ private:
     const Length length_;
     const PartDone& done_;
     bool keeps_names_ = false;
+    /// What is beyond the readable size apart from the equations, and where it belongs.
+    std::vector<std::pair<ex, std::function<Phrase&(Derivation&)>>> too_long_;
     Derivation result_;
 };
 

@@ -70,8 +70,9 @@ private:
                 return symbol_of(e_.u[v.index]);
             case Variable::Kind::acceleration:
                 return symbol_of(e_.udot[v.index]);
-            case Variable::Kind::parameter:
             case Variable::Kind::unknown:
+                return symbol_of(m_.frictions[static_cast<std::size_t>(v.index)].multiplier.value());
+            case Variable::Kind::parameter:
                 break;
         }
         int position = v.index;
@@ -134,7 +135,25 @@ private:
 
 }  // namespace
 
-IntermediateForm intermediate_form(Program program, const Mechanism& m, const Equations& e) {
+namespace {
+
+/// Nodes of expressions in q, q' and t; what stands for q' in equations in speeds are the nodes of `h`.
+std::vector<int> nodes_of(const std::vector<GiNaC::ex>& list, Program& program, const Mechanism& m,
+                          const Equations& e, const std::vector<int>& h) {
+    std::vector<std::pair<GiNaC::symbol, int>> given;
+    for (std::size_t i = 0; i < h.size(); ++i) given.emplace_back(m.qdot[i], h[i]);
+    for (int k = 0; k < e.size() && !h.empty(); ++k)
+        given.emplace_back(e.u[k], program.variable({Variable::Kind::rate, k}));
+    for (auto k = static_cast<int>(m.frictions.size()); k-- > 0;)
+        if (const auto& reaction = m.frictions[static_cast<std::size_t>(k)].multiplier)
+            given.emplace_back(*reaction, program.variable({Variable::Kind::unknown, k}));
+    return lower_expressions(program, m, list, given);
+}
+
+}  // namespace
+
+IntermediateForm intermediate_form(Program program, const Mechanism& m, const Equations& e,
+                                   const std::vector<GiNaC::ex>& others) {
     std::vector<Mechanism::Constraint> held = m.constraints;
     // Constraints that follow from others have their share of the forces.
     if (e.speeds_are_rates() && !e.A.empty()) {
@@ -155,6 +174,8 @@ IntermediateForm intermediate_form(Program program, const Mechanism& m, const Eq
     roots.insert(roots.end(), h.begin(), h.end());
     roots.push_back(kinetic);
     roots.push_back(potential);
+    const std::vector<int> other_nodes = nodes_of(others, program, m, e, h);
+    roots.insert(roots.end(), other_nodes.begin(), other_nodes.end());
     Unfolding unfolding(program, m, e);
     unfolding.define(roots);
 
@@ -186,6 +207,7 @@ IntermediateForm intermediate_form(Program program, const Mechanism& m, const Eq
         form.kinematics.emplace_back(phrases::symbol(m.qdot[i], m.symbols->info(m.qdot[i])), unfolding.of(h[i]));
     form.kinetic = unfolding.of(kinetic);
     form.potential = unfolding.of(potential);
+    for (const int node : other_nodes) form.others.push_back(unfolding.of(node));
     form.definitions = std::move(unfolding.definitions);
     return form;
 }

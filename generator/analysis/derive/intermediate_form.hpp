@@ -24,9 +24,12 @@ struct IntermediateForm {
     std::vector<ReadableEquation> equations;
     std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h, if the speeds are not the rates
     Phrase kinetic, potential;
+    std::vector<Phrase> others;
 };
 
-/// Makes the form from the groups "mass", "forcing", "kinetic" and "potential" of `program`.
-IntermediateForm intermediate_form(Program program, const Mechanism& mechanism, const Equations& equations);
+/// Makes the form from the groups "mass", "forcing", "kinetic" and "potential" of `program`, in which reactions
+/// are letters (LowerOptions::reactions_are_letters), and of other expressions in q, q' and t.
+IntermediateForm intermediate_form(Program program, const Mechanism& mechanism, const Equations& equations,
+                                   const std::vector<GiNaC::ex>& others);
 
 }  // namespace alembert

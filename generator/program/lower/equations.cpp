@@ -161,7 +161,8 @@ public:
         for (const Mechanism::Unilateral& contact : m_.unilateral)
             for (Lowering* const one : {&lowering_, &acting_alone_})
                 one->define(contact.gap.multiplier, program_.number(0));
-        const NormalForces normal_forces(m_, e_);
+        const bool has_letters = options_.reactions_are_letters && define_letters();
+        const NormalForces normal_forces = has_letters ? NormalForces(e_) : NormalForces(m_, e_);
         lower_definitions(wanted, normal_forces, udot);
 
         Lowering& acting = normal_forces.any() ? acting_alone_ : lowering_;
@@ -190,7 +191,7 @@ public:
             solution = by_recursion;
         else if (rubbing)
             solution = rubbing->unknowns;
-        else if (!normal_forces.any())
+        else if (!normal_forces.any() && !has_letters)
             solution = solve_symmetric(program_, K, right, n_, witness);
 
         if (solution)
@@ -261,6 +262,17 @@ private:
                              .gamma = e_.gamma[k]});
         }
         return norms;
+    }
+
+    /// Makes variables of the reactions that give friction its normal force; false if there are none.
+    bool define_letters() {
+        bool any = false;
+        for (auto k = static_cast<int>(m_.frictions.size()); k-- > 0;)
+            if (const auto& reaction = m_.frictions[static_cast<std::size_t>(k)].multiplier) {
+                lowering_.define(*reaction, program_.variable({Variable::Kind::unknown, k}));
+                any = true;
+            }
+        return any;
     }
 
     /// f is taken without friction whose normal force is a multiplier.

@@ -26,6 +26,10 @@ struct LowerOptions {
     bool fold = false;  ///< whether parameters become constants with the scene's values
     /// Whether the equations are in their readable form, whose order of terms is to be kept.
     bool is_textbook = false;
+    /// Whether the reactions that press where friction acts stay letters in f, as a reader wants to see them:
+    /// variables of kind `unknown`, each numbered by the first friction in Mechanism::frictions that has it. If
+    /// there are any, the program has no accelerations.
+    bool reactions_are_letters = false;
     std::optional<RecursionForm> recursion =
         {};  ///< for equations with a tree: M, f and q'' by this recursion instead of by their expressions
     /// Gives a state that obeys the constraints (analysis/state/assemble.hpp). It is asked for where coordinates

@@ -19,6 +19,8 @@ namespace alembert {
 
 class NormalForces {
 public:
+    /// No friction of this kind.
+    explicit NormalForces(const Equations& e) : e_(e) {}
     /// Throws ModelError if the equations do not have a multiplier.
     NormalForces(const Mechanism& m, const Equations& e);
 
