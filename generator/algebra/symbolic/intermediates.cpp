@@ -208,16 +208,17 @@ std::vector<std::size_t> Intermediates::reachable(const std::vector<ex>& roots) 
 }
 
 bool Intermediates::depends(const ex& e, const std::vector<symbol>& on) const {
-    std::set<unsigned> wanted;
-    for (const symbol& s : on) wanted.insert(s.gethash());
-    const auto any = [&](const std::vector<symbol>& uses) {
-        return std::any_of(uses.begin(), uses.end(),
-                           [&](const symbol& s) { return wanted.contains(s.gethash()); });
+    // Most expressions have few symbols, and `on` may be the thousands of a large scene, for each entry of M.
+    std::vector<unsigned> used;
+    const auto add = [&](const std::vector<symbol>& uses) {
+        for (const symbol& s : uses) used.push_back(s.gethash());
     };
-    if (any(symbols_in(e))) return true;
-    for (const std::size_t k : reachable({e}))
-        if (any(entries_[k].uses)) return true;
-    return false;
+    add(symbols_in(e));
+    if (used.empty()) return false;
+    for (const std::size_t k : reachable({e})) add(entries_[k].uses);
+    std::sort(used.begin(), used.end());
+    return std::any_of(on.begin(), on.end(),
+                       [&](const symbol& s) { return std::binary_search(used.begin(), used.end(), s.gethash()); });
 }
 
 std::vector<ex> Intermediates::pull_back(const std::vector<std::pair<ex, ex>>& targets,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "algebra/notation/readable.hpp"
 #include "algebra/notation/text.hpp"
@@ -140,6 +141,17 @@ private:
         return list;
     }
 
+    /// The positions of the coordinates that an expression without intermediate symbols contains.
+    std::set<int> coordinates_in(const ex& plain) const {
+        std::set<int> found;
+        for (auto at = plain.preorder_begin(); at != plain.preorder_end(); ++at) {
+            if (!GiNaC::is_a<GiNaC::symbol>(*at)) continue;
+            const SymbolInfo& info = m_.symbols->info(GiNaC::ex_to<GiNaC::symbol>(*at));
+            if (info.kind == SymbolInfo::Kind::coordinate && info.order == 0) found.insert(info.index);
+        }
+        return found;
+    }
+
     /// Sets the position of a joint, its rate, and the part of its acceleration that does not come from q''.
     /// Refuses positions that are not linear in the coordinates.
     void set_motion(TreeJoint& joint, const ex& position, const std::string& what) {
@@ -147,14 +159,15 @@ private:
         ex rest = plain;
         joint.position = z_.name(position);
         GiNaC::exvector rate;
-        for (int i = 0; i < m_.size(); ++i) {
-            const ex slope = plain.has(m_.q[i]) ? plain.diff(m_.q[i]) : ex(0);
+        joint.row.assign(static_cast<std::size_t>(m_.size()), 0);
+        for (const int i : coordinates_in(plain)) {
+            const ex slope = plain.diff(m_.q[i]);
             if (!GiNaC::is_a<GiNaC::numeric>(slope) || !slope.info(GiNaC::info_flags::rational))
                 return refuse(
                     say("{} {} by '{}', which is no sum of coordinates with numbers as factors; use the "
                         "formalism 'lagrange' or 'kane'",
                         label_, what, shown(position)));
-            joint.row.push_back(GiNaC::ex_to<GiNaC::numeric>(slope));
+            joint.row[static_cast<std::size_t>(i)] = GiNaC::ex_to<GiNaC::numeric>(slope);
             rest -= slope * m_.q[i];
             rate.push_back(slope * m_.qdot[i]);
         }
@@ -347,7 +360,10 @@ private:
         for (int k = 0; k < 3; ++k) rest[k] = moves(step.offset[k]) ? z_.expand(step.offset[k]) : step.offset[k];
         std::array<bool, 3> is_moved{};
         for (int k = 0; k < 3; ++k) is_moved[k] = moves(step.offset[k]);
-        for (int i = 0; i < m_.size() && (is_moved[0] || is_moved[1] || is_moved[2]); ++i) {
+        std::set<int> moving;
+        for (int k = 0; k < 3; ++k)
+            if (is_moved[k]) moving.merge(coordinates_in(rest[k]));
+        for (const int i : moving) {
             NamedVector direction{0, 0, 0};
             bool any = false;
             for (int k = 0; k < 3; ++k) {

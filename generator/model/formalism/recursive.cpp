@@ -28,8 +28,10 @@ Possible<JointTree> tree_with_masses(const Mechanism& m) {
 }
 
 /// S by rows, without its zeros.
-std::vector<std::vector<std::pair<int, ex>>> entries_of_S(const JointTree& joints, const Mechanism& m) {
-    std::vector<std::vector<std::pair<int, ex>>> S(joints.joints.size());
+using SparseRows = std::vector<std::vector<std::pair<int, ex>>>;
+
+SparseRows entries_of_S(const JointTree& joints, const Mechanism& m) {
+    SparseRows S(joints.joints.size());
     for (std::size_t j = 0; j < S.size(); ++j)
         for (int a = 0; a < m.size(); ++a)
             if (const ex s = joints.joints[j].row[a]; !s.is_zero()) S[j].emplace_back(a, s);
@@ -41,6 +43,19 @@ std::vector<std::vector<std::pair<int, ex>>> entries_of_S(const JointTree& joint
                     ball.coordinate[i], m.z->name(2 * ball.sign[i] * G[k][i] * ball.inverse));
     }
     return S;
+}
+
+/// The terms of −Sᵀ n, with the loads n of gravity and of the motion at q'' = 0.
+std::vector<GiNaC::exvector> forces_of_motion(const BodyTree<Named>& tree, const SparseRows& S, int n) {
+    const std::vector<Named> loads = joint_loads(tree, Bias<Named>(tree).wrenches);
+    std::vector<GiNaC::exvector> forces(static_cast<std::size_t>(n));
+    for (std::size_t j = 0; j < S.size(); ++j)
+        for (const auto& [a, s] : S[j]) forces[static_cast<std::size_t>(a)].push_back(-s * loads[j].e);
+    return forces;
+}
+
+BodyTree<Named> tree_of_names(const JointTree& joints, Intermediates& z) {
+    return dressed<Named>(joints, LinkAxes::own, z, [&](const ex& e) { return Named(e, z); });
 }
 
 }  // namespace
@@ -74,21 +89,28 @@ Equations recursive_without_matrix(const Mechanism& mechanism) {
     return equations;
 }
 
+std::vector<ex> forcing_of_tree(const Equations& e, const Mechanism& m) {
+    std::vector<GiNaC::exvector> terms =
+        forces_of_motion(tree_of_names(*e.tree, *m.z), entries_of_S(*e.tree, m), m.size());
+    std::vector<ex> forcing;
+    for (std::size_t a = 0; a < terms.size(); ++a)
+        forcing.push_back(m.z->name(GiNaC::add(std::move(terms[a])) + e.tree->forces[a]));
+    return forcing;
+}
+
 Equations recursive(const Mechanism& mechanism) {
     const Mechanism m = with_own_intermediates(mechanism);
     JointTree joints = tree_with_masses(m).value();
     Intermediates& z = *m.z;
-    const BodyTree<Named> tree =
-        dressed<Named>(joints, LinkAxes::own, z, [&](const ex& e) { return Named(e, z); });
+    const BodyTree<Named> tree = tree_of_names(joints, z);
     const std::vector<std::vector<Named>> M = composite_bodies(tree);
-    const std::vector<Named> loads = joint_loads(tree, Bias<Named>(tree).wrenches);
 
     Equations equations = equations_without_terms("recursive", m);
     const int n = m.size();
-    std::vector<GiNaC::exvector> mass(static_cast<std::size_t>(n) * n), own(n);
-    const std::vector<std::vector<std::pair<int, ex>>> S = entries_of_S(joints, m);
-    for (std::size_t j = 0; j < M.size(); ++j) {
-        for (const auto& [a, s] : S[j]) own[a].push_back(-s * loads[j].e);
+    std::vector<GiNaC::exvector> mass(static_cast<std::size_t>(n) * n);
+    const SparseRows S = entries_of_S(joints, m);
+    std::vector<GiNaC::exvector> own = forces_of_motion(tree, S, n);
+    for (std::size_t j = 0; j < M.size(); ++j)
         for (std::size_t i = 0; i <= j; ++i) {
             if (M[j][i].e.is_zero()) continue;
             for (const auto& [a, s] : S[j])
@@ -97,7 +119,6 @@ Equations recursive(const Mechanism& mechanism) {
                     if (i != j) mass[b * n + a].push_back(s * t * M[j][i].e);
                 }
         }
-    }
     joints.forces = potential_forces(m);
     equations.dissipative = m.generalized_forces(true);
     equations.applied = m.generalized_forces(false);

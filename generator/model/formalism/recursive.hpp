@@ -23,6 +23,10 @@ std::optional<std::string> obstacle_to_recursive(const Mechanism& mechanism);
 /// hundreds of joints, without constraints except those of their quaternions.
 Equations recursive_without_matrix(const Mechanism& mechanism);
 
+/// f of M q'' = f of equations with a tree, which those without a matrix leave out too; the mechanism is in their
+/// terms (`in_terms_of`).
+std::vector<GiNaC::ex> forcing_of_tree(const Equations& equations, const Mechanism& mechanism);
+
 /// The generalized forces of springs, other potentials, dampers and applied loads; of everything but gravity.
 std::vector<GiNaC::ex> forces_besides_gravity(const Mechanism& mechanism);
 
