@@ -207,11 +207,11 @@ TEST_CASE("simulate: --show chooses what is drawn; impacts and closed contacts a
 }
 
 TEST_CASE("simulate, sweep: nothing of a scene becomes markup in a picture") {
-    const std::string scene = temporary(
-        "hostile.toml",
-        "title = \"</title><script>alert(1)</script>&lt;'\\\"\\u0007\"\n[parameters]\nk = 1\n[coordinates]\n"
-        "x = { initial = 1, unit = \"m<b onload='x'>&\" }\n[energy]\nkinetic = \"x'^2/2\"\n"
-        "potential = \"k*x^2/2\"\n[simulation]\nduration = 0.1\n");
+    const std::string scene = temporary("hostile.toml",
+                                        "title = \"</title><script>alert(1)</script><b "
+                                        "onload='x'>&lt;'\\\"\\u0007\"\n[parameters]\nk = 1\n[coordinates]\n"
+                                        "x = { initial = 1, unit = \"m\" }\n[energy]\nkinetic = \"x'^2/2\"\n"
+                                        "potential = \"k*x^2/2\"\n[simulation]\nduration = 0.1\n");
     for (const std::string& svg :
          {picture({"simulate", scene}, "--plot"), picture({"sweep", scene, "--vary", "x=0:1:3"}, "--svg"),
           picture({"sweep", scene, "--vary", "x=0:1:3", "k=1:2:2"}, "--svg")}) {

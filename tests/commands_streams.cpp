@@ -118,10 +118,13 @@ TEST_CASE("streams: a reader that stops reading ends the program silently") {
 TEST_CASE("streams: no control character of a scene, a claim or a file's name reaches the terminal") {
     const std::string scene = source_path("scenes/textbook/cart_pole.toml"),
                       folder = temporary_folder("esc\033[31m\xC2\x9B\xFFname");
-    const std::string titled =
-        temporary("titled.toml",
-                  "title = \"a\\u001B[2Jb\\u009B\"\n[parameters]\nm = { value = 1, unit = \"\\u001B[5m\" }\n"
-                  "[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n");
+    const std::string titled = temporary(
+        "titled.toml",
+        "title = \"a\\u001B[2Jb\\u009B\"\n[parameters]\nm = { value = 1, unit = \"kg\", about = \"\\u001B[5m\" }\n"
+        "[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n");
+    const std::string unit = temporary("unit.toml",
+                                       "[parameters]\nm = { value = 1, unit = \"\\u001B[5m\" }\n[units]\n"
+                                       "\"\\u001B[5m\" = \"\\u001B[5m\"\n[coordinates]\nx = 0\n");
     const std::string raw = temporary("raw.toml", "title = \"a\033[2Jb\"\n[coordinates]\nx = 0\n");
     const std::string claims = temporary("claims.txt", "theta\033[2J'' = 0\n\xC2\x9B = 1\n");
     const std::vector<std::vector<std::string>> commands{
@@ -136,6 +139,7 @@ TEST_CASE("streams: no control character of a scene, a claim or a file's name re
         {"simulate", scene, "-o", folder + "/\033none/x"},
         {"sweep", scene, "--vary", "\033=0:1:2"},
         {"derive", raw},
+        {"derive", unit},
         {"derive", folder + "/\033none.toml"},
         {"derive", scene, "--by", "\033[31m"},
         {"derive", scene, "--\033[31m"},

@@ -44,8 +44,9 @@ Axis axis_of(const std::string& option, const std::string& item, std::optional<s
     const std::string_view from = range.substr(0, first), to = range.substr(first + 1, second - first - 1),
                            count = is_counted ? range.substr(second + 1) : std::string_view();
     for (const auto& [text, value] : {std::pair{from, &axis.from}, std::pair{to, &axis.to}}) {
+        const std::string number = in_si(scene, axis.name, std::string(text));
         try {
-            *value = number_of(in_si(scene, axis.name, std::string(text)));
+            *value = number_of(number);
         } catch (const ModelError&) {
             throw wrong(say("'{}' is no finite number", text));
         }

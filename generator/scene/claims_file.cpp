@@ -48,7 +48,7 @@ std::string joined(const std::vector<Word>& words) {
 /// Of "near theta = 0, phi = pi/2", from the first name on.
 std::vector<std::pair<Name, Expression>> values_after(const std::string& line, std::size_t offset,
                                                       const std::vector<Place>& places_of_line,
-                                                      std::vector<Diagnostic>& mistakes) {
+                                                      std::vector<Diagnostic>& mistakes, const KnownNames& names) {
     std::vector<std::pair<Name, Expression>> result;
     for (std::size_t from = offset; from < line.size();) {
         std::size_t end = from;  // of this value: a comma outside parentheses
@@ -56,7 +56,7 @@ std::vector<std::pair<Name, Expression>> values_after(const std::string& line, s
             depth += line[end] == '(' ? 1 : line[end] == ')' ? -1 : 0;
         const std::vector<Place> places(places_of_line.begin() + static_cast<std::ptrdiff_t>(from),
                                         places_of_line.begin() + static_cast<std::ptrdiff_t>(end) + 1);
-        const Equality value = parse_equality(line.substr(from, end - from), places, mistakes, false);
+        const Equality value = parse_equality(line.substr(from, end - from), places, mistakes, false, &names);
         std::string name = value.lhs.text;
         while (!name.empty() && is_blank(name.back())) name.pop_back();
         result.emplace_back(Name{std::move(name), places.front()}, value.rhs);
@@ -115,7 +115,7 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
             if (words.size() == 1)
                 common.where.clear();
             else
-                common.where.push_back(parse_inequality(line.substr(from), places, mistakes));
+                common.where.push_back(parse_inequality(line.substr(from), places, mistakes, &names));
             continue;
         }
         if (!is_equation && set_mode(common, joined(words))) {
@@ -125,12 +125,12 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
         if (is_equation && first == "near" && words.size() > 1) {
             common.at = Claim::At::near;
             common.sticking = common.closed = {};
-            common.near = values_after(line, words[1].offset, places, mistakes);
+            common.near = values_after(line, words[1].offset, places, mistakes, names);
             continue;
         }
         Claim claim = common;
         claim.place = places[words[0].offset];
-        claim.equation = parse_equality(line, places, mistakes, claim.at == Claim::At::impact);
+        claim.equation = parse_equality(line, places, mistakes, claim.at == Claim::At::impact, &names);
         result.claims.push_back(std::move(claim));
     }
     if (!mistakes.empty()) fail(result, std::move(mistakes));

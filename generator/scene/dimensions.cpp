@@ -190,7 +190,7 @@ std::optional<Dimension> Dimensions::of(const Tree& tree) {
 
 std::optional<Dimension> Dimensions::of_number(const Tree& tree) const {
     if (numbers_ == Numbers::pure) return Dimension{};
-    const double value = std::stod(tree.text);
+    const double value = value_of_digits(tree.text);
     const bool is_pure = (value == std::floor(value) && value <= most_pure) || value == 0.5 || value == 0.25;
     return is_pure ? Known(Dimension{}) : Known();
 }
@@ -222,7 +222,7 @@ std::optional<Dimension> Dimensions::of_power(const Tree& tree) {
     of(*tree.args[1]);
     if (base && base->empty()) return base;
     if (!base || tree.args[1]->kind != Tree::Kind::number) return {};
-    return multiplied({}, *base, std::stod(tree.args[1]->text));
+    return multiplied({}, *base, value_of_digits(tree.args[1]->text));
 }
 
 std::optional<Dimension> Dimensions::of_call(const Tree& tree) {
@@ -304,9 +304,9 @@ bool Dimensions::learn(const Tree& tree, const Known& wanted) {
         }
         case Kind::power: {
             const Tree& exponent = *tree.args[1];
-            const bool is_known = wanted && exponent.kind == Kind::number && std::stod(exponent.text) != 0;
+            const bool is_known = wanted && exponent.kind == Kind::number && value_of_digits(exponent.text) != 0;
             return learn(*tree.args[0],
-                         is_known ? Known(multiplied({}, *wanted, 1 / std::stod(exponent.text))) : Known());
+                         is_known ? Known(multiplied({}, *wanted, 1 / value_of_digits(exponent.text))) : Known());
         }
         case Kind::call:
             if (functions_of_numbers().contains(tree.text)) {

@@ -24,6 +24,7 @@
 #include "base/language/say.hpp"
 #include "scene/functions.hpp"
 #include "scene/hints.hpp"
+#include "scene/known_names.hpp"
 #include "scene/text.hpp"
 #include "scene/tokens.hpp"
 #include "scene/typed.hpp"
@@ -47,8 +48,8 @@ struct Operand {
 
 class Parser {
 public:
-    Parser(const std::string& text, bool rates_before)
-        : words_{text, tokenize(text)}, rates_before_(rates_before) {}
+    Parser(const std::string& text, bool rates_before, const KnownNames* names)
+        : words_{text, tokenize(text)}, rates_before_(rates_before), names_(names) {}
 
     TreePtr parse() {
         if (words_.at_end()) stop(0, say("the expression is empty"));
@@ -60,6 +61,7 @@ public:
 private:
     Words words_;
     const bool rates_before_;
+    const KnownNames* const names_;  ///< of the scene, and the units of its own; null for none
     int depth_ = 0;
 
     struct Level {
@@ -205,8 +207,7 @@ private:
         const std::string literal = words_.word(now());
         const int begin = next();
         if (now().kind == Token::Kind::primes) stop(now().offset, say("a number has no derivative"));
-        double value = 0;
-        std::from_chars(literal.data(), literal.data() + literal.size(), value);
+        const double value = value_of_digits(literal);
         const TreePtr number = make(Kind::number, begin, literal);
         return is_unit(0) ? quantity(number, begin) : Operand{number, value};
     }
@@ -216,20 +217,24 @@ private:
     /// Whether the word `ahead` tokens from here is a unit; min(x, y) is none.
     bool is_unit(std::size_t ahead) const {
         const Token &word = words_.ahead(ahead), &next = words_.ahead(ahead + 1);
-        return word.kind == Token::Kind::name && !Words::is(next, '(') && next.kind != Token::Kind::primes &&
-               words_.word(word) != "t" && (is_known_unit(words_.word(word)) || is_no_multiple(words_.word(word)));
+        if (word.kind != Token::Kind::name || Words::is(next, '(') || next.kind == Token::Kind::primes)
+            return false;
+        const std::string text = words_.word(word);
+        if (names_ != nullptr && names_->units().contains(text)) return true;
+        if (names_ != nullptr && names_->has(text) && !is_unit_symbol(text)) return false;
+        return is_known_unit(text) || is_no_multiple(text);
     }
 
     /// The number times what its unit is in the SI.
     Operand quantity(const TreePtr& number, int begin) {
         const int unit_begin = now().offset;
         const std::string text = unit();
-        const std::optional<UnitMeaning> meaning = meaning_of_unit(text);
-        if (!meaning) stop(unit_begin, say("'{}' is no unit", text));
+        const UnitReading unit = names_ == nullptr ? read_unit(text) : read_unit(text, names_->units());
+        if (!unit.meaning) stop(unit_begin, say("'{}' is no unit: {}", text, unit.mistake));
         std::vector<TreePtr> factors{number};
-        if (!meaning->exact.empty()) factors.push_back(Parser(meaning->exact, false).parse());
+        if (!unit.meaning->exact.empty()) factors.push_back(Parser(unit.meaning->exact, false, nullptr).parse());
         Tree whole{Kind::product, "", 0, std::move(factors), begin, words_.end() - begin};
-        whole.unit = text;
+        whole.unit = unit.has_own ? unit.meaning->si : text;
         return {std::make_shared<const Tree>(std::move(whole)), {}};
     }
 
@@ -329,14 +334,15 @@ private:
     }
 };
 
-TreePtr parse(const Expression& expression, bool rates_before, std::vector<Diagnostic>& diagnostics) {
+TreePtr parse(const Expression& expression, bool rates_before, std::vector<Diagnostic>& diagnostics,
+              const KnownNames* names) {
     if (expression.text.size() > longest_expression) {
         diagnostics.push_back({expression.place(), say("an expression of {} bytes; the limit is {} (64 KiB)",
                                                        expression.text.size(), longest_expression)});
         return nullptr;
     }
     try {
-        return Parser(expression.text, rates_before).parse();
+        return Parser(expression.text, rates_before, names).parse();
     } catch (const Mistake& mistake) {
         diagnostics.push_back({expression.place(mistake.offset), mistake.message});
         return nullptr;
@@ -353,15 +359,22 @@ Expression slice(const std::string& text, const std::vector<Place>& places, std:
 
 }  // namespace
 
-Expression parse_expression(std::string text, std::vector<Place> places, std::vector<Diagnostic>& diagnostics) {
+double value_of_digits(const std::string& digits) {
+    double value = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return value;
+}
+
+Expression parse_expression(std::string text, std::vector<Place> places, std::vector<Diagnostic>& diagnostics,
+                            const KnownNames* names) {
     write_plainly(text, places);
     Expression result{std::move(text), std::move(places), nullptr};
-    result.tree = parse(result, false, diagnostics);
+    result.tree = parse(result, false, diagnostics, names);
     return result;
 }
 
 Equality parse_equality(const std::string& typed, const std::vector<Place>& their_places,
-                        std::vector<Diagnostic>& diagnostics, bool rates_before) {
+                        std::vector<Diagnostic>& diagnostics, bool rates_before, const KnownNames* names) {
     std::string text = typed;
     std::vector<Place> places = their_places;
     write_plainly(text, places);
@@ -381,13 +394,13 @@ Equality parse_equality(const std::string& typed, const std::vector<Place>& thei
     if (text.find_first_not_of(" \t\r\n", sign + 1) == std::string::npos)
         return refuse(sign, say("nothing stands to the right of ="));
     Equality result{slice(text, places, 0, sign), slice(text, places, sign + 1, text.size())};
-    result.lhs.tree = parse(result.lhs, rates_before, diagnostics);
-    result.rhs.tree = parse(result.rhs, rates_before, diagnostics);
+    result.lhs.tree = parse(result.lhs, rates_before, diagnostics, names);
+    result.rhs.tree = parse(result.rhs, rates_before, diagnostics, names);
     return result;
 }
 
 Inequality parse_inequality(const std::string& typed, const std::vector<Place>& their_places,
-                            std::vector<Diagnostic>& diagnostics) {
+                            std::vector<Diagnostic>& diagnostics, const KnownNames* names) {
     std::string text = typed;
     std::vector<Place> places = their_places;
     write_plainly(text, places);
@@ -405,8 +418,8 @@ Inequality parse_inequality(const std::string& typed, const std::vector<Place>& 
     if (is_blank(0, sign)) return refuse(sign, say("nothing stands to the left of {}", text[sign]));
     if (is_blank(sign + 1, text.size())) return refuse(sign, say("nothing stands to the right of {}", text[sign]));
     Expression left = slice(text, places, 0, sign), right = slice(text, places, sign + 1, text.size());
-    left.tree = parse(left, false, diagnostics);
-    right.tree = parse(right, false, diagnostics);
+    left.tree = parse(left, false, diagnostics, names);
+    right.tree = parse(right, false, diagnostics, names);
     return text[sign] == '>' ? Inequality{std::move(left), std::move(right)}
                              : Inequality{std::move(right), std::move(left)};
 }

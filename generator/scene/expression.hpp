@@ -16,6 +16,8 @@
 
 namespace alembert {
 
+class KnownNames;
+
 struct Tree;
 using TreePtr = std::shared_ptr<const Tree>;
 
@@ -55,7 +57,12 @@ struct Expression {
 
 /// Parses one expression. Mistakes are appended to `diagnostics`, and the result's tree is then null. `places` is
 /// as in Expression and may be empty. The limits are 64 KiB, 200 levels of nesting, and whole exponents up to 64.
-Expression parse_expression(std::string text, std::vector<Place> places, std::vector<Diagnostic>& diagnostics);
+/// Right after a number, units of the scene's own come first, then its names, then most units.
+Expression parse_expression(std::string text, std::vector<Place> places, std::vector<Diagnostic>& diagnostics,
+                            const KnownNames* names = nullptr);
+
+/// The value of the digits of a number, which are within the range of double precision, or near 0.
+double value_of_digits(const std::string& digits);
 
 /// An equation `lhs = rhs` (exactly one `=`).
 struct Equality {
@@ -68,7 +75,7 @@ struct Inequality {
 };
 
 Inequality parse_inequality(const std::string& text, const std::vector<Place>& places,
-                            std::vector<Diagnostic>& diagnostics);
+                            std::vector<Diagnostic>& diagnostics, const KnownNames* names = nullptr);
 
 /// The text `lhs = rhs` without superfluous blanks.
 std::string text_of(const Equality& equation);
@@ -76,7 +83,8 @@ std::string text_of(const Equality& equation);
 /// With `rates_before`, `x'(-)`, the rate before an impact, is allowed: it becomes a call named `(-)` whose
 /// argument is the name x with one prime.
 Equality parse_equality(const std::string& text, const std::vector<Place>& places,
-                        std::vector<Diagnostic>& diagnostics, bool rates_before = false);
+                        std::vector<Diagnostic>& diagnostics, bool rates_before = false,
+                        const KnownNames* names = nullptr);
 
 /// The names of the scalar functions of one argument, of those of two arguments, and of the vector functions, for
 /// reserved names and for hints.

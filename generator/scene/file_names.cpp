@@ -6,6 +6,11 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/own_units.hpp"
+#include "scene/typed.hpp"
 
 namespace alembert {
 
@@ -44,10 +49,24 @@ void add_multipliers(const std::string& name, std::string_view kind, KnownNames&
         for (int k = 1; k <= 6; ++k) names.add(fmt::format("{}_{}", stem, k));
 }
 
+/// What is wrong with them is told where [units] is read.
+OwnUnits units_in(const toml::node_view<const toml::node>& node) {
+    std::vector<UnitDefinition> definitions;
+    if (const toml::table* const table = node.as_table())
+        for (const auto& [key, value] : *table) {
+            UnitDefinition one{plain_name(std::string(key.str())), value.value_or(std::string())};
+            std::vector<Place> none;
+            write_plainly(one.value, none);
+            definitions.push_back(std::move(one));
+        }
+    return own_units(definitions, [](std::size_t, std::size_t, const std::string&) {});
+}
+
 }  // namespace
 
 KnownNames names_in(const toml::table& scene) {
     KnownNames names;
+    names.set_units(units_in(scene["units"]));
     for (const std::string_view table : {"coordinates", "speeds", "inputs", "definitions"})
         add_keys(scene[table], names, true);
     for (const std::string_view table : {"parameters", "functions", "outputs"})

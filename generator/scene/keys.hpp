@@ -84,6 +84,7 @@ inline constexpr TableKeys table_keys[] = {
      TableKeys::Shape::one,
      {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "regularize", "period"}},
     {"letters", TableKeys::Shape::one},
+    {"units", TableKeys::Shape::one},
     {"scenery",
      TableKeys::Shape::list,
      {"box",   "disc",  "ring", "rod",    "ball",   "ellipsoid", "cylinder", "cone",   "wedge", "polygon", "line",

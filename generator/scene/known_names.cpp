@@ -45,7 +45,7 @@ constexpr std::pair<std::string_view, std::string_view> rate_suffixes[] = {
 
 }  // namespace
 
-KnownNames::KnownNames(const Scene& scene) {
+KnownNames::KnownNames(const Scene& scene) : units_(scene.units) {
     using Kind = Declared::Kind;
     std::vector<Diagnostic> none;
     const NameSpaces names = declare(scene, none);

@@ -10,6 +10,9 @@
 
 #include <map>
 #include <string>
+#include <utility>
+
+#include "scene/unit_text.hpp"
 
 namespace alembert {
 
@@ -35,7 +38,12 @@ public:
     /// "theta'" for thetadot, theta_dot, θdot, θ̇; "theta''" for thetaddot. Empty if it is no such word.
     std::string rate_meant(const std::string& word) const;
 
+    /// The units of its own, which are words after a number alone.
+    const OwnUnits& units() const { return units_; }
+    void set_units(OwnUnits units) { units_ = std::move(units); }
+
 private:
+    OwnUnits units_;
     std::map<std::string, bool> names_;               // whether it moves
     std::map<std::string, std::string> by_spelling_;  // Latin spelling → name; empty if there are several
 };

@@ -68,7 +68,7 @@ void Quantities::doubt_angle(const Context& context, const Tree& call) {
     const Tree& arg = *call.args[0];
     const Tree& number = arg.kind == Kind::negate ? *arg.args[0] : arg;
     constexpr double whole_turn = 6.2832;
-    if (number.kind != Kind::number || std::stod(number.text) < whole_turn) return;
+    if (number.kind != Kind::number || value_of_digits(number.text) < whole_turn) return;
     warnings_.push_back({context.expression.place(arg.offset),
                          say("{0}({1}) takes {1} as radians; an angle in degrees is written {0}({1} deg)",
                              call.text, (arg.kind == Kind::negate ? "-" : "") + number.text),

@@ -279,7 +279,7 @@ std::optional<double> value_of(const Expression& e) {
         }
         switch (tree.kind) {
             case Tree::Kind::number:
-                return std::stod(tree.text);
+                return value_of_digits(tree.text);
             case Tree::Kind::name:
                 return tree.text == "pi" ? std::optional(M_PI) : std::nullopt;
             case Tree::Kind::sum:

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "scene/expression.hpp"
+#include "scene/unit_text.hpp"
 
 namespace alembert {
 
@@ -35,6 +36,7 @@ struct Vector {
 struct Shown {
     std::string unit;   ///< "mm"; empty where numbers are as given
     double size = 1;    ///< of this unit in that of the SI: 0.001
+    std::string exact;  ///< the same as an expression
     std::string value;  ///< of the name, as typed
 };
 
@@ -42,6 +44,7 @@ struct Parameter {
     Name name;
     Expression value;  ///< a number, or an expression in other parameters
     std::string unit, about;
+    Place unit_place = {};
     Shown shown = {};
 };
 
@@ -49,6 +52,7 @@ struct Input {
     Name name;
     Expression value;  ///< in t, parameters (and other inputs)
     std::string unit, about;
+    Place unit_place = {};
     Shown shown = {};
 };
 
@@ -59,6 +63,7 @@ struct Coordinate {
          rate_is_guess = false;            ///< the value may be changed so that the constraints hold at the start
     std::optional<Place> rate_given = {};  ///< the place where the scene gives `rate` or `rate_guess`
     std::string unit, about;
+    Place unit_place = {};
     Shown shown = {};
 };
 
@@ -84,6 +89,7 @@ struct Speed {
     Expression form;
     Expression initial;  ///< in parameters; null if missing
     std::string unit, about;
+    Place unit_place = {};
     Shown shown = {};
 };
 
@@ -310,6 +316,7 @@ struct Scene {
     std::string own_file = {}, own_text = {};
     std::string title, source, notes;
     std::optional<Vector> gravity;
+    OwnUnits units = {};  ///< of its own, from [units]
     std::vector<Parameter> parameters;
     std::vector<Input> inputs;
     std::vector<Coordinate> coordinates;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/language/say.hpp"
+#include "scene/own_units.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -32,7 +33,7 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what, 
         item.value = read_expression(table.reading(), *value->node, what);
     else
         keys.complain("value", say("{} needs '{}'", what, "value"));
-    item.unit = keys.text("unit");
+    item.unit = keys.unit("unit", item.unit_place);
     item.about = keys.text("about");
     return item;
 }
@@ -75,7 +76,7 @@ Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
     };
     start("initial", "guess", coordinate.initial, coordinate.initial_is_guess);
     start("rate", "rate_guess", coordinate.rate, coordinate.rate_is_guess);
-    coordinate.unit = keys.text("unit");
+    coordinate.unit = keys.unit("unit", coordinate.unit_place);
     coordinate.about = keys.text("about");
     return coordinate;
 }
@@ -96,7 +97,7 @@ void read_speeds(Table table, Scene& scene) {
             keys.allow("speeds.*");
             speed.form = keys.needed_expression("form");
             speed.initial = keys.expression("initial");
-            speed.unit = keys.text("unit");
+            speed.unit = keys.unit("unit", speed.unit_place);
             speed.about = keys.text("about");
         } else {
             speed.form = read_expression(table.reading(), *entry.node, what);
@@ -123,7 +124,7 @@ Expression along_N(const Vector& vector, const Reading& reading) {
         write(fmt::format(")*e{}(N)", "xyz"[k]));
     }
     places.push_back(vector.place);
-    return parse_expression(std::move(text), std::move(places), reading.diagnostics);
+    return parse_expression(std::move(text), std::move(places), reading.diagnostics, &reading.names);
 }
 
 void read_definitions(Table table, Scene& scene) {
@@ -150,6 +151,21 @@ void read_functions(Table table, Scene& scene) {
                                          most_arguments, in_quotes(entry.key), made.arguments.size()));
         scene.functions.push_back(std::move(made));
     }
+}
+
+void read_units(Table table, Scene& scene) {
+    std::vector<UnitDefinition> definitions;
+    std::vector<std::vector<Place>> places;
+    for (const Entry& entry : table.entries()) {
+        std::optional<Literal> value = table.plain_text(entry.key);
+        if (!value) continue;
+        definitions.push_back({entry.key, std::move(value->text)});
+        places.push_back(std::move(value->places));
+    }
+    scene.units = own_units(definitions, [&](std::size_t which, std::size_t offset, const std::string& why) {
+        table.reading().complain(places[which][std::min(offset, places[which].size() - 1)],
+                                 say("the unit {} of [units]: {}", in_quotes(definitions[which].name), why));
+    });
 }
 
 void read_letters(Table table, Scene& scene) {
@@ -216,10 +232,13 @@ void read_outputs(Table table, Scene& scene) {
 
 std::span<const TableReader> symbol_sections() {
     static constexpr TableReader all[] = {
-        {"parameters", read_parameters}, {"inputs", read_inputs},           {"coordinates", read_coordinates},
-        {"speeds", read_speeds},         {"definitions", read_definitions}, {"functions", read_functions},
-        {"letters", read_letters},       {"energy", read_energy},           {"dissipation", read_dissipation},
-        {"forces", read_forces},         {"impulses", read_impulses},       {"outputs", read_outputs},
+        {"parameters", read_parameters},   {"inputs", read_inputs},
+        {"coordinates", read_coordinates}, {"speeds", read_speeds},
+        {"definitions", read_definitions}, {"functions", read_functions},
+        {"letters", read_letters},         {"units", read_units},
+        {"energy", read_energy},           {"dissipation", read_dissipation},
+        {"forces", read_forces},           {"impulses", read_impulses},
+        {"outputs", read_outputs},
     };
     return all;
 }

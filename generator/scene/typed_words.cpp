@@ -66,7 +66,7 @@ private:
     bool is_unit(std::size_t k) const {
         const std::string word(pieces_.word(k));
         return k > 0 && pieces_[k - 1].kind == TypedPiece::Kind::number && !is_call(k) && !names_.has(word) &&
-               is_known_unit(word);
+               (is_known_unit(word) || names_.units().contains(word));
     }
 
     void word(std::size_t k) {

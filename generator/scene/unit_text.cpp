@@ -4,151 +4,42 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <set>
 #include <string_view>
 #include <utility>
+
+#include "base/language/say.hpp"
+#include "scene/hints.hpp"
+#include "scene/text.hpp"
+#include "scene/tokens.hpp"
+#include "scene/typed.hpp"
 
 namespace alembert {
 
 namespace {
 
-struct KnownUnit {
-    std::string_view word;
-    UnitExponents exponents;
-    double factor;
-    std::string_view exact;  ///< as in UnitMeaning
-    std::string_view si;     ///< likewise
-    bool has_prefixes = false;
-};
+constexpr int most_unit_exponent = 64;      // as in expressions
+constexpr double most_unit_factor = 1e250;  // the factor times a number stays a number of double precision
 
-const UnitExponents length{{"m", 1}}, mass{{"kg", 1}}, duration{{"s", 1}}, angle{{"rad", 1}},
-    force{{"kg", 1}, {"m", 1}, {"s", -2}}, work{{"kg", 1}, {"m", 2}, {"s", -2}},
-    power{{"kg", 1}, {"m", 2}, {"s", -3}}, pressure{{"kg", 1}, {"m", -1}, {"s", -2}}, speed{{"m", 1}, {"s", -1}},
-    turning{{"rad", 1}, {"s", -1}};
-
-const double pi = std::acos(-1.0);
-constexpr double pound = 0.45359237, inch = 0.0254, foot = 0.3048, gravity = 9.80665,
-                 pound_force = pound * gravity;
-
-const std::vector<KnownUnit> table{
-    {"1", {}, 1, "", "1"},
-    {"m", length, 1, "", "m", true},
-    {"s", duration, 1, "", "s", true},
-    {"g", mass, 1e-3, "0.001", "kg", true},
-    {"kg", mass, 1, "", "kg"},
-    {"rad", angle, 1, "", "rad", true},
-    {"A", {{"A", 1}}, 1, "", "A", true},
-    {"K", {{"K", 1}}, 1, "", "K", true},
-    {"mol", {{"mol", 1}}, 1, "", "mol", true},
-    {"cd", {{"cd", 1}}, 1, "", "cd"},
-    {"N", force, 1, "", "N", true},
-    {"J", work, 1, "", "J", true},
-    {"W", power, 1, "", "W", true},
-    {"Pa", pressure, 1, "", "Pa", true},
-    {"Hz", {{"s", -1}}, 1, "", "Hz", true},
-    {"C", {{"A", 1}, {"s", 1}}, 1, "", "C", true},
-    {"V", {{"kg", 1}, {"m", 2}, {"s", -3}, {"A", -1}}, 1, "", "V", true},
-    {"T", {{"kg", 1}, {"s", -2}, {"A", -1}}, 1, "", "T", true},
-    {"F", {{"kg", -1}, {"m", -2}, {"s", 4}, {"A", 2}}, 1, "", "F", true},
-    {"H", {{"kg", 1}, {"m", 2}, {"s", -2}, {"A", -2}}, 1, "", "H", true},
-    {"ohm", {{"kg", 1}, {"m", 2}, {"s", -3}, {"A", -2}}, 1, "", "ohm", true},
-    {"deg", angle, pi / 180, "pi/180", "rad"},
-    {"°", angle, pi / 180, "pi/180", "rad"},
-    {"rev", angle, 2 * pi, "2*pi", "rad"},
-    {"rpm", turning, pi / 30, "pi/30", "rad/s"},
-    {"in", length, inch, "0.0254", "m"},
-    {"ft", length, foot, "0.3048", "m"},
-    {"yd", length, 3 * foot, "0.9144", "m"},
-    {"mi", length, 5280 * foot, "1609.344", "m"},
-    {"min", duration, 60, "60", "s"},
-    {"h", duration, 3600, "3600", "s"},
-    {"lb", mass, pound, "0.45359237", "kg"},
-    {"lbm", mass, pound, "0.45359237", "kg"},
-    {"oz", mass, pound / 16, "0.45359237/16", "kg"},
-    {"slug", mass, pound_force / foot, "0.45359237*9.80665/0.3048", "kg"},
-    {"lbf", force, pound_force, "0.45359237*9.80665", "N"},
-    {"kip", force, 1000 * pound_force, "453.59237*9.80665", "N"},
-    {"kgf", force, gravity, "9.80665", "N"},
-    {"dyn", force, 1e-5, "0.00001", "N"},
-    {"erg", work, 1e-7, "0.0000001", "J"},
-    {"cal", work, 4.184, "4.184", "J", true},
-    {"Wh", work, 3600, "3600", "J", true},
-    {"hp", power, 550 * foot* pound_force, "550*0.3048*0.45359237*9.80665", "W"},
-    {"PS", power, 75 * gravity, "75*9.80665", "W"},
-    {"bar", pressure, 1e5, "100000", "Pa", true},
-    {"atm", pressure, 101325, "101325", "Pa"},
-    {"psi", pressure, pound_force / (inch * inch), "0.45359237*9.80665/0.0254^2", "Pa"},
-    {"mph", speed, 5280 * foot / 3600, "1609.344/3600", "m/s"},
-    {"kmh", speed, 1 / 3.6, "1/3.6", "m/s"},
-    {"kn", speed, 1852.0 / 3600, "1852/3600", "m/s"},
-};
-
-/// Other spellings.
-const std::map<std::string_view, std::string_view> synonyms{
-    {"meter", "m"},         {"meters", "m"},    {"metre", "m"},      {"metres", "m"},
-    {"second", "s"},        {"seconds", "s"},   {"sec", "s"},        {"gram", "g"},
-    {"grams", "g"},         {"kilogram", "kg"}, {"kilograms", "kg"}, {"radian", "rad"},
-    {"radians", "rad"},     {"degree", "deg"},  {"degrees", "deg"},  {"newton", "N"},
-    {"newtons", "N"},       {"joule", "J"},     {"joules", "J"},     {"watt", "W"},
-    {"watts", "W"},         {"pascal", "Pa"},   {"hertz", "Hz"},     {"inch", "in"},
-    {"inches", "in"},       {"foot", "ft"},     {"feet", "ft"},      {"pound", "lb"},
-    {"pounds", "lb"},       {"lbs", "lb"},      {"minute", "min"},   {"minutes", "min"},
-    {"hour", "h"},          {"hours", "h"},     {"hr", "h"},         {"revolution", "rev"},
-    {"revolutions", "rev"}, {"turn", "rev"},    {"turns", "rev"},    {"Ohm", "ohm"},
-    {"Ω", "ohm"},           {"º", "°"}};
-
-struct Prefix {
-    std::string_view letter;
-    int ten;
-};
-
-constexpr Prefix prefixes[] = {{"da", 1}, {"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3}, {"c", -2},
-                               {"d", -1}, {"h", 2},  {"k", 3},  {"M", 6},  {"G", 9},  {"T", 12}};
-
-const KnownUnit* find_unit(std::string_view word) {
-    if (const auto other = synonyms.find(word); other != synonyms.end()) word = other->second;
-    const auto found =
-        std::find_if(table.begin(), table.end(), [&](const KnownUnit& u) { return u.word == word; });
-    return found == table.end() ? nullptr : &*found;
+bool digit_stands_at(const std::string& text, std::size_t at) {
+    return at < text.size() && text[at] >= '0' && text[at] <= '9';
 }
 
-/// 1000 as "1000", 10^-3 as "0.001".
-std::string power_of_ten(int ten) {
-    return ten >= 0 ? "1" + std::string(static_cast<std::size_t>(ten), '0')
-                    : "0." + std::string(static_cast<std::size_t>(-ten - 1), '0') + "1";
-}
-
-UnitMeaning meaning_of(const KnownUnit& unit) {
-    return {unit.exponents, unit.factor, std::string(unit.exact), std::string(unit.si)};
-}
-
-std::optional<UnitMeaning> meaning_of_word(const std::string& word) {
-    if (const KnownUnit* const unit = find_unit(word)) return meaning_of(*unit);
-    for (const Prefix& prefix : prefixes) {
-        if (!word.starts_with(prefix.letter)) continue;
-        const KnownUnit* const unit = find_unit(std::string_view(word).substr(prefix.letter.size()));
-        if (unit == nullptr || !unit->has_prefixes) continue;
-        UnitMeaning result = meaning_of(*unit);
-        const int ten = prefix.ten - (unit->word == "g" ? 3 : 0);  // kg is the unit of the SI
-        result.factor = ten == 0            ? 1
-                        : unit->word == "g" ? std::pow(10.0, ten)
-                                            : std::pow(10.0, ten) * unit->factor;
-        result.exact = ten == 0 ? "" : power_of_ten(ten);
-        if (unit->word != "g" && !unit->exact.empty()) result.exact += fmt::format("*({})", unit->exact);
-        return result;
-    }
-    return {};
+/// "mm2" without its digits; the word itself where it ends with none.
+std::string without_digits(const std::string& word) {
+    const std::size_t last = word.find_last_not_of("0123456789");
+    return last == std::string::npos ? word : word.substr(0, last + 1);
 }
 
 class UnitText {
 public:
-    explicit UnitText(const std::string& text) : text_(text) {}
+    UnitText(const std::string& text, const OwnUnits& own, UnitReading& reading)
+        : text_(text), own_(own), reading_(reading) {}
 
-    std::optional<UnitMeaning> meaning() {
+    UnitMeaning meaning() {
         UnitMeaning result = product();
-        if (bad_ || at_ < text_.size()) return std::nullopt;
+        if (at_ < text_.size())
+            stop(static_cast<int>(at_), say("this parenthesis closes nothing: none is open here"));
         return result;
     }
 
@@ -159,47 +50,93 @@ private:
         return true;
     }
 
-    UnitMeaning product() {
-        UnitMeaning result;
+    [[noreturn]] void refuse(std::size_t at, std::string message) const {
+        stop(static_cast<int>(std::min(at, text_.size())), std::move(message));
+    }
+
+    /// What joins two words.
+    struct Link {
+        std::string text;  ///< "*", " per " as "/"
         bool divides = false;
-        std::size_t after = at_;  // the end of the part before, so that what joins two parts is kept
-        while (at_ < text_.size() && text_[at_] != ')' && !bad_) {
-            if (take(' ') || take('*') || take('.')) continue;
-            if (take('/')) {
-                divides = true;
-                continue;
-            }
-            const std::string joined = text_.substr(after, at_ - after);
-            UnitMeaning factor = take('(') ? in_brackets() : word();
-            const std::size_t begin = at_;
-            const double power = (divides ? -1 : 1) * exponent();
-            const bool is_alone = result.si.empty() && begin == text_.size();
-            result.si += joined + (is_compound(factor) && !is_alone ? "(" + factor.si + ")" : factor.si) +
-                         text_.substr(begin, at_ - begin);
-            multiply(result, factor, power);
-            after = at_;
-            divides = false;
+    };
+    Link link(bool is_first) {
+        const std::size_t begin = at_;
+        std::size_t sign = std::string::npos;
+        Link result;
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            const bool is_word = text_.compare(at_, 4, "per ") == 0 && at_ > begin;
+            const bool is_sign = is_word || c == '*' || c == '/' || c == '.' || (c == '-' && !is_first);
+            if (!is_sign && c != ' ' && c != '\t') break;
+            if (is_sign && (is_first || sign != std::string::npos))
+                refuse(at_, say("a word of a unit is missing before '{}'", is_word ? "per" : std::string(1, c)));
+            if (is_sign) sign = at_;
+            result.divides |= is_word || c == '/';
+            result.text += is_word || c == '/' ? '/' : c == '-' ? '*' : c;
+            at_ += is_word ? 4 : 1;
+            if (is_word) result.text = "/";
         }
+        const bool is_end = at_ >= text_.size() || text_[at_] == ')';
+        if (is_end && sign != std::string::npos)
+            refuse(sign, say("nothing follows '{}'",
+                             text_.compare(sign, 3, "per") == 0 ? "per" : text_.substr(sign, 1)));
+        if (!is_end && !is_first && result.text.empty() && text_[at_ - 1] != ')' && text_[at_] != '(')
+            result.text = "*";  // kg²m
         return result;
     }
 
+    UnitMeaning product() {
+        UnitMeaning result;
+        bool is_first = true;
+        while (true) {
+            const Link before = link(is_first);
+            if (at_ >= text_.size() || text_[at_] == ')') {
+                if (is_first) refuse(at_, say("a unit is missing here"));
+                return result;
+            }
+            multiply(result, before, is_first);
+            is_first = false;
+        }
+    }
+
+    /// A word or a parenthesis with its exponent.
+    void multiply(UnitMeaning& result, const Link& before, bool is_first) {
+        const std::vector<UnitMeaning> factors = take('(') ? std::vector{in_brackets()} : word();
+        const std::size_t begin = at_;
+        const int power = exponent();
+        const bool is_alone = is_first && begin == text_.size() && factors.size() == 1;
+        std::string si;
+        for (const UnitMeaning& factor : factors)
+            si += (si.empty() ? "" : "*") + (is_compound(factor) && !is_alone ? "(" + factor.si + ")" : factor.si);
+        si += text_.substr(begin, at_ - begin);
+        result.si += before.text + (factors.size() > 1 && before.divides ? "(" + si + ")" : si);
+        for (std::size_t k = 0; k < factors.size(); ++k)
+            multiply(result, factors[k], (before.divides ? -1 : 1) * (k + 1 == factors.size() ? power : 1));
+        const double size = std::abs(result.factor);
+        if (!(size <= most_unit_factor) || !(size >= 1 / most_unit_factor))
+            refuse(begin, say("this unit is beyond the range of double precision"));
+    }
+
     UnitMeaning in_brackets() {
+        const std::size_t opening = at_ - 1;
+        if (++depth_ > 100) refuse(opening, say("nested more than {} levels deep", 100));
         UnitMeaning inside = product();
-        bad_ = bad_ || !take(')');
+        if (!take(')')) refuse(opening, say("this parenthesis is never closed"));
+        --depth_;
         inside.si = "(" + inside.si + ")";
         return inside;
     }
 
     /// Whether its unit of the SI, unlike itself, is made of several: "rpm".
     static bool is_compound(const UnitMeaning& word) {
-        return !word.si.starts_with('(') && word.si.find('/') != std::string::npos;
+        return !word.si.starts_with('(') && word.si.find_first_of("/*^ ") != std::string::npos;
     }
 
-    static void multiply(UnitMeaning& result, const UnitMeaning& factor, double power) {
+    static void multiply(UnitMeaning& result, const UnitMeaning& factor, int power) {
         result.exponents = multiplied(std::move(result.exponents), factor.exponents, power);
         result.factor *= std::pow(factor.factor, power);
         if (factor.exact.empty()) return;
-        const double size = std::abs(power);
+        const int size = std::abs(power);
         if (result.exact.empty() && power == 1) {
             result.exact = factor.exact;
             return;
@@ -209,39 +146,120 @@ private:
                                     size == 1 ? "" : fmt::format("^{}", size));
     }
 
-    double exponent() {
-        if (take_text("²")) return 2;
-        if (take_text("³")) return 3;
-        if (!take('^')) return 1;
-        const bool minus = take('-');
+    /// ^2, ^-1, ², -1 or 2 right after a word.
+    int exponent() {
+        const std::size_t begin = at_;
+        const bool has_sign = take('^');
+        const bool has_bracket = has_sign && take('(');
+        const bool minus = (has_sign || digit_stands_at(text_, at_ + 1)) && take('-');
+        if (has_sign && !minus) take('+');
+        if (!has_sign && !digit_stands_at(text_, at_)) return at_ = begin, 1;
         int value = 0;
-        const std::size_t start = at_;
-        while (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0)
-            value = std::min(1000, 10 * value + (text_[at_++] - '0'));
-        bad_ = bad_ || at_ == start || value > 99;
+        const std::size_t digits = at_;
+        while (digit_stands_at(text_, at_)) value = std::min(1000, 10 * value + (text_[at_++] - '0'));
+        const bool is_fraction = at_ < text_.size() && ((text_[at_] == '.' && digit_stands_at(text_, at_ + 1)) ||
+                                                        (has_bracket && text_[at_] == '/'));
+        if (at_ == digits || is_fraction || (has_bracket && !take(')')))
+            refuse(begin, say("the power of a unit is a whole number"));
+        if (value == 0 || value > most_unit_exponent)
+            refuse(begin, say("the exponent {} of a unit is not between 1 and {} in size",
+                              text_.substr(digits, at_ - digits), most_unit_exponent));
         return minus ? -value : value;
     }
 
-    bool take_text(std::string_view words) {
-        if (text_.compare(at_, words.size(), words) != 0) return false;
-        at_ += words.size();
-        return true;
+    /// The end of the word that begins here; a hyphen between letters belongs to it.
+    std::size_t word_end() const {
+        std::size_t end = at_;
+        while (end < text_.size()) {
+            std::size_t next = end;
+            const char32_t c = decode(text_, next);
+            if (c == U'-') {
+                const bool is_between = end > at_ && next < text_.size();
+                if (!is_between || !is_letter_at(next)) break;
+            } else if (!is_unit_letter(c) && !is_digit(c)) {
+                break;
+            }
+            end = next;
+        }
+        return end;
     }
 
-    UnitMeaning word() {
-        const std::size_t start = at_;
-        while (at_ < text_.size() && std::string(" *./^()").find(text_[at_]) == std::string::npos &&
-               text_.compare(at_, 2, "²") != 0 && text_.compare(at_, 2, "³") != 0)
-            ++at_;
-        const std::string name = text_.substr(start, at_ - start);
-        bad_ = bad_ || name.empty();
-        if (const auto known = meaning_of_word(name)) return *known;
-        return {{{name, 1}}, 1, "", name};
+    static bool is_unit_letter(char32_t c) {
+        return is_letter(c) || c == U'°' || c == U'º' || c == U'%' || c == U'℃' || c == U'℉';
+    }
+    bool is_letter_at(std::size_t at) const { return is_unit_letter(decode(text_, at)); }
+
+    /// The one or the two units that a word is; `at_` is then behind it, and before the digits of its exponent.
+    std::vector<UnitMeaning> word() {
+        const std::size_t begin = at_;
+        std::size_t end = word_end();
+        if (end == begin) {
+            std::size_t after = begin;
+            decode(text_, after);
+            refuse(begin, say("{} has no place in a unit", in_quotes(text_.substr(begin, after - begin))));
+        }
+        std::string name = text_.substr(begin, end - begin);
+        if (auto units = joined(name, end)) return *std::move(units);
+        for (std::size_t hyphen; (hyphen = name.rfind('-')) != std::string::npos;) {
+            name.resize(hyphen);
+            end = begin + hyphen;
+            if (auto units = joined(name, end)) return *std::move(units);
+        }
+        if (const auto known = own_.find(name); known != own_.end()) {
+            at_ = end;
+            reading_.has_own = true;
+            return {known->second};
+        }
+        if (is_digit(static_cast<unsigned char>(name[0])) && name != "1")
+            refuse(begin, say("a unit has no number but its exponents; the number is the value"));
+        return {of_word(name, end)};
+    }
+
+    /// Two words as one: "kNm", "kgm2", "ft-lb".
+    std::optional<std::vector<UnitMeaning>> joined(const std::string& name, std::size_t end) {
+        if (own_.contains(name) || unit_word(name).meaning) return {};
+        const std::string stem = without_digits(name);
+        if (unit_word(stem).meaning) return {};
+        const bool has_digits = stem.size() < name.size();
+        const bool has_exponent = has_digits || (end < text_.size() && text_[end] == '^');
+        auto words = joined_units(stem, has_exponent);
+        const bool is_damping = !words && stem.ends_with("ms");  // Nms, kNmms
+        if (is_damping) words = joined_units(stem.substr(0, stem.size() - 1), true);
+        if (!words || (is_damping && !words->first.ends_with('N'))) return {};
+        at_ = end - (name.size() - stem.size());
+        std::vector<UnitMeaning> units{*unit_word(words->first).meaning, *unit_word(words->second).meaning};
+        if (is_damping) units.push_back(*unit_word("s").meaning);
+        return units;
+    }
+
+    UnitMeaning of_word(const std::string& name, std::size_t end) {
+        at_ = end;
+        if (is_no_multiple(name))
+            refuse(end - name.size(),
+                   say("'{}' has a zero of its own or is a logarithm, and a quantity is a multiple of "
+                       "its unit; write it in K, or as a ratio",
+                       name));
+        UnitWord known = unit_word(name);
+        if (const std::string stem = without_digits(name); !known.meaning && stem.size() < name.size()) {
+            const auto own = own_.find(stem);
+            UnitWord of_stem = own == own_.end() ? unit_word(stem) : UnitWord{own->second};
+            if (of_stem.meaning) {
+                at_ = end - (name.size() - stem.size());
+                reading_.has_own |= own != own_.end();
+                known = std::move(of_stem);
+            }
+        }
+        if (!known.meaning || !known.meant.empty())
+            reading_.doubts.push_back({text_.substr(end - name.size(), at_ - (end - name.size())),
+                                       std::move(known.meant), known.meaning.has_value()});
+        return known.meaning ? *std::move(known.meaning) : UnitMeaning{{{name, 1}}, 1, "", name};
     }
 
     const std::string& text_;
+    const OwnUnits& own_;
+    UnitReading& reading_;
     std::size_t at_ = 0;
-    bool bad_ = false;
+    int depth_ = 0;
 };
 
 }  // namespace
@@ -252,24 +270,33 @@ UnitExponents multiplied(UnitExponents a, const UnitExponents& b, double exponen
     return a;
 }
 
-bool UnitMeaning::is_si() const {
-    static const std::set<std::string> bases{"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
-    return std::all_of(exponents.begin(), exponents.end(),
-                       [](const auto& entry) { return bases.contains(entry.first); });
+UnitReading read_unit(const std::string& text, const OwnUnits& own) {
+    UnitReading reading;
+    try {
+        reading.meaning = UnitText(text, own, reading).meaning();
+    } catch (const Mistake& mistake) {
+        reading.mistake = mistake.message;
+        reading.offset = mistake.offset;
+    }
+    return reading;
 }
 
 std::optional<UnitMeaning> meaning_of_unit(const std::string& text) {
-    return UnitText(text).meaning();
+    std::string plain = text;
+    std::vector<Place> none;
+    write_plainly(plain, none);
+    return read_unit(plain).meaning;
 }
 
 bool is_known_unit(const std::string& word) {
-    return meaning_of_word(word).has_value();
+    if (word.empty() || is_digit(static_cast<unsigned char>(word[0]))) return word == "1";
+    const UnitReading reading = read_unit(word);
+    return reading.meaning && reading.doubts.empty();
 }
 
-bool is_no_multiple(const std::string& word) {
-    static const std::set<std::string> words{"degC",       "degF", "°C",  "°F", "celsius",
-                                             "fahrenheit", "dB",   "dBA", "Np", "pH"};
-    return words.contains(word);
+bool is_unit_symbol(const std::string& word) {
+    const UnitWord known = unit_word(word);
+    return known.meaning && known.is_symbol;
 }
 
 }  // namespace alembert

@@ -9,39 +9,48 @@
 ///     unit->exact;                                 // "1/0.001"
 ///     unit->si;                                    // "N/m"
 ///
-/// A unit is words with whole exponents, joined by spaces, points, * and /; a / applies to the next word only. A
-/// word is one of the table in unit_text.cpp, with a prefix of the SI where it takes one, or a unit of the scene's
-/// own ("AU"), which counts as a base unit. Factors are exact: those of the International System (BIPM, The
-/// International System of Units, 9th edition 2019) and of the international yard and pound (1959).
+/// A unit is words (scene/unit_words.hpp) with whole exponents (m^2, m2, m²), joined by spaces, points, *, hyphens
+/// and / or "per", which apply to the next word only. Words written as one are read where engineers write them so:
+/// kNm, kgm2, ft-lb. A word that is not known counts as a base unit, and is told.
 
-#include <map>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "scene/unit_words.hpp"
 
 namespace alembert {
 
-/// A product of powers of base units: base unit → exponent, none of them 0.
-using UnitExponents = std::map<std::string, double>;
-
 UnitExponents multiplied(UnitExponents a, const UnitExponents& b, double exponent = 1);
 
-struct UnitMeaning {
-    UnitExponents exponents;  ///< rad counts as a base unit, and so does each word that is not known
-    double factor = 1;        ///< the unit as a multiple of that product: π/180 for "deg"
-    std::string exact;        ///< the factor as an expression of the scene language; empty where it is 1
-    std::string si;           ///< the unit with the factor 1 in its place: "rad" for "deg"
+/// The units of a scene's own, from [units].
+using OwnUnits = std::map<std::string, UnitMeaning>;
 
-    /// Whether it is made of kg, m, s, A, K, mol, cd and rad.
-    bool is_si() const;
+/// A word of a unit that is not known, or is most likely another one.
+struct UnitDoubt {
+    std::string word;
+    std::string meant;      ///< "litre"; may be empty
+    bool is_known = false;  ///< "PA", the petaampere
 };
 
-/// Nothing if the text is not of this form.
+struct UnitReading {
+    std::optional<UnitMeaning> meaning;  ///< nothing if the text is no unit
+    std::string mistake;                 ///< then why it is none: "nothing follows '/'"
+    int offset = 0;                      ///< and where
+    std::vector<UnitDoubt> doubts;
+    bool has_own = false;  ///< whether a unit of the scene's own is in it
+};
+
+/// The text is in plain signs (scene/typed.hpp).
+UnitReading read_unit(const std::string& text, const OwnUnits& own = {});
+
+/// Nothing if the text is no unit.
 std::optional<UnitMeaning> meaning_of_unit(const std::string& text);
 
-/// Whether this is a unit of the table, with or without a prefix.
+/// Whether this word is a unit after a number: one of the table, with or without a prefix, or several as one.
 bool is_known_unit(const std::string& word);
 
-/// Whether the zero of this scale is elsewhere, or the scale is no multiple of a unit: "degC", "dB".
-bool is_no_multiple(const std::string& word);
+/// Whether it is a symbol, "mm" or "kN", which no name of a scene takes away after a number.
+bool is_unit_symbol(const std::string& word);
 
 }  // namespace alembert

@@ -118,7 +118,8 @@ Expression read_expression(const Reading& reading, const toml::node& node, const
     if (node.is_string()) {
         if (!check_backslashes(reading, node)) return {};
         Literal literal = read_words(reading, node);
-        return parse_expression(std::move(literal.text), std::move(literal.places), reading.diagnostics);
+        return parse_expression(std::move(literal.text), std::move(literal.places), reading.diagnostics,
+                                &reading.names);
     }
     if (const auto* number = node.as_floating_point(); number && !std::isfinite(number->get())) {
         reading.complain(place_of(node), mismatch(what, node, say("a finite number")));
@@ -135,7 +136,7 @@ Expression read_expression(const Reading& reading, const toml::node& node, const
 Equality read_equality(const Reading& reading, const toml::node& node, bool rates_before) {
     if (!check_backslashes(reading, node)) return {};
     const Literal literal = read_words(reading, node);
-    return parse_equality(literal.text, literal.places, reading.diagnostics, rates_before);
+    return parse_equality(literal.text, literal.places, reading.diagnostics, rates_before, &reading.names);
 }
 
 std::vector<Inequality> read_inequalities(const Reading& reading, const toml::node& node,
@@ -149,7 +150,7 @@ std::vector<Inequality> read_inequalities(const Reading& reading, const toml::no
         }
         if (!check_backslashes(reading, one)) return;
         const Literal literal = read_words(reading, one);
-        result.push_back(parse_inequality(literal.text, literal.places, reading.diagnostics));
+        result.push_back(parse_inequality(literal.text, literal.places, reading.diagnostics, &reading.names));
     };
     if (const toml::array* const array = node.as_array())
         for (const toml::node& element : *array) read(element);
@@ -312,6 +313,29 @@ std::string Table::text(std::string_view key) const {
     if (!entry) return {};
     if (const auto* string = entry->node->as_string()) return string->get();
     reading_->complain(place_of(*entry->node), mismatch(what(key), *entry->node, say("a string")));
+    return {};
+}
+
+std::optional<Literal> Table::plain_text(std::string_view key) const {
+    const Entry* const entry = find(key);
+    if (!entry->node->is_string())
+        return reading_->complain(place_of(*entry->node), mismatch(what(key), *entry->node, say("a string"))),
+               std::nullopt;
+    Literal literal = read_literal(*reading_, *entry->node);
+    write_plainly(literal.text, literal.places);
+    return literal;
+}
+
+std::string Table::unit(std::string_view key, Place& place) const {
+    const std::string typed = text(key);
+    if (typed.empty()) return {};
+    const Literal plain = *plain_text(key);
+    place = plain.places.front();
+    const UnitReading unit = read_unit(plain.text, reading_->names.units());
+    if (unit.meaning) return typed;
+    const std::size_t offset = std::min(static_cast<std::size_t>(unit.offset), plain.places.size() - 1);
+    reading_->complain(plain.places[offset], say("{} is no unit, such as \"mm\" or \"kg*m^2\": {}",
+                                                 what(key) + " = " + in_quotes(typed), unit.mistake));
     return {};
 }
 

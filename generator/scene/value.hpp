@@ -82,6 +82,10 @@ public:
     void complain_of_missing(std::initializer_list<std::string_view> keys, const std::string& message) const;
 
     std::string text(std::string_view key) const;
+    /// A string in plain signs (scene/typed.hpp), with its places.
+    std::optional<Literal> plain_text(std::string_view key) const;
+    /// The text of a unit, and where it stands; complains of one that is none.
+    std::string unit(std::string_view key, Place& place) const;
     bool flag(std::string_view key) const;
     std::optional<Name> name(std::string_view key) const;
     std::vector<Name> names(std::string_view key) const;

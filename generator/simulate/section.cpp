@@ -6,6 +6,7 @@
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "model/formulas.hpp"
+#include "scene/known_names.hpp"
 
 namespace alembert {
 
@@ -25,8 +26,9 @@ void add_section(Scene& scene, const Mechanism& mechanism, const std::string& se
     if (equals == std::string::npos || section.find('=', equals + 1) != std::string::npos)
         refuse(say("this is none"));
     std::vector<Diagnostic> mistakes;
+    const KnownNames names(scene);
     const Expression difference = parse_expression(
-        fmt::format("({}) - ({})", section.substr(0, equals), section.substr(equals + 1)), {}, mistakes);
+        fmt::format("({}) - ({})", section.substr(0, equals), section.substr(equals + 1)), {}, mistakes, &names);
     if (!difference) refuse(mistakes.empty() ? say("this is none") : mistakes[0].message);
     try {
         Formulas formulas(scene, mechanism);

@@ -12,6 +12,7 @@
 #include "algebra/notation/text.hpp"
 #include "base/language/say.hpp"
 #include "model/formulas.hpp"
+#include "scene/known_names.hpp"
 #include "stability/lyapunov_samples.hpp"
 #include "stability/periodic.hpp"
 #include "stability/semidefinite.hpp"
@@ -31,7 +32,8 @@ ex read_function(const std::string& text, const LinearizedScene& scene) {
         throw ModelError(say("the Lyapunov function {}: {}", text, why));
     };
     std::vector<Diagnostic> mistakes;
-    const Expression expression = parse_expression(text, {}, mistakes);
+    const KnownNames names(scene.scene);
+    const Expression expression = parse_expression(text, {}, mistakes, &names);
     if (!expression) refuse(mistakes.empty() ? say("this is no expression") : mistakes[0].message);
     ex V;
     try {

@@ -273,10 +273,10 @@ private:
     }
 
     void quantity(const Math& math) {
-        const auto unit = meaning_of_unit(math.text);
-        if (!unit) refuse(math, say("the unit '{}' is not known", math.text));
+        const UnitReading unit = read_unit(math.text);
+        if (!unit.meaning || !unit.doubts.empty()) refuse(math, say("the unit '{}' is not known", math.text));
         inside(*math.args[0], Bond::product);
-        if (!unit->exact.empty()) out() += "*(" + unit->exact + ')';
+        if (!unit.meaning->exact.empty()) out() += "*(" + unit.meaning->exact + ')';
     }
 
     const ClaimWriting& how_;

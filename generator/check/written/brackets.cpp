@@ -220,7 +220,9 @@ std::size_t MathParser::unit_end(std::size_t i, std::string& unit) const {
         else if (what.kind == Kind::letter && what.dots == 0 && (what.upright || !is_upright))
             word = what.text.empty() || what.text == "word" ? what.letter.base : what.text;
         const bool is_angle = !what.upright && greek_named(word) != nullptr;  // 2ψ is no pressure in psi
-        if (word.empty() || is_angle || (what.kind == Kind::letter && !is_known_unit(word))) return begin;
+        const bool is_word = word.size() > 3 && word.find_first_of("0123456789") == std::string::npos;
+        const bool is_known = is_unit_symbol(word) || ((what.upright || is_word) && is_known_unit(word));
+        if (word.empty() || is_angle || (what.kind == Kind::letter && !is_known)) return begin;
         if (what.kind == Kind::text && (!meaning_of_unit(word) || word.find_first_of("0123456789") == 0))
             return begin;
         is_certain |= what.upright || what.kind == Kind::text || word.size() > 1;

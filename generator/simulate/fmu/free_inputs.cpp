@@ -6,13 +6,15 @@
 #include <set>
 #include <utility>
 
+#include "scene/known_names.hpp"
+
 namespace alembert {
 
 namespace {
 
-Expression parsed(const std::string& text) {
+Expression parsed(const std::string& text, const KnownNames* names = nullptr) {
     std::vector<Diagnostic> mistakes;
-    Expression result = parse_expression(text, {}, mistakes);
+    Expression result = parse_expression(text, {}, mistakes, names);
     if (!mistakes.empty()) throw ModelError(mistakes.front().message);
     return result;
 }
@@ -45,11 +47,13 @@ public:
             result_.inputs.push_back(std::move(made));
         }
         declare(result_.time);
+        const KnownNames names(result_.scene);
         for (std::size_t k = 0; k < result_.inputs.size(); ++k) {
             const FreeInput& f = result_.inputs[k];
             Expression& value = result_.scene.inputs[k].value;
             value = parsed(fmt::format("{0}*({1} + {2}*(t - {4}) + {3}*(t - {4})^2/2) + (1 - {0})*({5})", f.is_set,
-                                       f.given[0], f.given[1], f.given[2], result_.time, value.text));
+                                       f.given[0], f.given[1], f.given[2], result_.time, value.text),
+                           &names);
         }
         return std::move(result_);
     }
