@@ -12,6 +12,7 @@
 
 #include "alembert/base/error.hpp"
 #include "alembert/native/compile.hpp"
+#include "algebra/symbolic/number_mistake.hpp"
 #include "analysis/state/prepared.hpp"
 #include "base/archive/file_form.hpp"
 #include "base/language/libraries.hpp"
@@ -201,6 +202,12 @@ void add_errors(py::module_& module) {
     static py::exception<ModelError> model(module, "ModelError", base.ptr());
     static py::exception<CompileError> environment(module, "EnvironmentFailure", base.ptr());
     static py::exception<IntegrationError> numbers(module, "IntegrationError", base.ptr());
+    static const auto raise_numbers = [](const std::string& why, double time, const std::vector<double>& state) {
+        const py::object raised = static_cast<const py::object&>(numbers)(why);
+        raised.attr("time") = time;
+        raised.attr("state") = state;
+        PyErr_SetObject(numbers.ptr(), raised.ptr());
+    };
     py::register_exception_translator([](std::exception_ptr error) {
         try {
             if (error) std::rethrow_exception(error);
@@ -218,10 +225,11 @@ void add_errors(py::module_& module) {
         } catch (const std::invalid_argument& e) {
             PyErr_SetString(PyExc_ValueError, translated_from_library(e.what()).c_str());
         } catch (const IntegrationError& e) {
-            const py::object raised = static_cast<const py::object&>(numbers)(translated_from_library(e.what()));
-            raised.attr("time") = e.time;
-            raised.attr("state") = e.state;
-            PyErr_SetObject(numbers.ptr(), raised.ptr());
+            raise_numbers(translated_from_library(e.what()), e.time, e.state);
+        } catch (const std::exception& e) {
+            const auto why = number_mistake(e);
+            if (!why) throw;
+            raise_numbers(*why, std::nan(""), {});
         }
     });
 }

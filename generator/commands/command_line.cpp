@@ -10,6 +10,7 @@
 #include <iostream>
 
 #include "alembert/base/error.hpp"
+#include "algebra/symbolic/number_mistake.hpp"
 #include "base/language/libraries.hpp"
 #include "base/language/say.hpp"
 #include "commands/help.hpp"
@@ -55,6 +56,10 @@ int guarded(const Chosen& chosen) {
         return complain(say("out of memory"), environment_failed);
     } catch (const std::exception& e) {
         if (output_failed()) return environment_failed;  // told at the end
+        if (const auto why = number_mistake(e))
+            return complain(
+                say("{}: {} in what follows from the values of the scene; give other values", subject, *why),
+                numbers_failed);
         return complain(say("{}: internal error: {}", subject, e.what()), environment_failed);
     }
 }

@@ -68,7 +68,9 @@ void add_new(CLI::App& app, Chosen& chosen) {
     verb.add_option("file", options->file, say("the scene to be written; default: pendulum.toml"))
         .type_name(values::file);
     verb.take("--json", options->json);
-    verb.callback([options, &chosen] { chosen = {options->file, [options] { return run(*options); }}; });
+    verb.callback([options, &chosen] {
+        chosen = {options->file.empty() ? "new" : options->file, [options] { return run(*options); }};
+    });
 }
 
 }  // namespace alembert

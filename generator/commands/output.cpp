@@ -61,6 +61,7 @@ std::optional<int> own_descriptor(const fs::path& file) {
 }
 
 Target target_of(const std::string& path) {
+    if (path.empty()) throw ModelError(say("the name of the file to be written is empty"));
     fs::path file = fs::absolute(path);
     for (int k = 0; k < most_links; ++k) {
         if (const std::optional<int> number = own_descriptor(file)) return {file, number};

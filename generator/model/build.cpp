@@ -141,8 +141,13 @@ PolynomialScene polynomial_of(const Scene& scene) {
     here.translator.know("t", here.m.t);
     declare(here);
     for (const Expression& coefficient : scene.polynomial->coefficients)
-        here.attempt(
-            [&] { result.coefficients.push_back(here.m.z->expand(here.translator.scalar(coefficient))); });
+        here.attempt([&] {
+            result.coefficients.push_back(here.m.z->expand(here.translator.scalar(coefficient)));
+            if (!std::isfinite(here.number_at(coefficient)))
+                throw SceneMistake{
+                    {coefficient.place(),
+                     say("{} is not a finite real number at the scene's values", say("this coefficient"))}};
+        });
     if (!here.mistakes.empty()) fail(scene, here.mistakes);
     result.mechanism = std::move(here.m);
     return result;

@@ -122,7 +122,8 @@ void require(Building& here, const Expression& e, const std::string& what, std::
     });
 }
 
-void check_values(Building& here) {
+/// Of parameters and the start, which stand in no definition: whoever counts with them may rely on numbers.
+void check_given(Building& here) {
     for (const Parameter& p : here.scene.parameters) require(here, p.value, say("parameter '{}'", p.name.text));
     for (const Coordinate& c : here.scene.coordinates) {
         require(here, c.initial, say("the initial value of '{}'", c.name.text));
@@ -130,6 +131,11 @@ void check_values(Building& here) {
     }
     for (const Speed& s : here.scene.speeds)
         if (s.initial) require(here, s.initial, say("the initial value of '{}'", s.name.text));
+    if (here.scene.simulation.start) require(here, here.scene.simulation.start, say("the start"));
+    if (!here.mistakes.empty()) fail(here.scene, here.mistakes);
+}
+
+void check_masses(Building& here) {
     for (const Particle& p : here.scene.particles)
         require(here, p.mass, say("the mass of particle '{}'", p.name.text), 0);
     for (const Body& b : here.scene.bodies) {
@@ -159,11 +165,14 @@ void declare(Building& here) {
     declare_inputs(here);
     declare_coordinates(here);
     declare_functions(here);
-    if (here.on_sheets) here.translator.go_on(here.sheets = std::make_shared<RootSheets>(here.m));
+    if (here.mistakes.empty()) {
+        here.values.emplace(here.m);
+        check_given(here);
+        if (here.on_sheets) here.translator.go_on(here.sheets = std::make_shared<RootSheets>(here.m));
+    }
     define(here);
     if (!here.mistakes.empty()) fail(here.scene, here.mistakes);
-    here.values.emplace(here.m);
-    check_values(here);
+    check_masses(here);
 }
 
 }  // namespace alembert

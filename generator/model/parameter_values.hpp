@@ -35,7 +35,7 @@ public:
         for (const Intermediates::Entry& entry : m.z->entries()) add(entry.symbol, entry.definition);
     }
 
-    /// NaN if `e` is not a real number or depends on more than parameters.
+    /// NaN if `e` is not a real number, has a pole there or depends on more than parameters.
     double number(const GiNaC::ex& e) const {
         const GiNaC::ex value = in_numbers(e);
         if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real())
@@ -54,8 +54,13 @@ private:
         if (const GiNaC::ex value = in_numbers(e); GiNaC::is_a<GiNaC::numeric>(value)) known_[symbol] = value;
     }
 
+    /// The expression itself where it has a pole, or a number beyond the range of CLN.
     GiNaC::ex in_numbers(const GiNaC::ex& e) const {
-        return e.subs(known_, GiNaC::subs_options::no_pattern).evalf();
+        try {
+            return e.subs(known_, GiNaC::subs_options::no_pattern).evalf();
+        } catch (const std::exception&) {
+            return e;
+        }
     }
 
     GiNaC::exmap known_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/translate.hpp"
 
+#include <cln/exception.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -305,6 +306,8 @@ Value Translator::evaluate(const Tree& tree) {
     } catch (const std::domain_error&) {
         throw SceneMistake{{current_->place(tree.offset),
                             say("this is 0^0, which has no value; expected another base or exponent")}};
+    } catch (const cln::runtime_exception&) {
+        throw SceneMistake{{current_->place(tree.offset), say("a number beyond the range of double precision")}};
     }
     return ex(0);
 }

@@ -126,7 +126,7 @@ std::optional<Inertia> inertia_from_shape(const Table& table, const Expression& 
                 table.has("about") ? "about"
                 : shape->axes      ? "axes"
                                    : "turn"));
-    Inertia inertia = inertia_of(*shape, mass);
+    Inertia inertia = inertia_of(*shape, mass, table.reading());
     inertia.place = place_of(*table.find("inertia")->node);
     return inertia;
 }

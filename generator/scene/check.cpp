@@ -281,6 +281,11 @@ private:
         if (link.between) {
             quantities_.check_point(link.between->first);
             quantities_.check_point(link.between->second);
+            if (link.between->first.text == link.between->second.text)
+                complain(
+                    link.between->second.place,
+                    say("both ends are at {}, so that there is no direction between them; expected two points",
+                        in_quotes(link.between->second.text)));
         }
         const Legal length{.subject = say("a length"), .order = 0, .input_order = 0, .time = true};
         quantities_.check(link.along, length);

@@ -58,7 +58,4 @@ struct Looks {
 /// Of a scene that has been read already.
 Looks looks_of(const Scene& scene);
 
-/// The moments of inertia of a homogeneous solid of that mass about its centroid.
-Inertia inertia_of(const Shape& shape, const Expression& mass);
-
 }  // namespace alembert

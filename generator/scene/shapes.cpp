@@ -42,17 +42,24 @@ constexpr SolidRow solids[] = {
     {"polygon", Solid::polygon, 3, any_corners, "[[\"0\", \"0\"], [\"b\", \"0\"], [\"0\", \"h\"]]"},
 };
 
-Expression formula(const std::string& text, Place place) {
-    std::vector<Diagnostic> none;  // the parts have been parsed before
-    return parse_expression(text, std::vector<Place>(text.size() + 1, place), none);
+/// The parts have been parsed before; together they may divide by zero, or be too large.
+Expression formula(const std::string& text, Place place, const Reading& reading) {
+    std::vector<Diagnostic> mistakes;
+    Expression result =
+        parse_expression(text, std::vector<Place>(text.size() + 1, place), mistakes, &reading.names);
+    if (result) return result;
+    reading.complain(place, say("a moment of inertia of this shape has no value: {}; a shape needs an area",
+                                mistakes.at(0).message));
+    return zero(place);
 }
 
 /// The corners of a right triangle with legs b and h along x and y, from its centroid.
-std::vector<Expression> corners_of_wedge(const std::vector<Expression>& legs, Place place) {
+std::vector<Expression> corners_of_wedge(const std::vector<Expression>& legs, Place place,
+                                         const Reading& reading) {
     std::vector<Expression> corners;
     for (const auto& [x, y] : {std::pair("-1/3", "-1/3"), std::pair("2/3", "-1/3"), std::pair("-1/3", "2/3")}) {
-        corners.push_back(formula(fmt::format("({})*({})", x, legs[0].text), place));
-        corners.push_back(formula(fmt::format("({})*({})", y, legs[1].text), place));
+        corners.push_back(formula(fmt::format("({})*({})", x, legs[0].text), place, reading));
+        corners.push_back(formula(fmt::format("({})*({})", y, legs[1].text), place, reading));
     }
     return corners;
 }
@@ -80,7 +87,7 @@ std::optional<std::vector<Expression>> read_sizes(const Table& table, const Soli
             sizes.push_back(read_expression(reading, *list->get(k), say("a size")));
         }
     if (reading.diagnostics.size() > before) return {};
-    return row.key == "wedge" ? corners_of_wedge(sizes, place_of(*entry.node)) : std::move(sizes);
+    return row.key == "wedge" ? corners_of_wedge(sizes, place_of(*entry.node), reading) : std::move(sizes);
 }
 
 char read_letter_of_axis(const Table& table) {
@@ -308,14 +315,17 @@ Moments moments_of(const Shape& shape) {
 
 }  // namespace
 
-Inertia inertia_of(const Shape& shape, const Expression& mass) {
+Inertia inertia_of(const Shape& shape, const Expression& mass, const Reading& reading) {
     const Moments own = moments_of(shape);
     Inertia inertia;
     inertia.place = shape.place;
     const std::string texts[] = {own.xx, own.yy, own.zz, own.xy, "0", "0"};
-    for (std::size_t k = 0; k < 6; ++k)
-        inertia.tensor[k] = texts[k] == "0" ? zero(shape.place)
-                                            : formula(fmt::format("({})*({})", mass.text, texts[k]), shape.place);
+    const std::size_t before = reading.diagnostics.size();
+    for (std::size_t k = 0; k < 6; ++k) {
+        const bool is_zero = texts[k] == "0" || reading.diagnostics.size() > before;  // one message is enough
+        inertia.tensor[k] = is_zero ? zero(shape.place)
+                                    : formula(fmt::format("({})*({})", mass.text, texts[k]), shape.place, reading);
+    }
     inertia.is_diagonal = own.xy == "0";
     return inertia;
 }

@@ -40,5 +40,8 @@ std::optional<Shape> read_solid(const Table& table);
 /// Where its middle and its axes are.
 void read_attitude(const Table& table, Shape& shape);
 bool names_solid(std::string_view key);
+/// The moments of inertia of a homogeneous solid of that mass about its centroid; complains where they have no
+/// value.
+Inertia inertia_of(const Shape& shape, const Expression& mass, const Reading& reading);
 
 }  // namespace alembert

@@ -143,6 +143,9 @@ Identification identify(Scene scene) {
     Identification result{prepared(std::move(scene))};
     const Mechanism& m = result.mechanism;
     const Regressor y = regressor(result.scene, m, false);
+    if (y.columns.empty())
+        throw ModelError(
+            say("the scene has no masses, of which motion could show sums; expected a particle or a body"));
     const std::vector<std::size_t> order = order_of(y.columns);
     const RegressorColumns columns(y, order, m);
     const std::vector<Prime> exact = exact_values(m);

@@ -49,7 +49,8 @@ struct Bend {
 std::pair<Vector3, Vector3> tangent(const Bend& a, const Bend& b, int normal) {
     const Vector3 way = difference(b.centre, a.centre);
     const ex off = a.side * a.radius - b.side * b.radius, whole = square(way);
-    if (off.is_zero() && a.side == 0) return {a.centre, b.centre};
+    const bool is_nowhere = whole.expand().is_zero();  // a rope that ends in the centre of its pulley
+    if (is_nowhere || (off.is_zero() && a.side == 0)) return {a.centre, b.centre};
     const ex along = -off / whole, across = GiNaC::sqrt(whole - off * off) / whole;
     Vector3 n{0, 0, 0};
     n = plus(n, -along, way);

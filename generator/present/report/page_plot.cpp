@@ -74,7 +74,7 @@ struct Ticks {
         if (at.size() > 1) step = at[1] - at[0];
         const double size = std::max(std::abs(range.low), std::abs(range.high));
         constexpr double readable = 1e-4;
-        if (step >= readable * size) return;
+        if (step >= readable * size || !std::isfinite(range.high - range.low)) return;
         const double middle = (range.low + range.high) / 2;
         const int digits = static_cast<int>(std::log10(size / (range.high - range.low)));
         base = fmt::format("{:.{}g}", middle, digits + 1);

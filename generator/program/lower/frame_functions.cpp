@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/language/say.hpp"
 #include "model/formalism/elements.hpp"
 #include "program/lower/lower.hpp"
@@ -93,9 +95,16 @@ const std::vector<std::string>& functions_of_masses() {
     return names;
 }
 
+bool weighs(const Mechanism& m) {
+    return std::any_of(m.masses.begin(), m.masses.end(),
+                       [](const MassElement& one) { return !one.mass.is_zero(); });
+}
+
 FunctionProgram mass_function(const Scene& scene, const Mechanism& mechanism, const std::string& name, bool fold) {
     if (const auto unknown = masses_unknown(mechanism, say("Functions such as '{}'", name)))
         throw ModelError(*unknown);
+    if (!weighs(mechanism))
+        throw ModelError(say("the scene has no mass, and so no mass centre; '{}' needs one", name));
     const int n = mechanism.size();
     Made function{.name = name, .about = "The mass centre, along N.", .rows = 3, .columns = 1, .values = {}};
     if (name == "com") {

@@ -35,7 +35,9 @@ std::vector<FunctionProgram> frame_functions(const Scene& scene, const Mechanism
 
 /// The names above of functions of the whole system.
 const std::vector<std::string>& functions_of_masses();
-/// Throws ModelError for a scene that gives energies in place of masses.
+/// Whether there is a mass at all; those of parameters count.
+bool weighs(const Mechanism& m);
+/// Throws ModelError for a scene that gives energies in place of masses, or none.
 FunctionProgram mass_function(const Scene& scene, const Mechanism& mechanism, const std::string& name, bool fold);
 
 }  // namespace alembert

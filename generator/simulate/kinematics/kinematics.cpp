@@ -170,9 +170,12 @@ void find_jacobians(SceneKinematics& s, const State<double>& state) {
         }
         s.jacobians.emplace_back(p.name, std::move(found));
     }
-    if (s.mechanism.masses.empty() || masses_unknown(s.mechanism, "")) return;
+    if (!weighs(s.mechanism) || masses_unknown(s.mechanism, "")) return;
     const auto function = [&](const char* name) { return mass_function(s.scene, s.mechanism, name, false); };
     const std::vector<double> momentum = values_at(function("momentum"), state);
+    const bool has_centre =
+        std::all_of(momentum.begin(), momentum.end(), [](double x) { return std::isfinite(x); });
+    if (!has_centre) return;  // the masses are parameters with the value 0
     s.mass_centre = MassCentreMotion{.position = values_at(function("com"), state),
                                      .jacobian = rows_at(function("com_jacobian"), state),
                                      .linear_momentum = {momentum.begin(), momentum.begin() + 3},

@@ -11,6 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 LeastNorm least_norm(const MatrixXd& A, const MatrixXd& b) {
+    if (A.size() == 0) return {MatrixXd::Zero(A.cols(), b.cols()), 0};  // Eigen would read its entries
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(A);
     return {solver.solve(b), solver.rank()};
 }
@@ -20,16 +21,20 @@ MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& b) {
 }
 
 Orthogonal::Orthogonal(const MatrixXd& A, double threshold) {
+    columns_ = A.cols();
+    is_empty_ = A.size() == 0;  // Eigen would read its entries
+    if (is_empty_) return;
     factors_.setThreshold(threshold);
     factors_.compute(A);
 }
 
 VectorXd Orthogonal::solve(const VectorXd& b) const {
+    if (is_empty_) return VectorXd::Zero(columns_);
     return factors_.solve(b);
 }
 
 Eigen::Index Orthogonal::rank() const {
-    return factors_.rank();
+    return is_empty_ ? 0 : factors_.rank();
 }
 
 Cholesky::Cholesky(const MatrixXd& M) : factors_(M), diagonal_(M.diagonal()) {}

@@ -40,6 +40,8 @@ public:
 
 private:
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors_;
+    Eigen::Index columns_ = 0;
+    bool is_empty_ = true;
 };
 
 /// The factorization M = L Lᵀ. M: n×n, symmetric.
