@@ -10,6 +10,8 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
+
 #include "alembert/base/error.hpp"
 #include "alembert/native/compile.hpp"
 #include "algebra/symbolic/number_mistake.hpp"
