@@ -68,8 +68,8 @@ function leastChange(rows, right, soft, scale) {
 // States that obey the constraints, near those that are wished: what the scene gives as a guess moves first, number `held` not at
 // all; null if there are none.
 function assembler(scene, live) {
-  const n = live.coordinates, s = live.speeds, c = live.holonomic.length, isOwn = live.own_speeds;
-  const position = new Float64Array(c + 1), velocity = new Float64Array(c + 1), rows = new Float64Array(c * (n + s) + 1);
+  const n = live.coordinates, s = live.speeds, c = live.holonomic.length, all = c + live.redundant, isOwn = live.own_speeds;
+  const position = new Float64Array(all + 1), velocity = new Float64Array(all + 1), rows = new Float64Array(all * (n + s) + 1);
   const state = new Float64Array(n + s), holonomic = [];
   live.holonomic.forEach((is, k) => { if (is) holonomic.push(k); });
   const row = (k, begin, length) => Array.from(rows.subarray(begin + k * length, begin + (k + 1) * length));
@@ -86,7 +86,7 @@ function assembler(scene, live) {
     const scale = Array.from({ length: s }, (_, i) => weight(n + i, held));
     for (let round = 0; c && round < 3; ++round) {
       scene.constraints_at(t, y, par, position, velocity, rows);
-      const list = Array.from({ length: c }, (_, k) => row(k, isOwn ? c * n : 0, isOwn ? s : n));
+      const list = Array.from({ length: c }, (_, k) => row(k, isOwn ? all * n : 0, isOwn ? s : n));
       const change = leastChange(list, list.map((_, k) => -velocity[k]), 0, scale);
       for (let i = 0; i < s; ++i) y[n + i] += change[i];
     }

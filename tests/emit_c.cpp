@@ -9,13 +9,19 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
 
+#include "alembert/native/compile.hpp"
+#include "alembert/native/module.hpp"
+#include "codegen/machine/memory_solver.hpp"
 #include "program/differentiate.hpp"
 #include "program/interpret.hpp"
+#include "redundant_plate.hpp"
 #include "scene/scene.hpp"
 #include "scenes.hpp"
 #include "simulate/emission.hpp"
+#include "simulate/evaluate.hpp"
 #include "simulate/simulate.hpp"
 #include "tools.hpp"
 
@@ -111,6 +117,75 @@ void compare(const Library& library, const Emission& e) {
     }
 }
 
+/// The functions of constraints, with M u' = f + Bᵀλ, B being A in speeds.
+struct HeldFunctions {
+    std::function<void(double, const double*, double*)> rhs;
+    std::function<void(double, const double*, double*, double*)> mass_forcing;
+    std::function<void(double, const double*, double*, double*, double*)> constraints_at;
+    std::function<void(double, const double*, double*)> multipliers_at;
+};
+
+/// All arrays have `count` rows and nothing is written behind them; λ are those of `expected`, and balance the
+/// forces.
+void check_rows(const HeldFunctions& f, std::size_t count, const Evaluation& expected, std::size_t speeds,
+                bool own_speeds) {
+    constexpr double untouched = 1.25e300;
+    REQUIRE(count == expected.multipliers.size());
+    const std::size_t n = expected.q.size(), width = own_speeds ? n + speeds : n;
+    std::vector<double> state = expected.q, rate(n + speeds), mass(speeds * speeds), forcing(speeds);
+    if (own_speeds)
+        for (const auto& [name, value] : expected.speeds) state.push_back(value);
+    else
+        state.insert(state.end(), expected.rates.begin(), expected.rates.end());
+    const auto guarded = [&](std::size_t size) { return std::vector<double>(size + 4, untouched); };
+    std::vector<double> position = guarded(count), velocity = guarded(count), rows = guarded(count * width),
+                        lambda = guarded(count);
+    const double t = expected.time;
+    f.rhs(t, state.data(), rate.data());
+    f.mass_forcing(t, state.data(), mass.data(), forcing.data());
+    f.constraints_at(t, state.data(), position.data(), velocity.data(), rows.data());
+    f.multipliers_at(t, state.data(), lambda.data());
+    for (const auto& [array, size] : {std::pair(&position, count), std::pair(&velocity, count),
+                                      std::pair(&rows, count * width), std::pair(&lambda, count)})
+        for (std::size_t k = 0; k < array->size(); ++k) {
+            CAPTURE(k);
+            CHECK(((*array)[k] == untouched) == (k >= size));
+        }
+    for (std::size_t k = 0; k < count; ++k) {
+        CHECK(std::abs(position[k]) < 1e-12);
+        CHECK(std::abs(velocity[k]) < 1e-12);
+        CHECK(lambda[k] == doctest::Approx(expected.multipliers[k].second).epsilon(1e-10));
+    }
+    for (std::size_t i = 0; i < speeds; ++i) {
+        double left = -forcing[i], size = std::abs(forcing[i]);
+        for (std::size_t j = 0; j < speeds; ++j) left += mass[i * speeds + j] * rate[n + j];
+        for (std::size_t k = 0; k < count; ++k) {
+            const double share = rows[(own_speeds ? count * n : 0) + k * speeds + i] * lambda[k];
+            left -= share;
+            size = std::max(size, std::abs(share));
+        }
+        CHECK(std::abs(left) <= 1e-10 * size);
+    }
+}
+
+/// Scenes with rows that follow from others: of rates, of positions that move, in speeds that keep all rows, and
+/// with a row that the speeds have eliminated.
+std::vector<Scene> scenes_with_redundant_rows() {
+    const std::string bead =
+        "gravity = [0, \"-9.81\"]\n[coordinates]\nx = 0\ny = { guess = 0 }\nz = { guess = 0.3, rate_guess = 0 }\n"
+        "[[particle]]\nname = \"P\"\nmass = 2\nposition = [\"x\", \"y\"]\n"
+        "[[particle]]\nname = \"Q\"\nmass = 3\nposition = [\"z\", 0]\n"
+        "[[constraint]]\nname = \"a\"\nholonomic = \"y - x^2 - t\"\n"
+        "[[constraint]]\nname = \"b\"\nholonomic = \"z - 2*y - 0.3\"\n"
+        "[[constraint]]\nname = \"c\"\nholonomic = \"z - 2*x^2 - 2*t - 0.3\"\n";
+    const auto in_speeds = [](const std::string& speeds) {
+        return parse_scene(test::redundant_plate + "\n[speeds]\n" + speeds, "plate_in_speeds.toml");
+    };
+    return {parse_scene(test::redundant_plate, "plate.toml"), parse_scene(bead, "bead.toml"),
+            in_speeds("a = \"x' + 0.3*phi'\"\nb = \"phi'\"\nc = \"y' - x'\"\n"),
+            in_speeds("a = \"x' - R*phi'\"\nc = \"y'\"\n"), parse_scene(test::redundant_wheels, "wheels.toml")};
+}
+
 }  // namespace
 
 TEST_CASE("emit: the C99 compiles without a warning, and its rates and Jacobian are those of the program") {
@@ -203,6 +278,65 @@ TEST_CASE("emit: the main program beside a file integrates to the end that simul
     CHECK_THROWS_AS(
         emission(read_scene(test::source_path("scenes/friction/stick_slip.toml")), {.standalone = true}),
         ModelError);
+}
+
+TEST_CASE(
+    "emit: constraints and multipliers have one count in C, C++ and memory, where rows follow from others too") {
+    const Folder folder;
+    for (const Scene& scene : scenes_with_redundant_rows()) {
+        const Emission e = emission(scene, {.language = CodeLanguage::c});
+        CAPTURE(e.source.file);
+        REQUIRE_FALSE(e.mechanism.redundant.empty());
+        const Evaluation expected = evaluate(scene);
+        const Program& p = e.choice.program;
+        const std::size_t speeds = p.nodes_of(Group::acceleration).size();
+        const std::string name = e.source.file.substr(0, e.source.file.size() - 2);
+        folder.write(e.source.file,
+                     e.source.text + fmt::format("\nint count(void) {{ return {}_constraints; }}\n", name));
+        folder.write(e.source.header->name, e.source.header->text);
+        REQUIRE(runs(fmt::format("cc -std=c99 -O1 -shared -fPIC -o {} {} -lm", folder.file(name + ".so"),
+                                 folder.file(e.source.file))));
+        const Library library(folder.file(name + ".so"));
+        REQUIRE(library.handle != nullptr);
+        const auto c = [&]<class Function>(const char* part) {
+            const auto found = library.function<Function>(name + "_" + part);
+            REQUIRE((found != nullptr));
+            return found;
+        };
+        std::vector<double> par(100);
+        c.operator()<Defaults>("defaults")(par.data());
+        using Two = void(double, const double*, const double*, double*, double*);
+        using Three = void(double, const double*, const double*, double*, double*, double*);
+        check_rows(
+            {.rhs = [&, f = c.operator()<Rhs>("rhs")](double t, const double* y,
+                                                      double* rate) { f(t, y, par.data(), rate); },
+             .mass_forcing = [&, f = c.operator()<Two>("mass_forcing")](
+                                 double t, const double* y, double* M,
+                                 double* force) { f(t, y, par.data(), M, force); },
+             .constraints_at = [&, f = c.operator()<Three>("constraints_at")](
+                                   double t, const double* y, double* position, double* velocity,
+                                   double* rows) { f(t, y, par.data(), position, velocity, rows); },
+             .multipliers_at = [&, f = c.operator()<Rhs>("multipliers_at")](
+                                   double t, const double* y, double* lambda) { f(t, y, par.data(), lambda); }},
+            static_cast<std::size_t>(library.function<int()>("count")()), expected, speeds, !p.speeds.empty());
+        std::vector<Module> modules{load(compile(emit(p).text, name, {}).object)};
+        if (const auto solver = memory_solver(p)) modules.push_back(solver->module);
+        for (const Module& module : modules) {
+            const alembert_solver_table& table = module.table();
+            CHECK(module.independent_constraints() == static_cast<int>(e.mechanism.constraints.size()));
+            par = prepared(module);
+            check_rows({.rhs = [&](double t, const double* y, double* rate) { table.rhs(t, y, par.data(), rate); },
+                        .mass_forcing = [&](double t, const double* y, double* M,
+                                            double* force) { table.mass_forcing(t, y, par.data(), M, force); },
+                        .constraints_at =
+                            [&](double t, const double* y, double* position, double* velocity, double* rows) {
+                                table.constraints_at(t, y, par.data(), position, velocity, rows);
+                            },
+                        .multipliers_at = [&](double t, const double* y,
+                                              double* lambda) { table.multipliers_at(t, y, par.data(), lambda); }},
+                       static_cast<std::size_t>(table.constraints), expected, speeds, !p.speeds.empty());
+        }
+    }
 }
 
 }  // namespace emit_c

@@ -14,6 +14,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "alembert/base/dense.hpp"
+
 #include "collected_motion.hpp"
 #include "sundials_context.hpp"
 
@@ -129,8 +131,8 @@ struct Implicit {
     const Module& module;
     const std::vector<double>& par;
     bool has_signs;    ///< the accelerations are then those of the Rhs
-    std::size_t n, m;  ///< coordinates; constraints, which are 0 if the equations are those of the Rhs
-    std::vector<double> mass, forcing, rows, rate, trial, trial_slope, here, moved;
+    std::size_t n, m;  ///< coordinates; independent constraints, which are 0 if the equations are those of the Rhs
+    std::vector<double> mass, forcing, off, rows, rate, trial, trial_slope, here, moved;
 
     std::size_t states() const { return system.size(); }
     std::size_t size() const { return states() + 2 * m; }
@@ -151,7 +153,10 @@ struct Implicit {
         } else {
             newton(t, y, slope, out);
         }
-        table.constraints_at(t, y, par.data(), out + states(), out + states() + m, rows.data());
+        const std::size_t all = off.size() / 2;
+        table.constraints_at(t, y, par.data(), off.data(), off.data() + all, rows.data());
+        std::copy_n(off.data(), m, out + states());
+        std::copy_n(off.data() + all, m, out + states() + m);
         for (std::size_t i = 0; i < n; ++i) {
             out[i] = slope[i] - y[n + i];
             for (std::size_t k = 0; k < m; ++k) {
@@ -199,6 +204,19 @@ struct Implicit {
     }
 };
 
+/// The multipliers of the independent constraints that give the same forces as those of all.
+void find_multipliers(const Module& module, double t, const double* y, const double* par, double* lambda) {
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const alembert_solver_table& table = module.table();
+    Eigen::VectorXd of_all(table.constraints), off(2 * table.constraints);
+    Rows rows(table.constraints, table.coordinates);
+    table.multipliers_at(t, y, par, of_all.data());
+    table.constraints_at(t, y, par, off.data(), off.data() + table.constraints, rows.data());
+    const Rows kept = rows.topRows(module.independent_constraints());
+    if (kept.rows() < rows.rows()) of_all = least_norm(kept.transpose(), rows.transpose() * of_all).x;
+    std::copy_n(of_all.data(), kept.rows(), lambda);
+}
+
 /// The emitted functions with their parameters (Backend::ida).
 struct EmittedCode {
     Module module;
@@ -210,7 +228,8 @@ Trajectory by_ida(const EmittedCode& code, const System& given, const std::vecto
                   const Options& options, const Events& events, const RunPiece& piece) {
     const auto& [module, has_signs, par] = code;
     const alembert_solver_table& table = module.table();
-    const auto n = static_cast<std::size_t>(table.coordinates), m = static_cast<std::size_t>(table.constraints);
+    const auto n = static_cast<std::size_t>(table.coordinates), all = static_cast<std::size_t>(table.constraints),
+               m = static_cast<std::size_t>(module.independent_constraints());
     Implicit f{.system = {.given = given, .options = options, .piece = piece},
                .module = module,
                .par = par,
@@ -219,7 +238,8 @@ Trajectory by_ida(const EmittedCode& code, const System& given, const std::vecto
                .m = m,
                .mass = std::vector<double>(n * n),
                .forcing = std::vector<double>(n),
-               .rows = std::vector<double>(m * n),
+               .off = std::vector<double>(2 * all),
+               .rows = std::vector<double>(all * n),
                .rate = std::vector<double>(initial.size()),
                .trial = {},
                .trial_slope = {},
@@ -230,7 +250,7 @@ Trajectory by_ida(const EmittedCode& code, const System& given, const std::vecto
     std::fill_n(y, f.size(), 0.0);
     std::copy(initial.begin(), initial.end(), y);
     f.system.rate(options.start, y, slope);
-    if (m > 0 && !has_signs) table.multipliers_at(options.start, initial.data(), par.data(), y + f.states());
+    if (m > 0 && !has_signs) find_multipliers(module, options.start, initial.data(), par.data(), y + f.states());
 
     void* memory = IDACreate(w.context);
     IDAInit(

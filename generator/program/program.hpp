@@ -104,20 +104,24 @@ struct Quantity {
 /// The meaning of a root. The roots of a group stand in the order of their entries, matrices row by row.
 enum class Group : unsigned char {
     // M u' = f + Aᵀλ with A u' = γ; u = q' if the program has no other speeds.
-    mass,          ///< M, its lower triangle
-    forcing,       ///< f
-    acceleration,  ///< u'
-    rate,          ///< q', if the speeds are not the rates
-    second_rate,   ///< q'', in the same case
-    row,           ///< A in q', n for each constraint
-    speed_row,     ///< A in speeds, s for each; zeros for constraints that the speeds have eliminated
-    gamma,         ///< γ of each constraint that has a multiplier in the equations; Root::constraint tells which
-    position,      ///< f(q, t) of each holonomic constraint, 0 of others
-    velocity,      ///< A q' + b of each constraint
-    multiplier,    ///< λ
-    projected,     ///< the state after one step of Newton's method to the constraints
-    pivot,         ///< the divisors of this step
-    speed,         ///< the scene's generalized speeds, as functions of the state or of the rates
+    mass,           ///< M, its lower triangle
+    forcing,        ///< f
+    acceleration,   ///< u'
+    rate,           ///< q', if the speeds are not the rates
+    second_rate,    ///< q'', in the same case
+    row,            ///< A in q', n for each constraint
+    speed_row,      ///< A in speeds, s for each; zeros for constraints that the speeds have eliminated
+    gamma,          ///< γ of each constraint that has a multiplier in the equations; Root::constraint tells which
+    position,       ///< f(q, t) of each holonomic constraint, 0 of others
+    velocity,       ///< A q' + b of each constraint
+    redundant_row,  ///< the same of the constraints that follow from these: A in q',
+    redundant_speed_row,  ///< in speeds,
+    redundant_position,   ///< f(q, t) or 0,
+    redundant_velocity,   ///< and A q' + b
+    multiplier,           ///< λ
+    projected,            ///< the state after one step of Newton's method to the constraints
+    pivot,                ///< the divisors of this step
+    speed,                ///< the scene's generalized speeds, as functions of the state or of the rates
     speed_rate,
     form_row,  ///< the coefficients of a speed as a linear form in q', n for each
     kinetic,

@@ -27,7 +27,8 @@ public:
     void add(const Phase& phase, LoadedMode& mode, std::size_t rows) {
         const alembert_solver_table& table = mode.module.table();
         const auto n = static_cast<std::size_t>(m_.size()), bilateral = m_.constraints.size(),
-                   redundant = m_.redundant.size(), held = static_cast<std::size_t>(table.constraints);
+                   redundant = m_.redundant.size(),
+                   held = static_cast<std::size_t>(mode.module.independent_constraints());
         std::vector<double> rate(static_cast<std::size_t>(mode.contact.system.rhs.dimension)),
             out(static_cast<std::size_t>(table.outputs)), lambda(held + redundant),
             all(bilateral + redundant + m_.unilateral.size());

@@ -138,7 +138,8 @@ double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const P
     const auto look = [&](double t, const double* state) {
         table.mass_forcing(t, state, mode.par.data(), M.data(), forcing.data());
         if (m > 0) table.constraints_at(t, state, mode.par.data(), position.data(), velocity.data(), rows.data());
-        if (const auto one = conditioning(M, Eigen::Map<const Rows>(rows.data() + in_speeds, m, s)))
+        const int independent = mode.module.independent_constraints();
+        if (const auto one = conditioning(M, Eigen::Map<const Rows>(rows.data() + in_speeds, independent, s)))
             found.push_back(*one);
     };
     for (const Phase& phase : motion.phases)

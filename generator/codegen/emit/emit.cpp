@@ -245,7 +245,9 @@ private:
         number("k", words_.constants().size());
         number("outputs", count(Group::output) + count(Group::speed));
         number("events", count(Group::event));
-        number("constraints", count(Group::velocity));
+        number("constraints", constraints_of(p_));
+        number("independent", count(Group::velocity));
+        file_.set("has_redundant", count(Group::velocity) < constraints_of(p_));
         std::vector<int> dynamics = p_.nodes_of(Group::mass);
         const std::vector<int> forcing = p_.nodes_of(Group::forcing);
         const bool has_matrix = !dynamics.empty();

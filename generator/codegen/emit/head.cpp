@@ -144,7 +144,7 @@ private:
 
     /// The arrays of the other functions.
     void results() {
-        const std::size_t constraints = count(Group::velocity);
+        const std::size_t constraints = constraints_of(p_);
         const auto of = [&](const char* function, const std::string& arrays) { entry(function, {arrays}); };
         if (count(Group::mass) > 0)
             of("mass_forcing", fmt::format("mass[{}], M row by row; forcing[{}], f", s_ * s_, s_));
@@ -161,7 +161,7 @@ private:
         named("events_at", {Group::event});
         if (constraints > 0)
             of("constraints_at", fmt::format("position[{0}], velocity[{0}]; rows[{1}], A row by row", constraints,
-                                             count(Group::row) + count(Group::speed_row)));
+                                             constraints * (n_ + (p_.speeds.empty() ? 0 : s_))));
         if (count(Group::multiplier) > 0)
             of("multipliers_at", fmt::format("lambda[{}]", count(Group::multiplier)));
         if (count(Group::projected) > 0)

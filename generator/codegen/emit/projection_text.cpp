@@ -20,12 +20,18 @@ bool is_eliminated(const Program& p) {
 
 }  // namespace
 
+std::string all_constraints(const Program& p) {
+    const std::size_t all = constraints_of(p);
+    return all == p.nodes_of(Group::velocity).size() ? "constraints" : std::to_string(all);
+}
+
 std::string projection_text(const Program& p, CodeLanguage language) {
     const bool is_c = language == CodeLanguage::c, has_project = !project(p).results.empty();
     kainjow::mustache::data file;
     file.set("call", is_c ? ascii_identifier(p.name) + "_" : "");
     file.set("math", is_c ? "" : "::");
     file.set("own_speeds", !p.speeds.empty());
+    file.set("all_constraints", all_constraints(p));
     file.set("has_project", has_project);
     file.set("has_energy", !energy(p).results.empty());
     file.set("has_near", has_project && !is_eliminated(p) && !gamma_at(p).results.empty() &&

@@ -18,4 +18,7 @@ namespace alembert {
 /// <string.h>. The template is templates/projection.c.mustache.
 std::string projection_text(const Program& program, CodeLanguage language);
 
+/// In such text the number of rows that constraints_at gives: `constraints`, or more where some follow from these.
+std::string all_constraints(const Program& program);
+
 }  // namespace alembert

@@ -29,10 +29,11 @@ void add_goals(std::vector<Goal>& goals, const Program& p, Group group, const st
         if (root.group == group) goals.push_back({section, root.name, root.node});
 }
 
-/// Adds results for array[first], array[first + 1] …
-void add_results(std::vector<FunctionResult>& results, const Program& p, Group group, const std::string& array,
-                 std::size_t first = 0) {
+/// Adds results for array[first], array[first + 1] …; gives the place behind the last.
+std::size_t add_results(std::vector<FunctionResult>& results, const Program& p, Group group,
+                        const std::string& array, std::size_t first = 0) {
     for (const int node : p.nodes_of(group)) results.push_back({array, {first++}, node});
+    return first;
 }
 
 std::vector<Goal> unnamed(const std::string& section, const std::vector<FunctionResult>& results) {
@@ -180,12 +181,19 @@ FunctionTask constraints_at(const Program& p) {
                       .arguments = {t, state, par, to("position"), to("velocity"), to("rows")},
                       .goals = {},
                       .results = {}};
-    add_results(task.results, p, Group::position, "position");
-    add_results(task.results, p, Group::velocity, "velocity");
-    add_results(task.results, p, Group::row, "rows");
-    add_results(task.results, p, Group::speed_row, "rows", p.nodes_of(Group::row).size());
+    const auto add = [&](const char* array, std::initializer_list<Group> groups) {
+        std::size_t place = 0;
+        for (const Group group : groups) place = add_results(task.results, p, group, array, place);
+    };
+    add("position", {Group::position, Group::redundant_position});
+    add("velocity", {Group::velocity, Group::redundant_velocity});
+    add("rows", {Group::row, Group::redundant_row, Group::speed_row, Group::redundant_speed_row});
     task.goals = unnamed("Constraints", task.results);
     return task;
+}
+
+std::size_t constraints_of(const Program& p) {
+    return p.nodes_of(Group::velocity).size() + p.nodes_of(Group::redundant_velocity).size();
 }
 
 FunctionTask multipliers_at(const Program& p) {

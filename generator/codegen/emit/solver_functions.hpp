@@ -16,6 +16,9 @@ FunctionTask energy(const Program& program);
 FunctionTask outputs_at(const Program& program);
 FunctionTask events_at(const Program& program);
 FunctionTask constraints_at(const Program& program);
+/// The number of rows that constraints_at gives, and of multipliers: the constraints that the equations keep, then
+/// those that follow from them.
+std::size_t constraints_of(const Program& program);
 FunctionTask multipliers_at(const Program& program);
 /// One step of the projection to the constraints; it has no results if there is no such step.
 FunctionTask project(const Program& program);

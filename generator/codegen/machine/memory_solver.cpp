@@ -90,10 +90,11 @@ public:
         if (derives) write_derivatives(*tables);
         tables->code = code_.placed();
         if (!tables->code) return std::nullopt;
-        return MemorySolver{.module = Module(std::shared_ptr<const alembert_solver_table>(tables, &tables->solver),
-                                             derives ? &tables->derivatives : nullptr,
-                                             projects ? &tables->projection : nullptr, tables->packs.get()),
-                            .go_over = [tables](const Module& compiled) { take_over(*tables, compiled); }};
+        return MemorySolver{
+            .module = Module(std::shared_ptr<const alembert_solver_table>(tables, &tables->solver),
+                             derives ? &tables->derivatives : nullptr, projects ? &tables->projection : nullptr,
+                             tables->packs.get(), nullptr, static_cast<int>(p_.nodes_of(Group::velocity).size())),
+            .go_over = [tables](const Module& compiled) { take_over(*tables, compiled); }};
     }
 
     std::shared_ptr<const alembert_pack_table> packs() {
@@ -135,7 +136,7 @@ private:
         s.constants = count(words_.constants().size());
         s.outputs = count(p_.nodes_of(Group::output).size() + p_.nodes_of(Group::speed).size());
         s.events = count(p_.nodes_of(Group::event).size());
-        s.constraints = count(p_.nodes_of(Group::velocity).size());
+        s.constraints = count(constraints_of(p_));
         s.scene = tables.scene.c_str();
         s.formulation = tables.formulation.c_str();
         s.coordinate_names = tables.coordinates.list();

@@ -132,6 +132,7 @@ private:
         Json& holonomic = live["holonomic"] = Json::array();
         for (const Mechanism::Constraint& c : e_.mechanism.constraints)
             holonomic.push_back(c.position.has_value());
+        live["redundant"] = e_.mechanism.redundant.size();
         live["own_speeds"] = !p_.speeds.empty();
         for (std::size_t k = 0; k < state_.size(); ++k)
             live["guessed"].push_back(k < n() ? m_.q_is_guess[k]

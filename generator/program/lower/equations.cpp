@@ -198,6 +198,7 @@ public:
             add_motion(*solution, K, witness);
         else
             leave_without_motion();
+        if (!m_.redundant.empty()) add_redundant();
         add_rates();
         add_speed_roots(lowering_, program_, m_, e_);
         lower_outputs();
@@ -377,6 +378,39 @@ private:
             program_.roots.push_back({Group::position, constraint.name,
                                       constraint.position ? lowering_(*constraint.position) : program_.number(0)});
             program_.roots.push_back({Group::velocity, constraint.name, program_.sum(0, velocity)});
+        }
+    }
+
+    /// The constraints that follow from the others have multipliers too, so users get their rows.
+    void add_redundant() {
+        std::vector<ex> wanted;
+        std::vector<std::vector<ex>> columns;  // ∂q'/∂u
+        for (int k = 0; k < n_ && has_speeds_; ++k) {
+            columns.push_back(m_.z->push_forward(e_.h, {{e_.u[k], 1}}));
+            wanted.insert(wanted.end(), columns.back().begin(), columns.back().end());
+        }
+        for (const Mechanism::Constraint& constraint : m_.redundant) {
+            wanted.insert(wanted.end(), constraint.row.begin(), constraint.row.end());
+            wanted.insert(wanted.end(), {constraint.position.value_or(0), constraint.drift});
+        }
+        lowering_.lower_definitions(wanted);
+        for (const Mechanism::Constraint& constraint : m_.redundant) {
+            const auto along = [&](const auto& list, int drift) {
+                std::vector<Program::Term> terms{{1, drift}};
+                for (int i = 0; i < m_.size(); ++i)
+                    terms.emplace_back(
+                        1, program_.product(1, {{lowering_(constraint.row[i]), 1}, {lowering_(list[i]), 1}}));
+                return program_.sum(0, terms);
+            };
+            for (const ex& entry : constraint.row)
+                program_.roots.push_back({Group::redundant_row, constraint.name, lowering_(entry)});
+            for (const std::vector<ex>& column : columns)
+                program_.roots.push_back(
+                    {Group::redundant_speed_row, constraint.name, along(column, program_.number(0))});
+            program_.roots.push_back(
+                {Group::redundant_position, constraint.name, lowering_(constraint.position.value_or(0))});
+            program_.roots.push_back(
+                {Group::redundant_velocity, constraint.name, along(m_.qdot, lowering_(constraint.drift))});
         }
     }
 

@@ -96,6 +96,7 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     file.set("shown_inputs", shown_inputs(model));
     std::string initial;
     for (const auto* part : {&model.start.q, &model.start.qdot})
+    file.set("all_constraints", all_constraints(p));
         for (const double x : *part) initial += shortest(x) + ", ";
     file.set("initial", initial);
     file.set("start", shortest(model.start.t));

@@ -142,10 +142,9 @@ class Crew {
 public:
     Crew(const Ensemble& ensemble, const EnsembleFeed& feed, const Options& options)
         : e_(ensemble), feed_(feed), options_(options) {
-        const alembert_solver_table& table = e_.module.table();
         const bool stops = std::any_of(e_.stops.begin(), e_.stops.end(), [](bool stop) { return stop; });
-        if (!e_.by && e_.module.pack() != nullptr && e_.module.pack()->lanes == lanes && table.constraints == 0 &&
-            !stops)
+        if (!e_.by && e_.module.pack() != nullptr && e_.module.pack()->lanes == lanes &&
+            e_.module.independent_constraints() == 0 && !stops)
             packed_ = packed_method(e_, options);
         const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
         threads_ = std::clamp<std::size_t>(e_.threads > 0 ? static_cast<std::size_t>(e_.threads) : cores, 1,
@@ -246,7 +245,7 @@ private:
             along(t, y.data(), rate.data());
         };
         std::optional<Projection> projection;
-        if (table.constraints > 0) {
+        if (e_.module.independent_constraints() > 0) {
             projection.emplace(e_.module, member.parameters).begin(options.start, state.data());
             system.project = projection->after_steps();
             system.rhs = projection->guarded(std::move(system.rhs), member.parameters);

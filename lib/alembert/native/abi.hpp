@@ -29,7 +29,7 @@ struct alembert_solver_table {
     int constants;            ///< k, the numbers `prepare` adds
     int outputs;              ///< length of what `outputs` writes
     int events;               ///< length of what `events` writes
-    int constraints;          ///< m
+    int constraints;          ///< m, those that follow from the others last
     const char* scene;        ///< title or file name of the scene
     const char* formulation;  ///< formalism and form, e.g. "lagrange, textbook form"
     const char* const* coordinate_names;
@@ -74,16 +74,20 @@ struct alembert_derivative_table {
                                double* values);  ///< null if they are not wanted
 };
 
+/// A file of a system in which some constraints follow from others also exports
+/// `alembert_independent_constraints()`: the number r of the first constraints, from which the rest follow;
+/// elsewhere r = m.
+
 /// What `alembert_projection()` returns, which the emitted file of a system with constraints has.
 struct alembert_projection_table {
     int abi;
     /// moved: n + s, the state after one step of Newton's method to the constraints (projection.hpp says in which
-    /// metric); position: m, f at the state given; pivots: m, the pivots of the elimination of A M⁻¹Aᵀ. For
+    /// metric); position: r, f at the state given; pivots: r, the pivots of the elimination of A M⁻¹Aᵀ. For
     /// constraints that u has eliminated they are those of A Aᵀ if the constraint is holonomic, else 0. The
     /// pointer is null if u has eliminated all constraints and none is holonomic.
     void (*project)(double t, const double* state, const double* par, double* moved, double* position,
                     double* pivots);
-    /// gamma: m, the right-hand side of A u' = γ. The entries of constraints that u has eliminated are not
+    /// gamma: r, the right-hand side of A u' = γ. The entries of constraints that u has eliminated are not
     /// written. The pointer is null if u has eliminated all constraints.
     void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
 };

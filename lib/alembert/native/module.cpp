@@ -59,8 +59,10 @@ Module load(const std::filesystem::path& object) {
     further("alembert_pack", pack);
     const alembert_function_table* functions = nullptr;
     further("alembert_functions", functions);
+    using Count = int (*)();
+    const auto independent = reinterpret_cast<Count>(file.find("alembert_independent_constraints"));
     return Module(std::shared_ptr<const alembert_solver_table>(file.handle(), table), derivatives, projection,
-                  pack, functions);
+                  pack, functions, independent != nullptr ? std::optional(independent()) : std::nullopt);
 }
 
 const alembert_named_function* Module::function(const std::string& name) const {

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,16 +38,20 @@ public:
     explicit Module(std::shared_ptr<const alembert_solver_table> table,
                     const alembert_derivative_table* derivatives = nullptr,
                     const alembert_projection_table* projection = nullptr,
-                    const alembert_pack_table* pack = nullptr, const alembert_function_table* functions = nullptr)
+                    const alembert_pack_table* pack = nullptr, const alembert_function_table* functions = nullptr,
+                    std::optional<int> independent = std::nullopt)
         : table_(std::move(table)),
           derivatives_(derivatives),
           projection_(projection),
           pack_(pack),
-          functions_(functions) {}
+          functions_(functions),
+          independent_(independent.value_or(table_->constraints)) {}
 
     const alembert_solver_table& table() const { return *table_; }
     /// Null if the file was emitted without derivatives.
     const alembert_derivative_table* derivatives() const { return derivatives_; }
+    /// Of the table's constraints, the first ones, from which the others follow.
+    int independent_constraints() const { return independent_; }
     /// Null if the system has no constraints.
     const alembert_projection_table* projection() const { return projection_; }
     /// Null if the file was emitted without `--batch`.
@@ -69,6 +74,7 @@ private:
     const alembert_projection_table* projection_;         ///< in it
     const alembert_pack_table* pack_;                     ///< in it
     const alembert_function_table* functions_;            ///< in it
+    int independent_;
     std::shared_ptr<const std::vector<int>> needed_state_ = {};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/ode/hamiltonian.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -10,7 +11,7 @@ namespace alembert {
 std::shared_ptr<const Canonical> make_canonical(const Module& module, const Module& form,
                                                 const std::vector<double>& values) {
     const alembert_solver_table& table = module.table();
-    Canonical result{.coordinates = table.coordinates, .constraints = table.constraints};
+    Canonical result{.coordinates = table.coordinates, .constraints = module.independent_constraints()};
     if (table.speed_names != nullptr || form.table().coordinates != table.coordinates ||
         form.table().outputs != result.form_size())
         throw std::invalid_argument(
@@ -21,7 +22,16 @@ std::shared_ptr<const Canonical> make_canonical(const Module& module, const Modu
     };
     result.held = [module, par = prepared(module, values)](double t, const double* state, double* position,
                                                            double* velocity, double* rows) {
-        module.table().constraints_at(t, state, par.data(), position, velocity, rows);
+        const auto all = static_cast<std::size_t>(module.table().constraints),
+                   independent = static_cast<std::size_t>(module.independent_constraints()),
+                   n = static_cast<std::size_t>(module.table().coordinates);
+        if (all == independent)
+            return module.table().constraints_at(t, state, par.data(), position, velocity, rows);
+        std::vector<double> off(2 * all), each(all * n);
+        module.table().constraints_at(t, state, par.data(), off.data(), off.data() + all, each.data());
+        std::copy_n(off.begin(), independent, position);
+        std::copy_n(off.data() + all, independent, velocity);
+        std::copy_n(each.begin(), independent * n, rows);
     };
     return std::make_shared<const Canonical>(std::move(result));
 }

@@ -31,13 +31,15 @@ Projection::Projection(const Module& module, const std::vector<double>& values)
       par_(prepared(module, values)),
       n_(module.table().coordinates),
       s_(module.table().speeds),
-      m_(module.table().constraints),
+      m_(module.independent_constraints()),
+      all_(module.table().constraints),
       position_(m_),
       velocity_(m_),
       forcing_(s_),
       gamma_(Eigen::VectorXd::Zero(m_)),
       mass_(s_, s_),
-      rows_(static_cast<std::size_t>(m_) * static_cast<std::size_t>(n_ + s_)),
+      rows_(static_cast<std::size_t>(all_) * static_cast<std::size_t>(n_ + s_)),
+      off_(static_cast<std::size_t>(2 * all_)),
       moved_(static_cast<std::size_t>(n_ + s_)),
       misfit_(static_cast<std::size_t>(m_)),
       pivots_(misfit_.size()),
@@ -45,7 +47,10 @@ Projection::Projection(const Module& module, const std::vector<double>& values)
       saddle_(s_, m_) {}
 
 void Projection::evaluate(double t, const double* state, const double* par) {
-    module_.table().constraints_at(t, state, par, position_.data(), velocity_.data(), rows_.data());
+    double* const velocity = off_.data() + all_;
+    module_.table().constraints_at(t, state, par, off_.data(), velocity, rows_.data());
+    position_ = Eigen::Map<const Eigen::VectorXd>(off_.data(), m_);
+    velocity_ = Eigen::Map<const Eigen::VectorXd>(velocity, m_);
     module_.table().mass_forcing(t, state, par, mass_.data(), forcing_.data());
 }
 

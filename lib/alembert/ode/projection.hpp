@@ -76,7 +76,7 @@ private:
     bool unrolled(double t, double* state);
     bool own_speeds() const { return module_.table().speed_names != nullptr; }
     Eigen::Map<const Rows> in_rates() const { return {rows_.data(), m_, n_}; }
-    Eigen::Map<const Rows> in_speeds() const { return {rows_.data() + (own_speeds() ? m_ * n_ : 0), m_, s_}; }
+    Eigen::Map<const Rows> in_speeds() const { return {rows_.data() + (own_speeds() ? all_ * n_ : 0), m_, s_}; }
     void evaluate(double t, const double* state) { evaluate(t, state, par_.data()); }
     void evaluate(double t, const double* state, const double* par);
     bool pivots_are_small();
@@ -90,10 +90,11 @@ private:
 
     Module module_;
     std::vector<double> par_;
-    int n_, s_, m_;  ///< coordinates, speeds, constraints
+    int n_, s_, m_, all_;  ///< coordinates, speeds, independent constraints, all of them
     Eigen::VectorXd position_, velocity_, forcing_, gamma_;
     Rows mass_;
     std::vector<double> rows_;  ///< A, followed, if the speeds are not the rates, by A in terms of the speeds
+    std::vector<double> off_;   ///< f of all constraints, then A q' + b
     std::vector<double> moved_, misfit_, pivots_, largest_pivots_;  // one for each constraint in the file's order
     SaddlePoint saddle_;                                            ///< measured where a pivot has grown
     bool is_near_singular_ = false, have_grown_ = false;
