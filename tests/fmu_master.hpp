@@ -173,6 +173,7 @@ public:
             bool need = false, over = false, nominals = false, values = false, next = false;
             double when = 0;
             ok("fmi3UpdateDiscreteStates", &need, &over, &nominals, &values, &next, &when);
+            next_event_ = next ? when : HUGE_VAL;
             return over;
         }
         struct {
@@ -180,8 +181,11 @@ public:
             double when;
         } info{};
         ok("fmi2NewDiscreteStates", static_cast<void*>(&info));
+        next_event_ = info.next != 0 ? info.when : HUGE_VAL;
         return info.over != 0;
     }
+    /// The time of the next event that the unit has told; HUGE_VAL if it has told none.
+    double next_event() const { return next_event_; }
     bool wants_event() {
         if (unit_.version == 3) {
             bool event = false, over = false;
@@ -205,7 +209,7 @@ public:
 private:
     const Unit& unit_;
     void* me_ = nullptr;
-    double tolerance_ = 0;
+    double tolerance_ = 0, next_event_ = HUGE_VAL;
     bool over_ = false, is_continuous_ = false;
     const void* callbacks_[5] = {};
 };

@@ -46,12 +46,21 @@ void add_impulses(Program& program, const UnitModel& model) {
         program.roots.push_back({Group::event_impulse, "", node});
 }
 
-/// The program with its signs held, and with its derivatives.
+/// The program with its signs held, its clocks, and its derivatives.
 void complete(UnitModel& model, Program program) {
     if (const std::optional<Switched> held = switched(program)) {
         model.signs = static_cast<int>(held->frictions.size());
         program = held->program;
     }
+    const int signs_begin = static_cast<int>(program.parameters.size()) - model.signs,
+              watched = static_cast<int>(model.mechanism.events.size()) + model.signs;
+    SetParameters set{signs_begin, signs_begin};
+    if (!model.inputs.empty())
+        set.first =
+            static_cast<int>(std::find_if(program.parameters.begin(), program.parameters.end(),
+                                          [&](const Quantity& p) { return p.name == model.inputs[0].is_set; }) -
+                             program.parameters.begin());
+    model.clocks = add_clocks(program, watched, set);
     model.program = with_tangent(program).canonical();
 }
 

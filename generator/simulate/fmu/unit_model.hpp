@@ -15,6 +15,7 @@
 #include "analysis/derive/derived.hpp"
 #include "program/interpret.hpp"
 #include "program/motion_system.hpp"
+#include "simulate/fmu/clocks.hpp"
 #include "simulate/fmu/free_inputs.hpp"
 
 namespace alembert {
@@ -23,7 +24,8 @@ struct UnitModel : Derived {
     std::vector<FreeInput> inputs = {};
     std::string input_time = {};  ///< as in FreeInputs
     Program program = {};
-    int signs = 0;             ///< parameters that hold a sign, the last of the program
+    int signs = 0;  ///< parameters that hold a sign, the last of the program
+    std::vector<Clock> clocks = {};
     State<double> start = {};  ///< q, u, t, all parameters, and the direction of the tangent as unknowns
     std::vector<bool> tied =
         {};  ///< of the first parameters, those that keep their values (analysis/state/left_out.hpp)

@@ -48,6 +48,15 @@ std::vector<std::string> actions_of(const Mechanism& m) {
     return rows;
 }
 
+/// The watched function of each clock, and in which way its argument tells a zero.
+std::vector<std::string> clocks_of(const UnitModel& model) {
+    constexpr const char* kinds[] = {"at_zero", "at_sine", "at_cosine"};
+    std::vector<std::string> rows;
+    for (const Clock& clock : model.clocks)
+        rows.push_back(fmt::format("{}, {}", clock.watched, kinds[static_cast<int>(clock.kind)]));
+    return rows;
+}
+
 /// The positions of the outputs that show the inputs and their derivatives.
 std::string shown_inputs(const UnitModel& model) {
     std::string result;
@@ -87,16 +96,19 @@ SourceFile unit_source(const UnitModel& model, const std::vector<UnitVariable>& 
     number("events", model.mechanism.events.size());
     number("kicks", p.nodes_of(Group::event_impulse).size() / std::max<std::size_t>(1, words.q().size()));
     number("constraints", p.nodes_of(Group::velocity).size());
+    file.set("all_constraints", all_constraints(p));
     number("outputs", p.nodes_of(Group::output).size() + p.nodes_of(Group::speed).size());
     number("multipliers", multipliers_of(p));
     number("variables", variables.size());
     file.set("table", list_of(rows_of(variables)));
     file.set("names", list_of(quoted_names(variables)));
     file.set("actions", list_of(actions_of(model.mechanism)));
+    number("clocks", model.clocks.size());
+    file.set("has_clocks", !model.clocks.empty());
+    file.set("clock_rows", list_of(clocks_of(model)));
     file.set("shown_inputs", shown_inputs(model));
     std::string initial;
     for (const auto* part : {&model.start.q, &model.start.qdot})
-    file.set("all_constraints", all_constraints(p));
         for (const double x : *part) initial += shortest(x) + ", ";
     file.set("initial", initial);
     file.set("start", shortest(model.start.t));

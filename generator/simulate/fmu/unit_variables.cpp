@@ -212,8 +212,8 @@ private:
         if (p_.speeds.empty()) add_roots(Kind::output, Group::speed, outputs);  // otherwise they are states
         add_roots(Kind::multiplier, Group::multiplier, multipliers);
         add_roots(Kind::event, Group::event, events);
-        // The rates of the functions whose signs are held come last, and are no indicators.
-        list_.resize(list_.size() - static_cast<std::size_t>(m_.signs));
+        // The rates of the functions whose signs are held come last, then clocks: they are no indicators.
+        list_.resize(list_.size() - static_cast<std::size_t>(m_.signs) - m_.clocks.size());
     }
 
     void depend(UnitVariable& variable, int node) {

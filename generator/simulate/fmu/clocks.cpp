@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "simulate/fmu/clocks.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace alembert {
+
+namespace {
+
+class ClockSearch {
+public:
+    ClockSearch(const Program& program, const SetParameters& set) : p_(program), set_(set) {}
+
+    /// The clocks of one function and their arguments; nothing if its zeros are not known.
+    bool find(int node, int watched) {
+        const Node& here = p_[node];
+        if (const std::optional<int> degree = degree_of(node)) {
+            if (*degree == 1) add(watched, Clock::Kind::zero, node);
+            return true;  // a constant is no clock
+        }
+        if (here.is_scaled()) return find(here.args[0], watched);
+        if (here.op == Op::product && !here.is_reciprocal()) {
+            for (std::size_t k = 0; k < here.args.size(); ++k)
+                if (here.exponents[k] != 1 || !find(here.args[k], watched)) return false;
+            return true;
+        }
+        if ((here.op != Op::sin && here.op != Op::cos) || degree_of(here.args[0]) != 1) return false;
+        add(watched, here.op == Op::sin ? Clock::Kind::sine : Clock::Kind::cosine, here.args[0]);
+        return true;
+    }
+
+    std::vector<Clock> clocks;
+    std::vector<int> arguments;
+
+private:
+    void add(int watched, Clock::Kind kind, int argument) {
+        clocks.push_back({watched, kind});
+        arguments.push_back(argument);
+    }
+
+    /// 0 or 1 for what is constant or linear in time.
+    std::optional<int> degree_of(int node) const {
+        const Node& here = p_[node];
+        if (here.op == Op::variable) {
+            const Variable& v = here.variable;
+            if (v.kind == Variable::Kind::time) return 1;
+            const bool is_set = v.index >= set_.first && v.index < set_.behind;
+            return v.kind == Variable::Kind::parameter && !is_set ? std::optional(0) : std::nullopt;
+        }
+        int degree = 0;
+        for (std::size_t k = 0; k < here.args.size(); ++k) {
+            const std::optional<int> one = degree_of(here.args[k]);
+            if (!one || (*one > 0 && here.op != Op::sum && (here.op != Op::product || here.exponents[k] != 1)))
+                return std::nullopt;
+            degree = here.op == Op::product ? degree + *one : std::max(degree, *one);
+        }
+        return degree <= 1 ? std::optional(degree) : std::nullopt;
+    }
+
+    const Program& p_;
+    SetParameters set_;
+};
+
+}  // namespace
+
+std::vector<Clock> add_clocks(Program& program, int watched, const SetParameters& set) {
+    constexpr double largest = 1000;  // operations; a function is looked at as a tree
+    std::vector<int> events = program.nodes_of(Group::event);
+    std::vector<Clock> clocks;
+    events.resize(static_cast<std::size_t>(watched));
+    for (int k = 0; k < watched; ++k) {
+        const int node = events[static_cast<std::size_t>(k)];
+        ClockSearch search(program, set);
+        if (program[node].size > largest || !search.find(node, k)) continue;
+        clocks.insert(clocks.end(), search.clocks.begin(), search.clocks.end());
+        for (const int argument : search.arguments)
+            program.roots.push_back({Group::event, "clock " + std::to_string(clocks.size()), argument});
+    }
+    return clocks;
+}
+
+}  // namespace alembert

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+// Units in model exchange under CVODE of SUNDIALS, whose search for roots is that of FMPy and other importers.
+// What happens is compared with `simulate`, which has another integrator and another search, and with closed
+// forms.
+#include <cvode/cvode.h>
+#include <doctest/doctest.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "fmu_exports.hpp"
+#include "sundials_context.hpp"
+
+namespace fmu_cvode {
+
+using namespace alembert::test;
+
+namespace {
+
+/// CVODE with the functions of an instance.
+class Integrator {
+public:
+    Integrator(Instance& one, int watched, double tolerance)
+        : one_(one), watched_(watched), size_(static_cast<sunindextype>(one.states())) {
+        context_ = alembert::quiet_context();
+        y_ = N_VNew_Serial(size_, context_);
+        matrix_ = SUNDenseMatrix(size_, size_, context_);
+        solver_ = SUNLinSol_Dense(y_, matrix_, context_);
+        memory_ = CVodeCreate(CV_BDF, context_);
+        take();
+        CVodeInit(memory_, rates, 0, y_);
+        CVodeSStolerances(memory_, tolerance, tolerance);
+        CVodeSetLinearSolver(memory_, solver_, matrix_);
+        CVodeSetUserData(memory_, this);
+        CVodeSetMaxNumSteps(memory_, 1000000);
+        if (watched_ > 0) CVodeRootInit(memory_, watched_, indicators);
+    }
+    Integrator(const Integrator&) = delete;
+    Integrator& operator=(const Integrator&) = delete;
+    ~Integrator() {
+        CVodeFree(&memory_);
+        SUNLinSolFree(solver_);
+        SUNMatDestroy(matrix_);
+        N_VDestroy(y_);
+        SUNContext_Free(&context_);
+    }
+
+    /// Goes on to `next` or to a root, as FMPy does: past the time in steps of its own, and back by interpolation.
+    bool finds_root(double& t, double next) {
+        const int flag = CVode(memory_, next, y_, &t, CV_NORMAL);
+        REQUIRE(flag >= 0);
+        one_.at(t, state());
+        return flag == CV_ROOT_RETURN;
+    }
+    void begin_again(double t) {
+        take();
+        CVodeReInit(memory_, t, y_);
+    }
+
+private:
+    Numbers state() const { return of(y_); }
+    Numbers of(N_Vector v) const {
+        const double* const x = N_VGetArrayPointer(v);
+        return {x, x + size_};
+    }
+    void take() {
+        const Numbers x = one_.state();
+        std::copy(x.begin(), x.end(), N_VGetArrayPointer(y_));
+    }
+    static int rates(sunrealtype t, N_Vector y, N_Vector rate, void* me) {
+        const auto& self = *static_cast<const Integrator*>(me);
+        self.one_.at(t, self.of(y));
+        const Numbers f = self.one_.rates();
+        std::copy(f.begin(), f.end(), N_VGetArrayPointer(rate));
+        return 0;
+    }
+    static int indicators(sunrealtype t, N_Vector y, sunrealtype* out, void* me) {
+        const auto& self = *static_cast<const Integrator*>(me);
+        self.one_.at(t, self.of(y));
+        const Numbers z = self.one_.indicators();
+        std::copy(z.begin(), z.end(), out);
+        return 0;
+    }
+
+    Instance& one_;
+    int watched_;
+    sunindextype size_;
+    SUNContext context_ = nullptr;
+    N_Vector y_ = nullptr;
+    SUNMatrix matrix_ = nullptr;
+    SUNLinearSolver solver_ = nullptr;
+    void* memory_ = nullptr;
+};
+
+struct Ended {
+    double time = 0;
+    int roots = 0, known = 0;  ///< events that the search found, and that the unit had told
+};
+
+/// To `end`, in pieces of `interval`. After each event no indicator may be zero.
+Ended follow(Instance& one, double end, double interval, double tolerance = 1e-9) {
+    Ended ended;
+    double& t = ended.time;
+    if (one.update()) return ended;
+    const auto watched = static_cast<int>(one.indicators().size());
+    Integrator by(one, watched, tolerance);
+    for (int n = 1; t < end;) {
+        const double told = one.next_event(), next = std::min({n * interval, end, told});
+        REQUIRE(next > t);
+        const bool is_root = by.finds_root(t, next), is_told = t >= told;
+        while (n * interval <= t) ++n;
+        if (!one.wants_event() && !is_root && !is_told) continue;
+        ended.roots += is_root ? 1 : 0;
+        ended.known += is_told ? 1 : 0;
+        if (one.update()) return ended;
+        for (const double z : one.indicators()) CHECK(z != 0);
+        by.begin_again(t);
+    }
+    return ended;
+}
+
+constexpr const char* particle = R"toml([coordinates]
+x = {{ initial = {}, rate = {} }}
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+{}
+)toml";
+
+std::string scene_of(double x, double v, const std::string& rest) {
+    return temporary("unit.toml", fmt::format(particle, x, v, rest));
+}
+
+std::string force(const std::string& f) {
+    return "[forces]\nx = \"" + f + "\"\n";
+}
+
+std::string kick(const std::string& when, const std::string& impulse, const std::string& more = "") {
+    static int count = 0;
+    return fmt::format("[[event]]\nname = \"e{}\"\nwhen = \"{}\"\nimpulses = {{ x = \"{}\" }}\n{}\n", count++,
+                       when, impulse, more);
+}
+
+struct Case {
+    const char* about;
+    double x, v;
+    std::string rest;
+};
+
+/// Everyday switches, walls, kicks and stops; zeros that are reached exactly, and zeros at times that are known.
+std::vector<Case> everyday() {
+    const std::string up = "direction = \"up\"", down = "direction = \"down\"";
+    return {{"a step in time", 0, 0, force("(1 + sign(t - 5))/2")},
+            {"a ramp", 0, 0, force("max(0, t - 5)")},
+            {"an angle in time", 0, 0, force("abs(t - 5)")},
+            {"a square wave of period 2", 0, 0, force("sign(sin(pi*t))")},
+            {"a square wave of period 2 pi/3", 0, 0, force("sign(sin(3*t))")},
+            {"a square wave that begins in the middle", 0, 0, force("sign(cos(pi*t))*(3 - sign(2 - t))")},
+            {"on and off", 1, 0, force("-sign(x)")},
+            {"a spring on one side", 1, 0, force("-x - 20*max(0, -x)")},
+            {"a soft wall at 5", 0, 1, force("-30*max(0, x - 5)")},
+            {"a soft wall at 3.3", 0, 1, force("-30*max(0, x - 3.3)")},
+            {"drag", 0, 1, force("-0.3*x'*abs(x') + cos(t)")},
+            {"a wall at 5", 0, 1, kick("x - 5", "-2*x'")},
+            {"a wall at 5 000 000", 4999995, 1, kick("x - 5e6", "-2*x'")},
+            {"a wall at 5 millionths", 0, 1e-6, kick("x - 5e-6", "-2*x'")},
+            {"a kick at t = 5", 0, 1, kick("t - 5", "-2*x'")},
+            {"a kick at t = 3.3", 0, 1, kick("7*(3.3 - t)", "-2*x'")},
+            {"kicks at two times", 0, 1, kick("(t - 2)*(t - 7)", "0.5")},
+            {"a kick of an oscillator", 1, 0, force("-x") + kick("x", "0.2*x'")},
+            {"a stop at t = 5", 0, 1, "[[event]]\nname = \"e\"\nwhen = \"t - 5\"\nstop = true\n"},
+            {"a stop at x = 5", 0, 1, "[[event]]\nname = \"e\"\nwhen = \"x - 5\"\nstop = true\n"},
+            {"two walls", 0.3, 1, kick("x - 1", "-2*x'", up) + kick("x", "-2*x'", down)},
+            {"kicks at whole times", 0, 1, kick("sin(pi*t)", "0.3")},
+            {"kicks at times where a sine rises", 0, 1, kick("-2*sin(3*t + 1)", "0.3", up)},
+            {"a bound force", 0, 1, force("-min(x, 2)")},
+            {"a dead zone", 3, 0, force("-max(0, x - 1) - min(0, x + 1)")},
+            {"a ball", 1, 0, force("-9.81") + kick("x", "-2*x'", down)},
+            {"a brake that begins at a speed", 0, 0, force("1 - 0.5*max(0, x' - 1)")},
+            {"from rest at a zero", 0, 0, force("cos(t) - 0.4*sign(x' + 3)*x") + kick("x - 0.5", "-x'", up)},
+            {"a kick that crosses the zero of another", 0, 1, kick("x - 1.1", "1") + kick("x' - 1.5", "3")}};
+}
+
+}  // namespace
+
+TEST_CASE("fmu: under CVODE's search for roots no event is lost, in either version and with any interval") {
+    for (const Case& one : everyday()) {
+        CAPTURE(one.about);
+        const std::string scene = scene_of(one.x, one.v, one.rest);
+        const Json wanted = simulated(scene, 10);
+        for (const int version : {2, 3}) {
+            const Unit unit = exported(scene, version);
+            for (const double interval : {10.0, 0.5, 0.0371}) {
+                CAPTURE(version);
+                CAPTURE(interval);
+                Instance instance(unit, false, 1e-9);
+                instance.begin();
+                const Ended ended = follow(instance, 10, interval);
+                CHECK(ended.time == doctest::Approx(double(wanted["time"])).epsilon(1e-8));
+                // Some hundred steps, each with an error of 1e-9.
+                CHECK(difference(instance, wanted) < 2e-6);
+            }
+        }
+    }
+}
+
+TEST_CASE("fmu: jumps at known times are told in advance, and are no roots") {
+    struct Known {
+        const char* when;
+        std::vector<double> times;
+    };
+    const double pi = 3.14159265358979323846;
+    for (const Known& known :
+         {Known{"t - 5", {5}}, Known{"2*(T - t)", {4.5}}, Known{"sin(pi*t)", {1, 2, 3, 4, 5, 6, 7, 8, 9}},
+          Known{"(t - 2)*(t - 7)", {2, 7}},
+          Known{"cos(2*t)*T", {pi / 4, 3 * pi / 4, 5 * pi / 4, 7 * pi / 4, 9 * pi / 4, 11 * pi / 4}}}) {
+        CAPTURE(known.when);
+        const std::string scene = scene_of(0, 1, "[parameters]\nT = 4.5\n" + kick(known.when, "-0.1*x'"));
+        for (const int version : {2, 3}) {
+            const Unit unit = exported(scene, version);
+            Instance one(unit, false, 1e-9);
+            one.begin();
+            double x = 0, v = 1, last = 0;
+            for (const double t : known.times) x += v * (t - last), v *= 0.9, last = t;
+            x += v * (9.5 - last);
+            const Ended ended = follow(one, 9.5, 1);
+            CHECK(ended.known == static_cast<int>(known.times.size()));
+            CHECK(ended.roots == 0);
+            CHECK(one.get("x") == doctest::Approx(x).epsilon(1e-9));
+            CHECK(one.get("der(x)") == doctest::Approx(v).epsilon(1e-12));
+        }
+    }
+}
+
+TEST_CASE("fmu: an importer whose step ends at the zero itself sees no zero, and the event follows") {
+    for (const int version : {2, 3}) {
+        const Unit unit = exported(scene_of(0, 1, kick("x - 5", "-2*x'")), version);
+        Instance one(unit, false, 1e-9);
+        one.begin();
+        one.update();
+        CHECK(one.indicators()[0] < 0);
+        one.at(5, {5, 1});
+        one.wants_event();
+        CHECK(one.indicators()[0] < 0);  // it has not passed
+        one.at(5 + 1e-9, {5 + 1e-9, 1});
+        CHECK(one.indicators()[0] > 0);
+        one.update();
+        CHECK(one.state() == Numbers{5 + 1e-9, -1});
+        CHECK(one.indicators()[0] < 0);
+        one.at(5.5, {4.5, -1});
+        CHECK_FALSE(one.wants_event());
+        CHECK(one.indicators()[0] < 0);
+        // It comes again, and is sent back again.
+        one.at(7, {5.25, 1});
+        CHECK(one.indicators()[0] > 0);
+        CHECK(one.wants_event());
+        one.update();
+        CHECK(one.state() == Numbers{5.25, -1});
+    }
+}
+
+// The times are told again after a parameter or the time was set.
+TEST_CASE("fmu: the time that is told follows parameters, and an input that may be set is no clock") {
+    for (const int version : {2, 3}) {
+        const Unit unit = exported(scene_of(0, 1, "[parameters]\nT = 4.5\n" + kick("t - T", "1")), version);
+        Instance one(unit, false);
+        one.begin();
+        one.update();
+        CHECK(one.next_event() == 4.5);
+        one.set("T", 3);
+        one.update();
+        CHECK(one.next_event() == 3);
+        const Unit driven =
+            exported(scene_of(0, 1, "[inputs]\nF = \"t - 5\"\n" + force("F") + kick("F", "1")), version);
+        Instance other(driven, false);
+        other.begin();
+        other.update();
+        CHECK(other.next_event() == HUGE_VAL);
+    }
+}
+
+}  // namespace fmu_cvode
