@@ -16,7 +16,7 @@ public:
     bool find(int node, int watched) {
         const Node& here = p_[node];
         if (const std::optional<int> degree = degree_of(node)) {
-            if (*degree == 1) add(watched, Clock::Kind::zero, node);
+            if (*degree == 1) add(watched, TimedZero::Kind::zero, node);
             return true;  // a constant is no clock
         }
         if (here.is_scaled()) return find(here.args[0], watched);
@@ -26,15 +26,15 @@ public:
             return true;
         }
         if ((here.op != Op::sin && here.op != Op::cos) || degree_of(here.args[0]) != 1) return false;
-        add(watched, here.op == Op::sin ? Clock::Kind::sine : Clock::Kind::cosine, here.args[0]);
+        add(watched, here.op == Op::sin ? TimedZero::Kind::sine : TimedZero::Kind::cosine, here.args[0]);
         return true;
     }
 
-    std::vector<Clock> clocks;
+    std::vector<TimedZero> clocks;
     std::vector<int> arguments;
 
 private:
-    void add(int watched, Clock::Kind kind, int argument) {
+    void add(int watched, TimedZero::Kind kind, int argument) {
         clocks.push_back({watched, kind});
         arguments.push_back(argument);
     }
@@ -64,10 +64,10 @@ private:
 
 }  // namespace
 
-std::vector<Clock> add_clocks(Program& program, int watched, const SetParameters& set) {
+std::vector<TimedZero> add_clocks(Program& program, int watched, const SetParameters& set) {
     constexpr double largest = 1000;  // operations; a function is looked at as a tree
     std::vector<int> events = program.nodes_of(Group::event);
-    std::vector<Clock> clocks;
+    std::vector<TimedZero> clocks;
     events.resize(static_cast<std::size_t>(watched));
     for (int k = 0; k < watched; ++k) {
         const int node = events[static_cast<std::size_t>(k)];

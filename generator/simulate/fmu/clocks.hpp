@@ -3,8 +3,8 @@
 
 /// Watched functions of time alone, such as t − 5 or sin(π t), whose zeros a unit knows before it reaches them.
 ///
-///     const std::vector<Clock> clocks = add_clocks(program, 1, {2, 6});   // the first event; inputs are par[2] …
-///     par[5]
+///     const std::vector<TimedZero> clocks = add_clocks(program, 1, {2, 6});   // the first event; inputs are
+///     par[2] … par[5]
 ///
 /// Each clock is an argument linear in time; what is watched changes its sign where the argument is zero, or its
 /// sine, or its cosine. The arguments become roots of Group::event, after those that are there.
@@ -16,7 +16,7 @@
 
 namespace alembert {
 
-struct Clock {
+struct TimedZero {
     enum class Kind { zero, sine, cosine };
     int watched;  ///< among the roots of Group::event
     Kind kind;
@@ -28,6 +28,6 @@ struct SetParameters {
 };
 
 /// Looks at the first `watched` roots of Group::event.
-std::vector<Clock> add_clocks(Program& program, int watched, const SetParameters& set);
+std::vector<TimedZero> add_clocks(Program& program, int watched, const SetParameters& set);
 
 }  // namespace alembert

@@ -25,7 +25,7 @@ struct UnitModel : Derived {
     std::string input_time = {};  ///< as in FreeInputs
     Program program = {};
     int signs = 0;  ///< parameters that hold a sign, the last of the program
-    std::vector<Clock> clocks = {};
+    std::vector<TimedZero> clocks = {};
     State<double> start = {};  ///< q, u, t, all parameters, and the direction of the tangent as unknowns
     std::vector<bool> tied =
         {};  ///< of the first parameters, those that keep their values (analysis/state/left_out.hpp)

@@ -52,7 +52,7 @@ std::vector<std::string> actions_of(const Mechanism& m) {
 std::vector<std::string> clocks_of(const UnitModel& model) {
     constexpr const char* kinds[] = {"at_zero", "at_sine", "at_cosine"};
     std::vector<std::string> rows;
-    for (const Clock& clock : model.clocks)
+    for (const TimedZero& clock : model.clocks)
         rows.push_back(fmt::format("{}, {}", clock.watched, kinds[static_cast<int>(clock.kind)]));
     return rows;
 }
