@@ -172,7 +172,8 @@ void check_rows(const HeldFunctions& f, std::size_t count, const Evaluation& exp
 /// with a row that the speeds have eliminated.
 std::vector<Scene> scenes_with_redundant_rows() {
     const std::string bead =
-        "gravity = [0, \"-9.81\"]\n[coordinates]\nx = 0\ny = { guess = 0 }\nz = { guess = 0.3, rate_guess = 0 }\n"
+        "gravity = [0, \"-9.81\"]\n[coordinates]\nx = 0\ny = { guess = 0, rate_guess = 0 }\nz = { guess = 0.3, "
+        "rate_guess = 0 }\n"
         "[[particle]]\nname = \"P\"\nmass = 2\nposition = [\"x\", \"y\"]\n"
         "[[particle]]\nname = \"Q\"\nmass = 3\nposition = [\"z\", 0]\n"
         "[[constraint]]\nname = \"a\"\nholonomic = \"y - x^2 - t\"\n"

@@ -102,17 +102,17 @@ void check_example(const Scene& scene, CodeLanguage language, const std::string&
 }
 
 /// A pendulum on a spring whose four parameters have these names.
-std::string spring_scene(const std::vector<std::string>& names, const std::string& unit = "m") {
+std::string spring_scene(const std::vector<std::string>& names, const std::string& text = "m") {
     return fmt::format(
         R"toml(title = """{4}"""
 gravity = [0, "-{0}"]
 [parameters]
-"{0}" = {{ value = 9.81, unit = """{4}""", about = """{4}""" }}
+"{0}" = {{ value = 9.81, unit = "m", about = """{4}""" }}
 "{1}" = 2.5
 "{2}" = 0.7
 "{3}" = 40
 [coordinates]
-theta = {{ initial = 0.4, unit = """{4}""", about = """{4}""" }}
+theta = {{ initial = 0.4, unit = "m", about = """{4}""" }}
 s = {{ initial = 0.1, rate = 0.3 }}
 [[particle]]
 name = "bob"
@@ -121,7 +121,7 @@ position = ["({2} + s)*sin(theta)", "-({2} + s)*cos(theta)"]
 [forces]
 s = "-{3}*s - abs(s)*{1} + min(s, {2}) + sqrt({3} + s^2) + 0.1*atan2(s, {0})"
 )toml",
-        names[0], names[1], names[2], names[3], unit);
+        names[0], names[1], names[2], names[3], text);
 }
 
 Scene scene_of(const std::string& text, const std::string& name) {
@@ -204,9 +204,9 @@ TEST_CASE("emit: parameters with the names of macros and keywords give the rates
 }
 
 TEST_CASE("emit: no text of a scene leaves the comment in which it stands") {
-    for (const char* const unit : {"a */ int x; /* b", "*/*/ #error //*", "kg \\\\ ?\?/", "Ω·m²\u202e*/"}) {
-        CAPTURE(unit);
-        const Scene scene = scene_of(spring_scene({"g", "m", "l", "c"}, unit), "unit.toml");
+    for (const char* const text : {"a */ int x; /* b", "*/*/ #error //*", "kg \\\\ ?\?/", "Ω·m²\u202e*/"}) {
+        CAPTURE(text);
+        const Scene scene = scene_of(spring_scene({"g", "m", "l", "c"}, text), "text.toml");
         check_example(scene, CodeLanguage::c, "-Wcomment -trigraphs");
         check_example(scene, CodeLanguage::cpp, "-Wcomment");
     }

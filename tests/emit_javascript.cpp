@@ -123,12 +123,12 @@ std::string spring_scene(const std::vector<std::string>& names, const std::strin
     return fmt::format(R"toml(title = """{6}"""
 gravity = [0, "-{0}"]
 [parameters]
-"{0}" = {{ value = 9.81, unit = """{6}""", about = """{6}""" }}
+"{0}" = {{ value = 9.81, unit = "m", about = """{6}""" }}
 "{1}" = 2.5
 "{2}" = 0.7
 "{3}" = 40
 [coordinates]
-"{4}" = {{ initial = 0.4, unit = """{6}""", about = """{6}""" }}
+"{4}" = {{ initial = 0.4, unit = "m", about = """{6}""" }}
 "{5}" = {{ initial = 0.1, rate = 0.3 }}
 [[particle]]
 name = "bob"

@@ -186,7 +186,7 @@ std::vector<Case> everyday() {
 
 TEST_CASE("fmu: under CVODE's search for roots no event is lost, in either version and with any interval") {
     for (const Case& one : everyday()) {
-        CAPTURE(one.about);
+        CAPTURE(std::string(one.about));
         const std::string scene = scene_of(one.x, one.v, one.rest);
         const Json wanted = simulated(scene, 10);
         for (const int version : {2, 3}) {
