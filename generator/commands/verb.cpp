@@ -196,7 +196,11 @@ ExactOverrides exact_overrides_of(const std::vector<std::string>& at, const Scen
             throw ModelError(say(
                 "--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", typed));
         const std::string name = item.substr(0, item.find_last_not_of(' ', equals - 1) + 1);
-        result.emplace_back(name, in_si(scene, name, item.substr(equals + 1)));
+        try {
+            result.emplace_back(name, in_si(scene, name, item.substr(equals + 1)));
+        } catch (const ModelError& mistake) {
+            throw ModelError(say("--at {}: {}", typed, mistake.what()));
+        }
     }
     return result;
 }
