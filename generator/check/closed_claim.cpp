@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include "algebra/notation/readable.hpp"
-#include "algebra/notation/text.hpp"
-#include "algebra/symbolic/fourier.hpp"
 #include "analysis/exact/angle_sum.hpp"
 #include "base/language/say.hpp"
 #include "check/in_cells.hpp"
+#include "check/in_print.hpp"
 #include "check/multiple.hpp"
 #include "check/quantities.hpp"
 #include "check/root_form.hpp"
@@ -27,13 +25,17 @@ namespace {
 InNumbers seen_in_numbers(Comparison& now, const Motions& motions, const Program& p, int root) {
     if (!motions.rubbed().empty())
         return hold_in_numbers(told(now), motions, p, {root})[0] ? InNumbers::holds : InNumbers::fails;
-    if (depends_on_sides(p, {root})) return in_numbers(told(now), motions, p, root);
+    if (depends_on_sides(p, {root}) || has_long_numbers(p, {root})) return in_numbers(told(now), motions, p, root);
+    // The prime field lacks some roots of the equations of rest, as √3.
+    if (motions.where() == Motions::At::rest)
+        return in_numbers(told(now), motions, p, root) == InNumbers::fails ? InNumbers::fails : InNumbers::holds;
     std::vector<int> entries = motions.entries().M;
     for (const auto* part :
          {&motions.entries().f, &motions.entries().A, &motions.entries().drift, &motions.entries().gamma})
         entries.insert(entries.end(), part->begin(), part->end());
-    const bool fails = depends_on_sides(motions.program(), entries) &&
-                       in_numbers(told(now), motions, p, root) == InNumbers::fails;
+    const bool may_fail =
+        depends_on_sides(motions.program(), entries) || has_long_numbers(motions.program(), entries);
+    const bool fails = may_fail && in_numbers(told(now), motions, p, root) == InNumbers::fails;
     return fails ? InNumbers::fails : InNumbers::holds;
 }
 
@@ -94,10 +96,19 @@ std::optional<std::vector<std::string>> sheet_on_own_branch(Comparison& now, std
     return where;
 }
 
+/// Whether roots are taken of what changes with rates: no length, whose sign the initial state would tell.
+bool has_roots_of_rates(const Comparison& now, std::size_t k) {
+    const std::vector<GiNaC::ex> squares = squares_in(now.forms[k].residual, now.m);
+    return std::any_of(squares.begin(), squares.end(), [&](const GiNaC::ex& s) {
+        return now.m.z->depends(s, now.m.qdot) || now.m.z->depends(s, now.m.qddot) ||
+               now.m.z->depends(s, now.e.lambda);
+    });
+}
+
 /// A claim with a root that holds for one of the root's signs at every state: that of the initial state's
 /// branch.
 std::optional<std::vector<std::string>> branch_of(Comparison& now, std::size_t k, ExactStates& states) {
-    if (now.at != Claim::At::motion) return std::nullopt;
+    if (now.at != Claim::At::motion || has_roots_of_rates(now, k)) return std::nullopt;
     if (auto sheet = sheet_on_own_branch(now, k, states)) return sheet;
     const std::optional<RootForm> form = root_form(now.forms[k].residual, now.m);
     if (!form) return std::nullopt;
@@ -233,11 +244,6 @@ void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
     if (!claim.settle()) settle_as_it_stands(now, k, states);
     claim.tell();
     hold_against_own(now, k, states.motions);
-}
-
-std::string inequality(const GiNaC::ex& positive, const Mechanism& mechanism) {
-    const auto f = fourier(positive, *mechanism.symbols);
-    return (f ? text(readable(*f)) : say("a root of the claim")) + " > 0";
 }
 
 namespace {

@@ -12,7 +12,4 @@ namespace alembert {
 /// `states`: states that obey the law and the constraints of `now`.
 void settle_closed_claim(Comparison& now, std::size_t claim, ExactStates& states);
 
-/// "r > 0": on what sheet of roots a verdict holds.
-std::string inequality(const GiNaC::ex& positive, const Mechanism& mechanism);
-
 }  // namespace alembert

@@ -5,7 +5,10 @@
 
 #include "check/arithmetic_error.hpp"
 #include "check/diagnosis.hpp"
+#include "check/jump.hpp"
+#include "check/open_rows.hpp"
 #include "check/quantities.hpp"
+#include "check/vanishing.hpp"
 
 namespace alembert {
 
@@ -59,12 +62,35 @@ Diagnosis diagnosis_of(Comparison& now, std::size_t claim, ExactStates& given) t
     return {};
 }
 
+/// Whether the corrected claim stands a look in numbers, where exact arithmetic may err: signs, jumps of what is
+/// called constant, multiples of the prime.
+bool stands(Comparison& now, std::size_t claim, const ClaimForm& repaired, const Motions& motions) {
+    if (!repaired.open.empty()) {
+        std::vector<ClaimForm> forms = now.forms;
+        forms[claim] = repaired;
+        const OpenRows rows = open_rows(now.claims, forms, {claim});
+        const Jump jump = find_jump(told(now), motions, rows.program, rows.list[0].rest);
+        if (jump.shown || jump.is_unknown) return false;
+        if (!depends_on_sides(rows.program, rows.roots()) && !motions.has_sides()) return true;
+        constexpr unsigned tries = 40;
+        const std::set<std::size_t> wrong = {claim};
+        return !counterexample(told(now), motions, rows,
+                               {.claim = claim, .open = repaired.open, .wrong = wrong, .tries = tries});
+    }
+    Program p;
+    const std::vector<int> root = now.claims.lower(p, {repaired.residual});
+    if (now.at == Claim::At::rest) return in_numbers(told(now), motions, p, root[0]) != InNumbers::fails;
+    if (has_long_numbers(p, root)) return in_numbers(told(now), motions, p, root[0]) == InNumbers::holds;
+    return !depends_on_sides(p, root) || in_numbers(told(now), motions, p, root[0]) != InNumbers::fails;
+}
+
 }  // namespace
 
 void explain(Comparison& now, std::size_t claim, ExactStates& states) {
     const Diagnosis found = diagnosis_of(now, claim, states);
     CheckedClaim& c = now.verdicts[claim];
     if (!found.reason.empty()) c.reason = found.reason;
+    if (found.repaired && !stands(now, claim, *found.repaired, states.motions)) return;
     c.nearest = found.nearest;
     c.difference = found.difference;
     c.likely = found.likely;

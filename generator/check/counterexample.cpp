@@ -80,8 +80,10 @@ void add_unspecified(const Told& told, const Motions& motions, const Program& p,
         add_unspecified(told, motions.program(), *entries, state, result);
 }
 
+}  // namespace
+
 Counterexample described(const Told& told, const RealState& state, const numeric& residual,
-                         const std::vector<int>& open = {}) {
+                         const std::vector<int>& open) {
     using Kind = Variable::Kind;
     const Mechanism& m = told.mechanism;
     Counterexample result{.values = {}, .residual = text_of(residual), .residual_value = residual.to_double()};
@@ -114,6 +116,8 @@ Counterexample described(const Told& told, const RealState& state, const numeric
     }
     return result;
 }
+
+namespace {
 
 /// States on the sheet of roots on which claims are checked, at which some roots of a program will be evaluated.
 class StatesOnSheet {
@@ -234,10 +238,14 @@ std::vector<bool> hold_in_numbers(const Told& told, const Motions& motions, cons
 
 InNumbers in_numbers(const Told& told, const Motions& motions, const Program& p, int root) {
     const StatesOnSheet states(told, motions, p, {root});
+    // Of states of rest there may be few, of which those in fractions are only some.
+    const bool is_rest = motions.where() == Motions::At::rest;
+    const int wanted = is_rest ? 24 : 2 * enough_states;
     int found = 0;
     for (const unsigned first :
          {0U, first_float_seed}) {  // fractions, which are exact, and floats if they are few
-        for (unsigned seed = first; seed < first + 60 && found < 2 * enough_states; ++seed) {
+        const int before = found;
+        for (unsigned seed = first; seed < first + 60 && found < before + wanted; ++seed) {
             const auto state = states(seed);
             if (!state) continue;
             const auto value = evaluate(p, *state, {root});
@@ -245,9 +253,9 @@ InNumbers in_numbers(const Told& told, const Motions& motions, const Program& p,
             if (!is_small((*value)[0])) return InNumbers::fails;
             ++found;
         }
-        if (found >= enough_states) return InNumbers::holds;
+        if (!is_rest && found >= enough_states) return InNumbers::holds;
     }
-    return InNumbers::unknown;
+    return found >= enough_states ? InNumbers::holds : InNumbers::unknown;
 }
 
 namespace {
@@ -299,10 +307,13 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
     const std::vector<Open>& names = told.claims.open();
     const std::vector<int> roots = rows.roots();
     const std::size_t columns = names.size();
-    for (unsigned seed = 0; seed < 600; ++seed) {
-        auto state = told.on_own_branch ? real_state_on_own_branch(motions, rows.program, roots, seed)
-                                        : real_state(motions, rows.program, roots, seed);
+    Program cut = rows.program;
+    const Cells cells(cut, roots);
+    const StatesOnSheet states(told, motions, rows.program, roots);
+    for (unsigned seed = 0; seed < of.tries; ++seed) {
+        auto state = states(seed);
         if (!state) continue;
+        if (!cells.empty() && !cells.of(*state)) continue;  // on a border rates of change have no value
         for (const Open& o : names) state->value[{o.variable.kind, o.variable.index}] = 0;
         const auto value = evaluate(rows.program, *state, roots);
         if (!value) continue;

@@ -38,6 +38,10 @@ struct Told {
     bool on_own_branch = false;  ///< only states on the scene's own branch count
 };
 
+/// A state, with what is left there of the claim; `open` are open names that have values in it.
+Counterexample described(const Told& told, const RealState& state, const GiNaC::numeric& residual,
+                         const std::vector<int>& open = {});
+
 /// A counterexample for the node `root` of `program`, which is zero where the claim holds. Nothing after some
 /// seconds of search.
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& program,
@@ -49,6 +53,7 @@ struct OpenClaim {
     std::size_t claim;
     const std::vector<int>& open;        ///< its names
     const std::set<std::size_t>& wrong;  ///< the wrong claims; the other claims are satisfied before these
+    unsigned tries = 600;                ///< how many states are looked for
 };
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,
                                              const OpenClaim& of);

@@ -81,7 +81,8 @@ private:
         Claim repaired = claim_;
         repaired.equation = repair.equation;
         try {
-            const ex beyond = form_.residual - claims_.read(repaired).residual;
+            result.repaired = claims_.read(repaired);
+            const ex beyond = form_.residual - result.repaired->residual;
             if (m_.z->tree_size(beyond) > largest_tree) return;
             const auto f = fourier(m_.z->expand(beyond), *m_.symbols, most_terms);
             if (f && f->size() > 0) result.difference = text(readable(*f));
@@ -270,7 +271,8 @@ private:
 
     bool agrees(const std::vector<ClaimForm>& forms, const std::vector<std::size_t>& group) {
         const OpenRows rows = open_rows(claims_, forms, group);
-        for (std::size_t s = 0; s < 2; ++s) {
+        const std::size_t wanted = states_needed(rows.program, rows.roots(), states_) == states_of_sides ? 20 : 2;
+        for (std::size_t s = 0; s < wanted; ++s) {
             const auto at = open_matrix(rows, states_, s);
             if (!at || !consistent(at->rows) || pins(rows, *at, {}, asked_.claim)) return false;
         }

@@ -23,6 +23,7 @@ struct Diagnosis {
     std::string difference;  ///< claim − nearest right equation, term by term
     std::string nearest;     ///< that right equation
     std::optional<Slip> likely;
+    std::optional<ClaimForm> repaired;  ///< the claim into which it was corrected, for a look in numbers
 };
 
 /// The claim that is wrong, and the other claims.

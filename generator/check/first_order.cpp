@@ -5,6 +5,7 @@
 #include "algebra/notation/text.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
+#include "check/in_print.hpp"
 #include "check/near_point.hpp"
 #include "check/quantities.hpp"
 #include "check/total_derivative.hpp"
@@ -133,10 +134,7 @@ private:
 
     ex deviation(const Small& small) const { return small.variable - small.value; }
 
-    std::string in_print(const ex& e) const {
-        const auto f = fourier(e, *m_.symbols);
-        return f ? text(readable(*f)) : "";
-    }
+    std::string in_print(const ex& e) const { return alembert::in_print(e, m_); }
 
     std::string written(const std::vector<ex>& slopes) const {
         ex sum = 0;

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 
-#include "algebra/notation/readable.hpp"
 #include "algebra/notation/text.hpp"
-#include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
+#include "check/in_print.hpp"
 #include "check/near_point.hpp"
 #include "check/zero.hpp"
 #include "model/formalism/routh.hpp"
@@ -118,11 +117,6 @@ std::vector<ex> differentiated(const std::vector<ex>& c) {
     std::vector<ex> result;
     for (std::size_t k = 1; k < c.size(); ++k) result.push_back(static_cast<int>(k) * c[k]);
     return result;
-}
-
-std::string in_print(const ex& e, const Mechanism& m) {
-    const auto f = fourier(e, *m.symbols);
-    return f ? text(readable(*f)) : "";
 }
 
 /// ω² of all frequencies, if det N is of at most second degree in s² and has no odd powers.

@@ -11,13 +11,10 @@
 #include <bit>
 #include <cmath>
 
-#include "algebra/notation/readable.hpp"
-#include "algebra/notation/text.hpp"
-#include "algebra/symbolic/fourier.hpp"
 #include "analysis/exact/expression_of.hpp"
 #include "analysis/exact/impossible.hpp"
 #include "base/language/say.hpp"
-#include "check/closed_claim.hpp"
+#include "check/in_print.hpp"
 #include "check/vanishing.hpp"
 #include "model/parameter_values.hpp"
 
@@ -55,11 +52,6 @@ int dimension(const std::map<Cell, double>& cells) {
         if (rest != 0) basis.push_back(rest);
     }
     return static_cast<int>(basis.size());
-}
-
-std::string written(const ex& e, const Mechanism& m) {
-    const auto f = fourier(e, *m.symbols);
-    return f ? text(readable(*f)) : std::string();
 }
 
 }  // namespace
@@ -153,9 +145,9 @@ std::string InCells::side_in_words(std::size_t k, bool is_positive) const {
                 moves(now_.m.qddot))
                 continue;
             const bool is_above = is_positive == slope.info(GiNaC::info_flags::positive);
-            return fmt::format("{} {} {}", written(x, now_.m), is_above ? '>' : '<', written(bound, now_.m));
+            return fmt::format("{} {} {}", in_print(x, now_.m), is_above ? '>' : '<', in_print(bound, now_.m));
         }
-    return fmt::format("{} {} 0", written(side, now_.m), is_positive ? '>' : '<');
+    return fmt::format("{} {} 0", in_print(side, now_.m), is_positive ? '>' : '<');
 }
 
 std::string InCells::words(Cell cell) const {

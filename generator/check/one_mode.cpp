@@ -14,6 +14,7 @@
 #include "check/completeness.hpp"
 #include "check/constants.hpp"
 #include "check/first_order.hpp"
+#include "check/in_print.hpp"
 #include "check/kinematic.hpp"
 #include "check/open_claims.hpp"
 #include "check/solution.hpp"

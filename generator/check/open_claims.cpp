@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "check/open_claims.hpp"
 
+#include <algorithm>
+
 #include "base/language/say.hpp"
+#include "check/jump.hpp"
 #include "check/open_rows.hpp"
+#include "check/vanishing.hpp"
 
 namespace alembert {
 
@@ -13,6 +17,31 @@ bool mixes(const Comparison& now, std::size_t k) {
     bool constant = false, function = false;
     for (const int o : now.forms[k].open) (now.claims.open()[o].constant ? constant : function) = true;
     return constant && function;
+}
+
+bool gives_constants(const Comparison& now, std::size_t k) {
+    return now.claims.open()[static_cast<std::size_t>(now.forms[k].open[0])].constant;
+}
+
+/// A claim that gives constants, and whose derivative is zero wherever it has one, is not proved if it jumps.
+/// Returns whether it may.
+bool settle_jump(Comparison& now, std::size_t k, const OpenRows& rows, const Motions& motions) {
+    CheckedClaim& c = now.verdicts[k];
+    const auto row = std::find_if(rows.list.begin(), rows.list.end(),
+                                  [&](const OpenRows::Row& one) { return one.claim == k && !one.derived; });
+    const Jump jump = find_jump(told(now), motions, rows.program, row->rest);
+    if (jump.shown) {
+        refute(c, *jump.shown);
+        c.reason = jump.border.empty() ? say("it is not constant: it jumps where a sign changes")
+                                       : say("it is not constant: it jumps where {} = 0", jump.border);
+        return true;
+    }
+    std::vector<int> slopes = row->slope;
+    if (!jump.is_unknown && !depends_on_sides(rows.program, slopes)) return false;
+    c.reason =
+        say("it is constant as long as no sign changes, and it was not decided whether it jumps where one "
+            "does");
+    return true;
 }
 
 void settle_group(Comparison& now, const std::vector<std::size_t>& group, ExactStates& states) {
@@ -41,12 +70,12 @@ void settle_group(Comparison& now, const std::vector<std::size_t>& group, ExactS
                 c.reason = say("it is not constant: the residual is that of its time derivative");
             explain(now, k, states);
         } else if (pins(rows, judged->first, wrong, k)) {
-            const bool constant = now.claims.open()[now.forms[k].open[0]].constant;
+            const bool constant = gives_constants(now, k);
             c.verdict = constant ? Verdict::undecided : Verdict::vacuous;
             c.reason = constant ? say("a further time derivative would be needed to tell whether what it leaves "
                                       "open is constant")
                                 : say("what it leaves open can take up whatever it says: no other claim fixes it");
-        } else {
+        } else if (!gives_constants(now, k) || !settle_jump(now, k, rows, states.motions)) {
             c.verdict = Verdict::proved;
         }
     }

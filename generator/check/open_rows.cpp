@@ -149,8 +149,13 @@ std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const
 std::optional<OpenJudgement> judge(const OpenRows& rows, const std::vector<std::size_t>& group,
                                    ExactStates& states) {
     double failure = 0, missed = 0;
+    int usable = 0;
+    const int least = states_needed(rows.program, rows.roots(), states);
     std::optional<OpenMatrix> first;
-    for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure); ++s) {
+    const auto is_enough = [&] {
+        return failure <= wanted_failure && missed <= wanted_failure && usable >= least;
+    };
+    for (std::size_t s = 0; s < most_states && !is_enough(); ++s) {
         auto at = open_matrix(rows, states, s);
         if (!at) {
             if (states.get(s) == nullptr) break;
@@ -159,10 +164,11 @@ std::optional<OpenJudgement> judge(const OpenRows& rows, const std::vector<std::
         failure += at->chance;
         missed += chance_of_another_branch(*states.get(s));
         if (!first) first = *at;
+        ++usable;
         if (!consistent(at->rows))
             return OpenJudgement{.wrong = culprits(rows, *at, group), .failure = failure, .first = *first};
     }
-    if (!first || failure > wanted_failure || missed > wanted_failure) return std::nullopt;
+    if (!first || !is_enough()) return std::nullopt;
     return OpenJudgement{.wrong = {}, .failure = failure, .first = *first};
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "base/language/say.hpp"
@@ -15,6 +16,8 @@ namespace alembert {
 using GiNaC::ex;
 
 namespace {
+
+constexpr std::size_t most_choices = 64;
 
 class Motion {
 public:
@@ -153,10 +156,9 @@ void eliminate_open_multipliers(std::vector<Put>& rows, const Motion& motion) {
     }
 }
 
-}  // namespace
-
-void check_solution(const Scene& scene, Claims& read, const std::vector<std::size_t>& which,
-                    std::vector<CheckedClaim>& claims) {
+/// The claims give each coordinate and multiplier once.
+void check_motion(const Scene& scene, Claims& read, const std::vector<std::size_t>& which,
+                  std::vector<CheckedClaim>& claims) {
     const Motion motion(scene, read, which);
     std::vector<std::vector<ZeroTest>> tests(which.size());
     std::vector<Put> rows;
@@ -208,6 +210,54 @@ void check_solution(const Scene& scene, Claims& read, const std::vector<std::siz
         }
         settle_by(tests[i], claim);
         if (!reason.empty()) claim.reason = reason;
+    }
+}
+
+/// All choices of one claim for each name.
+std::vector<std::vector<std::size_t>> choices(const Scene& scene, const std::vector<std::size_t>& which) {
+    std::map<std::string, std::vector<std::size_t>> of_name;
+    for (const std::size_t k : which) of_name[scene.claims[k].equation.lhs.tree->text].push_back(k);
+    std::vector<std::vector<std::size_t>> result{{}};
+    for (const auto& [name, claims] : of_name) {
+        std::vector<std::vector<std::size_t>> longer;
+        for (const std::vector<std::size_t>& before : result)
+            for (const std::size_t k : claims) {
+                longer.push_back(before);
+                longer.back().push_back(k);
+            }
+        result = std::move(longer);
+        if (result.size() > most_choices) return {};
+    }
+    for (std::vector<std::size_t>& one : result) std::sort(one.begin(), one.end());
+    return result;
+}
+
+int strength(Verdict verdict) {
+    return verdict == Verdict::proved ? 2 : verdict == Verdict::refuted ? 0 : 1;
+}
+
+}  // namespace
+
+void check_solution(const Scene& scene, Claims& read, const std::vector<std::size_t>& which,
+                    std::vector<CheckedClaim>& claims) {
+    const std::vector<std::vector<std::size_t>> all = choices(scene, which);
+    if (all.empty()) {
+        for (const std::size_t k : which)
+            claims[k].reason =
+                say("coordinates have so many values at \"solution\" that their combinations are more "
+                    "than {}",
+                    most_choices);
+        return;
+    }
+    std::set<std::size_t> judged;
+    for (const std::vector<std::size_t>& choice : all) {
+        std::vector<CheckedClaim> found = claims;
+        for (const std::size_t k : choice) found[k] = {};
+        check_motion(scene, read, choice, found);
+        // A claim is right if it is part of a motion, whatever stands beside it.
+        for (const std::size_t k : choice)
+            if (judged.insert(k).second || strength(found[k].verdict) > strength(claims[k].verdict))
+                claims[k] = std::move(found[k]);
     }
 }
 

@@ -11,11 +11,8 @@ double chance_of_another_branch(const ExactState& state) {
     return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure;
 }
 
-namespace {
-
-/// The least number of states, so that signs are not right by chance.
-int states_needed(const Program& p, int root, const ExactStates& states) {
-    const std::vector<int> needed = p.needed(std::array{root});
+int states_needed(const Program& p, const std::vector<int>& roots, const ExactStates& states) {
+    const std::vector<int> needed = p.needed(roots);
     const auto has = [&](std::initializer_list<Op> ops) {
         return std::any_of(needed.begin(), needed.end(), [&](int id) {
             return std::find(ops.begin(), ops.end(), p[id].op) != ops.end() && !p[p[id].args[0]].is_number();
@@ -25,11 +22,9 @@ int states_needed(const Program& p, int root, const ExactStates& states) {
     return has({Op::sqrt}) ? states_of_roots : 1;
 }
 
-}  // namespace
-
 std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure) {
     const std::array<int, 1> roots{root};
-    const int least = states_needed(p, root, states);
+    const int least = states_needed(p, {root}, states);
     failure = 0;
     double missed = 0;  // log₂ of the probability that no state was on some branch
     int usable = 0;
@@ -122,8 +117,23 @@ bool depends_on_sides(const Program& p, const std::vector<int>& roots) {
     });
 }
 
+bool has_long_numbers(const Program& p, const std::vector<int>& roots) {
+    constexpr int short_enough = 20;
+    const auto is_long = [](const Rational& r) {
+        return cln::integer_length(cln::numerator(r)) > short_enough ||
+               cln::integer_length(cln::denominator(r)) > short_enough;
+    };
+    const std::vector<int> needed = p.needed(roots);
+    return std::any_of(needed.begin(), needed.end(), [&](int id) {
+        const Node& node = p[id];
+        return is_long(node.number) || std::any_of(node.coefficients.begin(), node.coefficients.end(), is_long) ||
+               std::any_of(node.exponents.begin(), node.exponents.end(),
+                           [&](int e) { return std::abs(e) >> short_enough != 0; });
+    });
+}
+
 bool is_identity(const Program& p, int root) {
-    if (depends_on_sides(p, {root})) return false;
+    if (depends_on_sides(p, {root}) || has_long_numbers(p, {root})) return false;
     constexpr std::uint64_t points = 3;
     for (std::uint64_t seed = 1; seed <= points; ++seed) {
         const auto at = evaluate_mod(p, {.seed = seed}, std::array{root});

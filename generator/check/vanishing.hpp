@@ -28,6 +28,9 @@ constexpr std::size_t most_states = 1200;  ///< after this many states the quest
 /// probability of an error.
 std::optional<bool> vanishes_at(ExactStates& states, const Program& program, int root, double& failure);
 
+/// The least number of states, so that signs are not right by chance: one where there are none.
+int states_needed(const Program& program, const std::vector<int>& roots, const ExactStates& states);
+
 /// Is the node zero at all states for some choice of the signs of the square roots in it, of which there are at
 /// most four? Nothing if that cannot be decided, or if there is no root.
 std::optional<bool> vanishes_with_some_signs(ExactStates& states, const Program& program, int root,
@@ -40,6 +43,10 @@ bool vanishes_at_two(ExactStates& states, const Program& program, int root);
 /// Whether signs decide, of absolute values, smaller and larger ones or roots: Legendre's symbol takes their place
 /// in exact arithmetic, and it knows no order. A root is the one of two that counts as positive: that of 9 is −3.
 bool depends_on_sides(const Program& program, const std::vector<int>& roots);
+
+/// Whether numbers of more than twenty binary digits occur, by which a multiple of the prime may be made: what
+/// vanishes in exact arithmetic then has to vanish in numbers too.
+bool has_long_numbers(const Program& program, const std::vector<int>& roots);
 
 /// Is the node zero whatever values the variables have? What holds because a parameter is positive is no identity.
 bool is_identity(const Program& program, int root);

@@ -22,10 +22,13 @@ constexpr const char* of_second_degree = to_say(
     "example of Appell and Hamel, the motion depends on the mechanism that keeps them: describe that mechanism by "
     "constraints that are linear in its rates");
 
+/// Whether the coefficient of a rate changes with the rates. Its slopes do not tell: that of |x'| is sign x',
+/// whose own slopes are zero.
 bool is_nonlinear(const ex& coefficient, const Mechanism& m) {
-    for (const ex& slope : m.z->pull_back({{coefficient, 1}}, m.qdot))
-        if (!is_identically_zero(slope, m)) return true;
-    return false;
+    const ex here = m.z->expand(coefficient);
+    GiNaC::exmap elsewhere;
+    for (int i = 0; i < m.size(); ++i) elsewhere[m.qdot[i]] = m.qddot[i];
+    return !is_identically_zero(here - here.subs(elsewhere, GiNaC::subs_options::no_pattern), m);
 }
 
 }  // namespace

@@ -246,7 +246,7 @@ def report(totals, seconds):
             + "".join(f"{c[w]:>12}" for w in words)
             + f"{c['undecided']:>11}{c['sheets']:>11}{c['other exits']:>13}{c['seconds']:>9.0f}"
         )
-    for word, number in sorted((k, v) for k, v in whole.items() if k.startswith("exit ")):
+    for word, number in sorted((k, v) for k, v in whole.items() if k.startswith(("exit ", "undecided "))):
         print(f"  {number} x {word}")
     wrong = sum(whole[w] for w in FALSE)
     print(

@@ -147,6 +147,8 @@ class Examined:
         verdict = row["verdict"]
         if verdict == "undecided":
             self.counts["undecided"] += 1
+            why = "undecided " + (row.get("reason") or "without a reason")
+            self.counts[why] = self.counts.get(why, 0) + 1
         elif verdict == "proved":
             self._proved(claim, truth, row)
         elif verdict == "vacuous":
@@ -237,7 +239,7 @@ class Examined:
         self._repair(claim, row)
         sides = row.get("holds_where") or []
         if sides:
-            self._holds_where(claim, sides)
+            self._holds_where(claim, sides + (row.get("where") or []))
 
     def _repair(self, claim, row):
         text = (row.get("likely") or {}).get("repair")

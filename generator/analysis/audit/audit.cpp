@@ -161,16 +161,29 @@ private:
         contradictory_ = true;
     }
 
-    void rank(const Start& start) {
+    Mechanism starting_at(const State<double>& from) const {
         Mechanism at = m_;
         for (int i = 0; i < n_ && !settled_; ++i) {
-            const State<double> from = states_.empty() ? start.state() : states_[0];
             at.q_start[i] = GiNaC::numeric(cln::rational(cln::cl_DF(from.q[i])));
             at.qdot_start[i] = GiNaC::numeric(cln::rational(cln::cl_DF(from.qdot[i])));
             at.q_is_guess[i] = at.qdot_is_guess[i] = true;
         }
-        redundant_ = redundant_constraints(at);
+        return at;
+    }
+
+    void rank(const Start& start) {
+        redundant_ = redundant_constraints(starting_at(states_.empty() ? start.state() : states_[0]));
         count();
+    }
+
+    /// Whether rows are independent that are so by far, though not in exact arithmetic: its states lie on another
+    /// branch of the constraints, as where the scene's own needs √3.
+    bool is_exact_elsewhere() const {
+        constexpr double by_far = 1e-5;
+        if (states_.empty()) return false;
+        const std::size_t surely =
+            m_.constraints.size() - redundant_constraints(starting_at(states_[0]), by_far).size();
+        return joint_.independent.size() < surely;
     }
 
     void count() {
@@ -206,7 +219,20 @@ private:
         joint_ = integrability(forms_, m_, positions(), states_, {.exact = exact, .redundant = redundant_});
         result_.failure = joint_.failure;
         result_.integrals = joint_.integrals;
-        if (joint_.on_variety && !contradictory_ && static_cast<int>(joint_.independent.size()) < result_.rank) {
+        const bool has_fewer =
+            joint_.on_variety && !contradictory_ && static_cast<int>(joint_.independent.size()) < result_.rank;
+        if (has_fewer && is_exact_elsewhere()) {
+            result_.notes.push_back(
+                say("the rank is {} on another branch of the constraints, and {} on the scene's",
+                    joint_.independent.size(), result_.rank));
+            joint_.on_variety = false;
+            joint_.contradictory.clear();
+            joint_.integrable.clear();
+            result_.integrals.reset();
+            if (std::all_of(m_.constraints.begin(), m_.constraints.end(),
+                            [](const auto& c) { return c.holonomic; }))
+                result_.integrals = result_.rank;
+        } else if (has_fewer) {
             // Rounding may leave a small rest of a row that is exactly zero.
             redundant_.clear();
             for (int k = 0; k < static_cast<int>(m_.constraints.size()); ++k)

@@ -12,6 +12,7 @@
 #include "algebra/symbolic/exact_solve.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
+#include "model/energy.hpp"
 #include "model/formalism/lagrange.hpp"
 
 namespace alembert {
@@ -138,6 +139,7 @@ private:
             if (impact_.start.qdot[i] == given.qdot[i]) pose_[before_[i]] = m_.qdot_start[i];
         }
         share_decimals();
+        fix_bound_decimals();
         pose_[m_.t] = t;
         for (const Mechanism::Input& input : m_.inputs) {
             ex value = input.value;
@@ -148,19 +150,45 @@ private:
         }
     }
 
-    /// Of angles that start at the same decimal the first stands for all.
+    static bool is_in_turns(const ex& angle) {
+        return ex(angle / GiNaC::Pi).expand().info(GiNaC::info_flags::rational);
+    }
+
+    /// Of angles that start at the same decimal, but for its sign and parts of a turn, the first stands for all.
     void share_decimals() {
         for (std::size_t i = 0; i < n_; ++i)
             for (std::size_t k = 0; k < i && !pose_.contains(m_.q[i]); ++k) {
                 if (pose_.contains(m_.q[k]) || m_.q_is_guess[i] || m_.q_is_guess[k]) continue;
-                if (m_.q_start[i].is_equal(m_.q_start[k])) pose_[m_.q[i]] = m_.q[k];
-                if (m_.q_start[i].is_equal(-m_.q_start[k])) pose_[m_.q[i]] = -m_.q[k];
+                const ex apart = (m_.q_start[i] - m_.q_start[k]).expand(),
+                         together = (m_.q_start[i] + m_.q_start[k]).expand();
+                if (is_in_turns(apart))
+                    pose_[m_.q[i]] = m_.q[k] + apart;
+                else if (is_in_turns(together))
+                    pose_[m_.q[i]] = together - m_.q[k];
+            }
+    }
+
+    /// Angles that stand for decimals have no other values than these where a constraint relates them to what is
+    /// known.
+    void fix_bound_decimals() {
+        for (const auto* constraints : {&m_.constraints, &m_.redundant})
+            for (const Mechanism::Constraint& c : *constraints) {
+                if (!c.position) continue;
+                const ex here = m_.z->expand(*c.position).subs(pose_, GiNaC::subs_options::no_pattern);
+                std::vector<std::size_t> free;
+                for (std::size_t i = 0; i < n_; ++i)
+                    if (here.has(m_.q[i])) free.push_back(i);
+                if (std::any_of(free.begin(), free.end(), [&](std::size_t i) { return m_.q_is_guess[i]; }) ||
+                    is_identically_zero(here, m_))
+                    continue;
+                for (const std::size_t i : free) pose_[m_.q[i]] = m_.q_start[i];
             }
     }
 
     /// A coordinate inside a function, at a number other than zero and multiples of π.
     bool turns_by_a_decimal(std::size_t i) const {
-        if (!GiNaC::is_a<GiNaC::numeric>(m_.q_start[i]) || m_.q_start[i].is_zero()) return false;
+        const ex start = m_.q_start[i].expand();
+        if (!GiNaC::is_a<GiNaC::numeric>(start.subs(GiNaC::Pi == 1)) || is_in_turns(start)) return false;
         std::set<unsigned> seen;  // intermediate symbols, by hash: many expressions share them
         const auto inside = [&](const ex& e, const auto& self) -> bool {
             if (GiNaC::is_a<GiNaC::function>(e)) return m_.z->depends(e, {m_.q[i]});

@@ -9,7 +9,6 @@
 
 #include "alembert/base/dense.hpp"
 #include "alembert/base/random.hpp"
-#include "alembert/base/tolerances.hpp"
 #include "analysis/state/assemble.hpp"
 #include "analysis/state/branch.hpp"
 #include "analysis/state/contradiction.hpp"
@@ -25,7 +24,7 @@ namespace {
 constexpr int states = 8;
 
 /// Marks the rows that are combinations of those before them in `order` (Gram-Schmidt, twice).
-std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int>& order) {
+std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int>& order, double least) {
     std::vector<bool> result(order.size());
     std::vector<Eigen::RowVectorXd> basis;
     for (const int k : order) {
@@ -33,7 +32,7 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int
         const double size = row.norm();
         for (int round = 0; round < 2; ++round)
             for (const Eigen::RowVectorXd& b : basis) row -= row.dot(b) * b;
-        result[k] = !(row.norm() > tolerance::dependent_row * size && size > tolerance::vanished_row * A.norm());
+        result[k] = !(row.norm() > least * size && size > tolerance::vanished_row * A.norm());
         if (!result[k]) basis.push_back(row.normalized());
     }
     return result;
@@ -41,13 +40,13 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int
 
 /// The order in which rows are kept: first the holonomic ones, because they restrict positions, then rows that are
 /// independent at the start.
-std::vector<int> order_of_keeping(const Mechanism& mechanism, const Eigen::MatrixXd* at_start) {
+std::vector<int> order_of_keeping(const Mechanism& mechanism, const Eigen::MatrixXd* at_start, double least) {
     std::vector<int> order;
     for (const bool holonomic : {true, false})
         for (int k = 0; k < static_cast<int>(mechanism.constraints.size()); ++k)
             if (mechanism.constraints[k].holonomic == holonomic) order.push_back(k);
     if (at_start == nullptr) return order;
-    const std::vector<bool> dependent = dependent_rows(*at_start, order);
+    const std::vector<bool> dependent = dependent_rows(*at_start, order, least);
     std::stable_partition(order.begin(), order.end(),
                           [&](int k) { return mechanism.constraints[k].holonomic || !dependent[k]; });
     return order;
@@ -55,8 +54,8 @@ std::vector<int> order_of_keeping(const Mechanism& mechanism, const Eigen::Matri
 
 }  // namespace
 
-std::vector<int> redundant_constraints(const Mechanism& mechanism) {
-    if (constraints_are_open(mechanism)) return redundant_constraints(with_sample_functions(mechanism));
+std::vector<int> redundant_constraints(const Mechanism& mechanism, double least) {
+    if (constraints_are_open(mechanism)) return redundant_constraints(with_sample_functions(mechanism), least);
     if (mechanism.constraints.size() < 2 && static_cast<int>(mechanism.constraints.size()) < mechanism.size())
         return {};
     const Program program = lower_constraints(mechanism);
@@ -80,9 +79,9 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     take(start);
     const bool has_start = !at.empty();
     for (const Start& place : places_on_branch(mechanism, program, start, states, 1)) take(place);
-    const std::vector<int> order = order_of_keeping(mechanism, has_start ? &at.front() : nullptr);
+    const std::vector<int> order = order_of_keeping(mechanism, has_start ? &at.front() : nullptr, least);
     std::vector<std::vector<bool>> dependent;
-    for (const Eigen::MatrixXd& A : at) dependent.push_back(dependent_rows(A, order));
+    for (const Eigen::MatrixXd& A : at) dependent.push_back(dependent_rows(A, order, least));
     // Rows may vanish at the start that do not vanish around it; then the start does not show which rows are
     // needed.
     const auto rank = [](const std::vector<bool>& of) { return std::count(of.begin(), of.end(), false); };

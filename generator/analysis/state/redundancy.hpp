@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "alembert/base/tolerances.hpp"
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
 
@@ -16,9 +17,9 @@ namespace alembert {
 /// kept before it. Holonomic constraints come first, then those that are independent at the initial state, each in
 /// the order of the scene. The rank is taken at eight states on the branch of the initial state (branch.hpp),
 /// sampled with a fixed seed, and at the initial state itself if its rank is not lower. The answer is based on
-/// samples and floating point: a row counts as dependent if less than 1e-9 of it is not a combination of the
+/// samples and floating point: a row counts as dependent if less than `least` of it is not a combination of the
 /// others. Empty if the initial state cannot be assembled.
-std::vector<int> redundant_constraints(const Mechanism& mechanism);
+std::vector<int> redundant_constraints(const Mechanism& mechanism, double least = tolerance::dependent_row);
 
 /// Rolling rows along N may depend on each other, or on other constraints, with factors that change with the pose:
 /// for a gear on a turning arm, the row along x is sin φ times the whole condition. Whichever row is left out, the
