@@ -81,7 +81,8 @@ bool stands(Comparison& now, std::size_t claim, const ClaimForm& repaired, const
     const std::vector<int> root = now.claims.lower(p, {repaired.residual});
     if (now.at == Claim::At::rest) return in_numbers(told(now), motions, p, root[0]) != InNumbers::fails;
     if (has_long_numbers(p, root)) return in_numbers(told(now), motions, p, root[0]) == InNumbers::holds;
-    return !depends_on_sides(p, root) || in_numbers(told(now), motions, p, root[0]) != InNumbers::fails;
+    const bool may_err = depends_on_sides(p, root) || now.on_own_branch != nullptr;
+    return !may_err || in_numbers(told(now), motions, p, root[0]) != InNumbers::fails;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cln/rational.h>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 
 #include "algebra/notation/readable.hpp"
@@ -129,6 +130,7 @@ public:
           needed_(roots),
           on_own_branch_(told.on_own_branch) {
         needed_.insert(needed_.end(), positive_.begin(), positive_.end());
+        if (motions.has_sides()) borders_ = std::make_unique<Borders>(motions);
     }
 
     std::optional<RealState> operator()(unsigned seed) const {
@@ -138,13 +140,31 @@ public:
 
     /// A state of the cell. `cells` are those of the program that was given.
     std::optional<RealState> in_cell(const Cells& cells, Cell cell, unsigned seed) const {
-        auto state = on_sheet(on_own_branch_ ? real_state_on_own_branch(motions_, program_, needed_, seed)
-                                             : real_state_towards(motions_, program_, needed_, cells, cell, seed));
+        auto state = on_sheet(
+            on_own_branch_ ? real_state_on_own_branch(motions_, program_, needed_, seed)
+                           : real_state_towards(motions_, program_, needed_, {cells, cell, positive_}, seed));
         return state && cells.of(*state) == cell ? state : std::nullopt;
     }
 
 private:
+    /// The sides in the equations: on a border they have other rates of change on either side.
+    struct Borders {
+        explicit Borders(const Motions& motions) : program(motions.program()), cells(program, roots_of(motions)) {}
+
+        static std::vector<int> roots_of(const Motions& motions) {
+            const Motions::System& system = motions.entries();
+            std::vector<int> result;
+            for (const auto* entries : {&system.M, &system.f, &system.A, &system.drift, &system.gamma})
+                result.insert(result.end(), entries->begin(), entries->end());
+            return result;
+        }
+
+        Program program;
+        Cells cells;
+    };
+
     std::optional<RealState> on_sheet(std::optional<RealState> state) const {
+        if (state && borders_ && !borders_->cells.of(*state)) return std::nullopt;
         if (!state || positive_.empty()) return state;
         const auto value = evaluate(program_, *state, positive_);
         const bool is_on_sheet =
@@ -156,6 +176,7 @@ private:
     Program program_;
     std::vector<int> positive_, needed_;
     bool on_own_branch_;
+    std::unique_ptr<Borders> borders_;  ///< nothing where there are none
 };
 
 }  // namespace
@@ -309,9 +330,15 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
     const std::size_t columns = names.size();
     Program cut = rows.program;
     const Cells cells(cut, roots);
-    const StatesOnSheet states(told, motions, rows.program, roots);
-    for (unsigned seed = 0; seed < of.tries; ++seed) {
-        auto state = states(seed);
+    const StatesOnSheet states(told, motions, cut, roots);
+    constexpr std::size_t most_steered = 4;
+    constexpr unsigned in_each_cell = 12;
+    const std::size_t sides = cells.sides().size();
+    const bool may_steer = sides > 0 && sides <= most_steered;
+    const unsigned steered = may_steer ? in_each_cell << sides : 0;
+    for (unsigned seed = 0; seed < steered + of.tries; ++seed) {
+        auto state = seed < steered ? states.in_cell(cells, seed / in_each_cell, seed % in_each_cell)
+                                    : states(seed - steered);
         if (!state) continue;
         if (!cells.empty() && !cells.of(*state)) continue;  // on a border rates of change have no value
         for (const Open& o : names) state->value[{o.variable.kind, o.variable.index}] = 0;

@@ -92,6 +92,7 @@ private:
         values.rooted.clear();
         rooted_rests_.clear();
         sums_.clear();
+        known_turns_.clear();
         known_denominators_ = 1;
         denominators_ = 1;
     }
@@ -166,14 +167,36 @@ private:
             case Op::asin:
             case Op::acos:
             case Op::atan:
-            case Op::pow:
             case Op::atan2:
+                return inverse(node, degree);
+            case Op::pow:
                 break;
         }
+        return of_other_function(node, degree);
+    }
+
+    Prime of_other_function(const Node& node, double& degree) {
         values.exact = false;
         degree += 1;
-        return point_->random(static_cast<std::uint64_t>(node.op), arg(0).bits(),
-                              node.args.size() > 1 ? arg(1).bits() : 0);
+        return point_->random(static_cast<std::uint64_t>(node.op), value(node.args[0]).bits(),
+                              node.args.size() > 1 ? value(node.args[1]).bits() : 0);
+    }
+
+    /// An angle whose sine, cosine or tangent is known; nothing where the other one of sine and cosine is no
+    /// number of the field.
+    std::optional<Prime> inverse(const Node& node, double& degree) {
+        const Prime a = value(node.args[0]), b = node.args.size() > 1 ? value(node.args[1]) : Prime(1);
+        const bool is_of_two = node.op == Op::atan || node.op == Op::atan2;
+        const Prime square = is_of_two ? a * a + b * b : Prime(1) - a * a;
+        if (!square.is_square() || (is_of_two && square.is_zero())) return std::nullopt;
+        values.conditions += 1;
+        const Prime root = square.root();
+        const Prime over = is_of_two ? root.inverse() : Prime(1);
+        const Prime angle = of_other_function(node, degree);
+        known_turns_.emplace(angle, node.op == Op::asin   ? PrimeTurn{root, a}
+                                    : node.op == Op::acos ? PrimeTurn{a, root}
+                                                          : PrimeTurn{b * over, a * over});
+        return angle;
     }
 
     std::optional<Prime> sum(const Node& node, double& degree) {
@@ -332,6 +355,14 @@ private:
                 result = result * *part;
                 continue;
             }
+            if (const auto known = known_turns_.find(monomial);
+                known != known_turns_.end() && cln::denominator(c) == 1) {
+                const bool is_back = cln::minusp(c);
+                const PrimeTurn turn = is_back ? PrimeTurn{known->second.cos, -known->second.sin} : known->second;
+                result = result * turn.power(uint64_of(cln::abs(cln::numerator(c))));
+                degree += 4 * std::abs(cln::double_approx(c));
+                continue;
+            }
             if (monomial == Prime(1) && is_long_angle(c)) {
                 const std::optional<PrimeTurn> part = turned_by_number(c, degree);
                 if (!part) return std::nullopt;
@@ -415,6 +446,7 @@ private:
     std::vector<char> fraction_;
     std::vector<unsigned> depends_;  ///< for each node, on which changes its value depends
     std::map<int, ModularAngle> sums_;
+    std::map<Prime, PrimeTurn> known_turns_;  ///< of angles by asin, acos, atan and atan2
     cln::cl_I known_denominators_ = 1;
     double denominators_ = 1;
 };

@@ -24,9 +24,11 @@
 ///  - exp(Σ c·x) is a product of powers in the same way; sinh, cosh and tanh follow from it. max(a, b) is a if a −
 ///  b
 ///    counts as positive, and b otherwise. A function of [functions] and each of its derivatives are independent
-///    random functions of the arguments' values, as they may be any. All other functions are random functions too.
-///    These, and √3, √5 … (which are no squares modulo this prime), do not obey identities such as
-///    cos(asin x)² = 1 − x². Therefore a difference found here is certain only if `exact` is set.
+///    random functions of the arguments' values, as they may be any. asin, acos, atan and atan2 are angles with
+///    the sine, cosine or tangent that is given, at points where their other one is a number. All other functions
+///    are random functions too. These, and √3, √5 … (which are no squares modulo this prime), do not obey
+///    identities such as cos(asin x)² = 1 − x². Therefore a difference found here is certain only if `exact` is
+///    set.
 
 #include <cstdint>
 #include <map>

@@ -23,6 +23,7 @@ import time
 import traceback
 
 import constrained  # noqa: F401
+import judge
 import more
 import poses
 import vary
@@ -265,6 +266,7 @@ def arguments():
     parser.add_argument("--folder", default="build/adversary")
     parser.add_argument("--kinds", default=",".join([*FAMILIES, *OTHERS]))
     parser.add_argument("--no-shrink", dest="shrink", action="store_false")
+    parser.add_argument("--undecided", action="store_true", help="keep what stays undecided too")
     parser.add_argument("--self", dest="itself", action="store_true")
     return parser.parse_args()
 
@@ -289,6 +291,7 @@ def main():
     if unknown:
         print(f"no family {unknown[0]}; there are {', '.join([*FAMILIES, *OTHERS])}")
         return 3
+    judge.keep_undecided = options.undecided
     options.program = os.path.abspath(options.program)
     os.makedirs(options.folder, exist_ok=True)
     totals, begin, found, broken = {k: Count() for k in kinds}, time.time(), collections.defaultdict(list), 0

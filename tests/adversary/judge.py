@@ -35,6 +35,9 @@ FALSE = [
 ]
 
 
+keep_undecided = False  # whether these are kept as false words are
+
+
 class Finding:
     def __init__(self, word, claim, text, scene=None):
         self.word, self.claim, self.text, self.scene = word, claim, text, scene
@@ -149,6 +152,9 @@ class Examined:
             self.counts["undecided"] += 1
             why = "undecided " + (row.get("reason") or "without a reason")
             self.counts[why] = self.counts.get(why, 0) + 1
+            if keep_undecided:
+                in_words = truth.kind + (self._at(truth, claim) if truth.kind == FAILS else "")
+                self._found("not decided", claim, f"{why}; it {in_words}")
         elif verdict == "proved":
             self._proved(claim, truth, row)
         elif verdict == "vacuous":

@@ -159,12 +159,31 @@ bool has_solution(std::vector<std::vector<Fraction>> A, std::vector<Fraction> b)
     return true;
 }
 
+void gather(const ex& e, GiNaC::exset& symbols) {
+    if (GiNaC::is_a<GiNaC::symbol>(e)) symbols.insert(e);
+    for (const ex& part : e) gather(part, symbols);
+}
+
+/// (x + b/2a)² for a x² + b x with numbers a, b.
+void add_squares(const ex& given, Generators& generators) {
+    const ex e = given.expand();
+    GiNaC::exset symbols;
+    gather(e, symbols);
+    for (const ex& x : symbols) {
+        if (!e.is_polynomial(x) || e.degree(x) != 2) continue;
+        const ex a = e.coeff(x, 2), b = e.coeff(x, 1);
+        if (GiNaC::is_a<GiNaC::numeric>(a) && GiNaC::is_a<GiNaC::numeric>(b))
+            generators.keep(GiNaC::pow(x + b / (2 * a), 2).expand(), false);
+    }
+}
+
 }  // namespace
 
 bool is_impossible(const std::vector<ex>& positive, const std::vector<GiNaC::symbol>& above_zero) {
     Generators generators(above_zero);
     for (const ex& e : positive) generators.keep(e, true);
     if (generators.list.size() < positive.size()) return false;
+    for (const ex& e : positive) add_squares(e, generators);
     std::vector<ex> monomials;
     for (const auto& one : generators.list)
         for (const auto& term : one.terms) {

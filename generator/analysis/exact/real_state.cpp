@@ -65,10 +65,18 @@ numeric decimal(double value, int digits) {
            GiNaC::pow(ten, numeric(power));
 }
 
+/// From which number a root is looked for.
+numeric first_guess(unsigned seed, bool both_ways) {
+    if (!both_ways) return numeric(1, 3) + numeric(static_cast<int>(seed % 7));
+    const numeric size =
+        numeric(1, 3) + numeric(static_cast<int>((seed / 2) % 7), 1 + static_cast<int>((seed / 14) % 3));
+    return seed % 2 == 0 ? size : -size;
+}
+
 /// A root of the polynomial through the values at −1, 0, 1 (and at 2, to check that its degree is not higher), a
 /// fraction if there is one. `seed` chooses among several.
 std::optional<numeric> root_of(const std::function<std::optional<numeric>(const numeric&)>& f, bool floats,
-                               unsigned seed) {
+                               bool both_ways, unsigned seed) {
     std::array<numeric, 4> y;
     for (int k = 0; k < 4; ++k) {
         const auto value = f(numeric(k - 1));
@@ -91,7 +99,7 @@ std::optional<numeric> root_of(const std::function<std::optional<numeric>(const 
     }
     if (!floats) return std::nullopt;
     // The secant method from two guesses, with 50 digits.
-    numeric x0 = numeric(1, 3) + numeric(static_cast<int>(seed % 7)), x1 = x0 + numeric(1, 15);
+    numeric x0 = first_guess(seed, both_ways), x1 = x0 + numeric(1, 15);
     auto f0 = f(x0), f1 = f(x1);
     for (int step = 0; step < 60 && f0 && f1; ++step) {
         const numeric slope = *f1 - *f0;
@@ -152,7 +160,11 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
 
 bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
     if (!motions.loose().empty() && (!floats || !solve_loose(motions, state, seed))) return false;
+    // Each coordinate at rest has roots of its own, and all combinations are wanted.
+    const bool is_rest = motions.where() == Motions::At::rest;
+    unsigned own_seed = seed;
     for (const SolvingStep& step : motions.steps()) {
+        if (is_rest) own_seed = (own_seed + 1) * 2654435761U >> 7U;
         if (step.second) {
             if (!floats || !solve_two(motions, state, step, seed)) return false;
             continue;
@@ -165,7 +177,7 @@ bool solve_positions(const Motions& motions, RealState& state, bool floats, unsi
             return cleared ? (*value)[0] * (1 + x * x) : (*value)[0];
         };
         const bool is_angle = state.angle.contains(key);
-        const auto root = root_of([&](const numeric& x) { return at(x, is_angle); }, floats, seed);
+        const auto root = root_of([&](const numeric& x) { return at(x, is_angle); }, floats, is_rest, own_seed);
         if (!root) return false;
         if (step.variable.kind == Variable::Kind::parameter && !root->is_positive()) return false;
         const auto rest = at(*root, false);
@@ -345,8 +357,11 @@ std::optional<RealState> moving(const Motions& motions, RealState state, Numbers
 /// them.
 class Steering {
 public:
-    Steering(const Program& program, const Cells& cells, Cell cell)
-        : program_(program), cells_(cells), cell_(cell) {}
+    /// `positive`: nodes of the program that are to be positive too.
+    Steering(const Program& program, const Cells& cells, Cell cell, const std::vector<int>& positive)
+        : program_(program), cell_(cell), sides_(cells.sides()), of_cell_(sides_.size()) {
+        sides_.insert(sides_.end(), positive.begin(), positive.end());
+    }
 
     void steer(RealState& state, Numbers& numbers) const {
         constexpr int most_moves = 40;
@@ -358,11 +373,11 @@ public:
     }
 
 private:
-    bool is_wanted_positive(std::size_t k) const { return (cell_ >> k & 1U) != 0; }
+    bool is_wanted_positive(std::size_t k) const { return k >= of_cell_ || (cell_ >> k & 1U) != 0; }
 
     /// The first whose sign is not that of the cell and follows from what is drawn.
     std::optional<std::size_t> wrong_side(const RealState& state) const {
-        for (std::size_t k = 0; k < cells_.sides().size(); ++k) {
+        for (std::size_t k = 0; k < sides_.size(); ++k) {
             const auto value = side(state, k);
             if (value && (value->is_zero() || value->is_positive() != is_wanted_positive(k))) return k;
         }
@@ -370,7 +385,7 @@ private:
     }
 
     std::optional<numeric> side(const RealState& state, std::size_t k) const {
-        const int node = cells_.sides()[k];
+        const int node = sides_[k];
         constexpr auto bit = [](Variable::Kind kind) { return 1U << static_cast<unsigned>(kind); };
         if ((program_[node].depends & (bit(Variable::Kind::acceleration) | bit(Variable::Kind::unknown))) != 0)
             return std::nullopt;
@@ -381,7 +396,7 @@ private:
     /// A step of the secant method for one variable of the side, and beyond the root.
     void move(RealState& state, std::size_t k, Numbers& numbers) const {
         std::set<Key> angles, plain;
-        find_variables(program_, {cells_.sides()[k]}, angles, plain);
+        find_variables(program_, {sides_[k]}, angles, plain);
         angles.merge(plain);
         std::vector<Key> keys(angles.begin(), angles.end());
         const auto is_parameter = [](const Key& key) { return key.first == Variable::Kind::parameter; };
@@ -413,8 +428,9 @@ private:
     }
 
     const Program& program_;
-    const Cells& cells_;
     const Cell cell_;
+    std::vector<int> sides_;
+    const std::size_t of_cell_;  ///< how many of them are sides of the cell
 };
 
 std::optional<RealState> drawn(const Motions& motions, const Program& claims, const std::vector<int>& roots,
@@ -453,9 +469,8 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
 }
 
 std::optional<RealState> real_state_towards(const Motions& motions, const Program& claims,
-                                            const std::vector<int>& roots, const Cells& cells, Cell cell,
-                                            unsigned seed) {
-    const Steering steering(claims, cells, cell);
+                                            const std::vector<int>& roots, const Wanted& wanted, unsigned seed) {
+    const Steering steering(claims, wanted.cells, wanted.cell, wanted.positive);
     return drawn(motions, claims, roots, &steering, seed);
 }
 

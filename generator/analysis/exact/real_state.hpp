@@ -24,11 +24,16 @@ inline constexpr unsigned first_float_seed = 400;
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
                                     unsigned seed);
 
+/// A cell of `claims`, and nodes of it that are to be positive.
+struct Wanted {
+    const Cells& cells;
+    Cell cell;
+    const std::vector<int>& positive;
+};
 /// The same, drawn so that it is likely to lie in a cell of `claims`: thresholds are passed where values that are
 /// drawn decide. Whoever asks has to look whether it does.
 std::optional<RealState> real_state_towards(const Motions& motions, const Program& claims,
-                                            const std::vector<int>& roots, const Cells& cells, Cell cell,
-                                            unsigned seed);
+                                            const std::vector<int>& roots, const Wanted& wanted, unsigned seed);
 
 /// The same on the scene's own branch, for motions that know it: near a place of it, and at seed 0 with the
 /// scene's parameters. Positions that follow from others are floats.
