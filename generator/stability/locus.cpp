@@ -38,13 +38,16 @@ Spectra::Roots in_order(const Spectra::Roots& before, const Spectra::Roots& now)
     return result;
 }
 
+double size_of(const Spectra::Roots& roots) {
+    double size = 1e-300;
+    for (const auto& root : roots) size = std::max(size, std::abs(root));
+    return size;
+}
+
 double way(const Spectra::Roots& a, const Spectra::Roots& b) {
-    double longest = 0, size = 1e-300;
-    for (std::size_t k = 0; k < a.size() && k < b.size(); ++k) {
-        longest = std::max(longest, std::abs(a[k] - b[k]));
-        size = std::max({size, std::abs(a[k]), std::abs(b[k])});
-    }
-    return longest / size;
+    double longest = 0;
+    for (std::size_t k = 0; k < a.size() && k < b.size(); ++k) longest = std::max(longest, std::abs(a[k] - b[k]));
+    return longest;
 }
 
 class Following {
@@ -57,12 +60,18 @@ public:
         if (!locus_.roots.empty() && !roots.empty() && !locus_.roots.back().empty()) {
             const Spectra::Roots ordered = in_order(locus_.roots.back(), roots);
             const double before = locus_.values.back(), middle = (before + value) / 2;
-            if (depth < deepest_halving && way(locus_.roots.back(), ordered) > farthest) {
+            largest_ = std::max(largest_, size_of(roots));
+            const double moved = way(locus_.roots.back(), ordered);
+            if (depth < deepest_halving &&
+                moved > farthest * std::max(size_of(locus_.roots.back()), size_of(ordered))) {
                 add(middle, at(middle), depth + 1);
                 add(value, roots, depth + 1);
                 return;
             }
-            look_for_crossing(before, value, ordered);
+            if (moved > farthest * largest_)
+                locus_.jumps.push_back((before + value) / 2);
+            else
+                look_for_crossing(before, value, ordered);
             locus_.roots.push_back(in_order(locus_.roots.back(), roots));
         } else {
             locus_.roots.push_back(roots);
@@ -148,6 +157,7 @@ private:
 
     RootLocus& locus_;
     const Spectra& spectra_;
+    double largest_ = 0;  ///< root so far
 };
 
 }  // namespace

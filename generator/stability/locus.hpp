@@ -8,6 +8,8 @@
 ///
 /// Values are added where a root moves far between two of them, so that each branch can be followed.
 
+#include <algorithm>
+
 #include "stability/chart.hpp"
 
 namespace alembert {
@@ -28,6 +30,14 @@ struct RootLocus {
         SpectrumKind kind = SpectrumKind::none;  ///< what it is on the unstable side
     };
     std::vector<Crossing> crossings = {};
+    /// Where the roots jump, because the state at which they are taken does: whether one crosses there is unknown.
+    std::vector<double> jumps = {};
+
+    /// At how many of the values there are no roots.
+    std::size_t without_roots() const {
+        return static_cast<std::size_t>(
+            std::count_if(roots.begin(), roots.end(), [](const Spectra::Roots& at) { return at.empty(); }));
+    }
 };
 
 /// Throws as stability_chart.

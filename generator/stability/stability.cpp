@@ -16,6 +16,7 @@
 #include "stability/arnold.hpp"
 #include "stability/conservative.hpp"
 #include "stability/critical.hpp"
+#include "stability/equilibrium/judge.hpp"
 #include "stability/floquet.hpp"
 #include "stability/lyapunov.hpp"
 #include "stability/own_period.hpp"
@@ -247,6 +248,21 @@ void check_steady(const LinearizedScene& near) {
                         input.derivative[0].get_name()));
 }
 
+/// Whether the state is one that Newton's method has found in numbers, and a double root or nearly so.
+bool is_reached_fold(const LinearizedScene& near) {
+    if (near.reached.empty()) return false;
+    const SteadyProblem problem(near.mechanism, near.equations, near.start);
+    return is_near_fold(problem, problem.start());
+}
+
+Decision undecided_at_fold() {
+    return {
+        StabilityVerdict::undecided, StabilityTheorem::none,
+        say("equilibria meet here, or nearly so: Newton's method knows the state to so few digits that the first "
+            "approximation and terms of higher degree are those of its roundings. Give the state exactly by "
+            "--at")};
+}
+
 Stability stability_of_periodic(const Derived& d, const StabilityOptions& options) {
     Stability result{.title = d.scene.title};
     result.warnings = d.warnings;
@@ -330,6 +346,7 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
         result.eigenvalues = eigenvalues_of(blurred(result.A), false);
         take(result, decide_first(result.eigenvalues));
         if (result.verdict == StabilityVerdict::undecided) take(result, undecided(result.eigenvalues));
+        if (is_reached_fold(near)) take(result, undecided_at_fold());
         if (!options.lyapunov.empty()) judge_function(result, options.lyapunov, nullptr);
         return result;
     }
@@ -364,8 +381,12 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
             say("; the momenta of the cyclic coordinates keep their disturbed values, and the motion tends to "
                 "the steady motion that has these");
     }
+    if (is_reached_fold(near)) {
+        decision = undecided_at_fold();
+        result.certain = false;
+    }
     take(result, decision);
-    add_conditions(result, *local, options.exact_at);
+    if (result.certain) add_conditions(result, *local, options.exact_at);
     if (!options.lyapunov.empty()) judge_function(result, options.lyapunov, &*local);
     return result;
 }

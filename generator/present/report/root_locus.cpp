@@ -121,6 +121,8 @@ Json as_json(const RootLocus& locus) {
         result["roots"].push_back(Json::array());
         for (const auto& root : roots) result["roots"].back().push_back({root.real() + 0.0, root.imag() + 0.0});
     }
+    result["without_roots"] = locus.without_roots();
+    result["jumps"] = locus.jumps;
     result["crossings"] = Json::array();
     for (const RootLocus::Crossing& one : locus.crossings)
         result["crossings"].push_back({{"value", one.value},
@@ -137,7 +139,19 @@ std::string as_text(const RootLocus& locus) {
     say_on(page, "Roots over {} from {:g} to {:g}, in floating point, at {} values.\n",
            locus.unit.label(locus.name), locus.from / locus.unit.size, locus.to / locus.unit.size,
            locus.values.size());
-    if (locus.crossings.empty()) say_on(page, "None crosses {}.\n", edge_in_words(locus.of));
+    const std::size_t without = locus.without_roots();
+    if (locus.crossings.empty() && without < locus.values.size())
+        say_on(page, "None crosses {}.\n", edge_in_words(locus.of));
+    if (without > 0)
+        say_on(
+            page,
+            "At {} of {} values no state was found or it has no first approximation; nothing is said of them.\n",
+            without, locus.values.size());
+    for (const double jump : locus.jumps)
+        say_on(
+            page,
+            "The roots jump at {} = {:.9g}, as another state is reached there; whether one crosses is unknown.\n",
+            locus.unit.label(locus.name), jump / locus.unit.size);
     for (const RootLocus::Crossing& one : locus.crossings)
         say_on(page, "{} = {:.15g}: {} cross{} {} ({}), beyond it are {} before and {} after\n",
                locus.unit.label(locus.name), one.value / locus.unit.size, shown_root(one.root),

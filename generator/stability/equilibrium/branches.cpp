@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "alembert/base/error.hpp"
 #include "analysis/state/left_out.hpp"
@@ -30,7 +31,8 @@ public:
           options_(options),
           names_(names(options)),
           starts_(result.mechanism, names_),
-          problem_(result.mechanism, result.equations, start_at((options.from + options.to) / 2)),
+          problem_(result.mechanism, result.equations,
+                   start_at(options.from + inside_ * (options.to - options.from))),
           conservative_(is_conservative(result.mechanism, problem_.residuals())),
           left_out_(result.mechanism) {
         check_name();
@@ -170,6 +172,8 @@ private:
         return false;
     }
 
+    static constexpr double inside_ = 0.4142;  // no round value, at which equations may be singular
+
     Branches& result_;
     const FollowOptions& options_;
     std::vector<std::string> names_;
@@ -192,7 +196,9 @@ Branches branches(Scene scene, const FollowOptions& options) {
     result.parameter = options.name;
     result.from = options.from;
     result.to = options.to;
-    BranchSearch(result, options).go();
+    FollowOptions upwards = options;
+    if (upwards.from > upwards.to) std::swap(upwards.from, upwards.to);
+    BranchSearch(result, upwards).go();
     return result;
 }
 

@@ -103,6 +103,66 @@ bool zeros_are_rates(const SteadyProblem& problem, const Reduced& r, const Stead
     return true;
 }
 
+/// How a state is judged: whether some eigenvalue grows.
+struct Sides {
+    long double stiffness = 0;  ///< the least singular value of the accelerations by the coordinates
+    bool grows = false;
+};
+
+std::optional<Sides> sides_at(const SteadyProblem& problem, Instant<long double> at) {
+    if (!problem.settle_at(at)) return std::nullopt;
+    const SteadySystem here = problem.linearized_at(at, at.u);
+    const Tangent<long double> t =
+        tangent(problem.residuals(), here.split, at, is_at_kink(problem.residuals(), at));
+    if (!t.speed_rates_by.allFinite()) return std::nullopt;
+    const Reduced r = reduced(problem, here.split, t);
+    const auto found = eigenvalues(r.A);
+    if (!found) return std::nullopt;
+    long double size = 0;
+    for (const auto& value : *found) size = std::max(size, std::abs(value));
+    const Index n = static_cast<Index>(r.e.size());
+    const LongSingularValues values = singular_values(r.A.bottomLeftCorner(r.A.rows() - n, n));
+    return Sides{.stiffness = values.values.size() == 0 ? 0 : values.values[values.values.size() - 1],
+                 .grows = std::any_of(found->begin(), found->end(),
+                                      [&](const auto& value) { return value.real() > on_axis * size; })};
+}
+
+}  // namespace
+
+bool is_near_fold(const SteadyProblem& problem, const Instant<long double>& at) {
+    constexpr long double known_to = 2e-5L, much = 0.5L, nothing = 1e-13L;
+    if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return false;
+    const SteadySystem here = problem.linearized_at(at, at.u);
+    const Tangent<long double> t =
+        tangent(problem.residuals(), here.split, at, is_at_kink(problem.residuals(), at));
+    if (!t.speed_rates_by.allFinite()) return false;
+    const Reduced r = reduced(problem, here.split, t);
+    const Index n = static_cast<Index>(r.e.size());
+    if (n == 0) return false;
+    const LongSingularValues values = singular_values(r.A.bottomLeftCorner(r.A.rows() - n, n));
+    if (values.values.size() < n) return false;
+    const long double least = values.values[n - 1];
+    const VectorOf<long double> softest = values.right.col(n - 1);
+    std::vector<Sides> beside;
+    for (const long double sign : {1.0L, -1.0L}) {
+        Instant<long double> other = at;
+        for (Index j = 0; j < n; ++j) {
+            const auto q = static_cast<std::size_t>(here.split.q[static_cast<std::size_t>(r.e[j])]);
+            other.q[q] += sign * known_to * problem.scales()[q] * softest[j];
+        }
+        const auto found = sides_at(problem, std::move(other));
+        if (!found) return false;
+        beside.push_back(*found);
+    }
+    const long double most = std::max(beside[0].stiffness, beside[1].stiffness),
+                      change =
+                          std::max(std::abs(beside[0].stiffness - least), std::abs(beside[1].stiffness - least));
+    if (most <= nothing || change <= much * least) return false;
+    return beside[0].grows != beside[1].grows || !beside[0].grows;
+}
+
+namespace {
+
 /// Do the loads follow from a potential, that is, are they functions Q(q) with ∂Q_i/∂q_j = ∂Q_j/∂q_i?
 bool loads_have_potential(const Mechanism& m) {
     constexpr double largest_tree = 2000;
@@ -138,18 +198,19 @@ bool is_conservative(const Mechanism& m, const Residuals& residuals) {
 }
 
 MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Instant<long double>& at) {
-    if (is_at_kink(problem.residuals(), at)) return {};
+    if (!problem.has_first_approximation(at)) return {};
     const SteadySystem here = problem.linearized_at(at, at.u);
-    const Tangent<long double> t = tangent(problem.residuals(), here.split, at);
+    const Tangent<long double> t =
+        tangent(problem.residuals(), here.split, at, is_at_kink(problem.residuals(), at));
     if (!t.speed_rates_by.allFinite()) return {};
     return reduced(problem, here.split, t).A;
 }
 
 StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at) {
     const Residuals& residuals = problem.residuals();
-    if (is_at_kink(residuals, at)) return {.because = say("the equations have a kink here")};
+    if (!problem.has_first_approximation(at)) return {.because = say("the equations have a kink here")};
     const SteadySystem here = problem.linearized_at(at, at.u);
-    const Tangent<long double> t = tangent(residuals, here.split, at);
+    const Tangent<long double> t = tangent(residuals, here.split, at, is_at_kink(residuals, at));
     if (!t.speed_rates_by.allFinite() || is_singular(problem, at, t.mass))
         return {.because = say("the mass matrix is singular here"), .singular = true};
     const Reduced r = reduced(problem, here.split, t);
@@ -178,7 +239,11 @@ StabilityHint judge(const SteadyProblem& problem, bool conservative, const Insta
     const auto growing = count([](const auto& v) { return v.real() > 0; });
     const auto turning = count([](const auto& v) { return v.real() == 0 && v.imag() != 0; });
     const auto zeros = count([](const auto& v) { return v.real() == 0 && v.imag() == 0; });
-    if (growing > 0) {
+    if (is_near_fold(problem, at)) {
+        result.because = say(
+            "equilibria meet here, or nearly so: which way the first approximation decides, the last digits of "
+            "the state tell");
+    } else if (growing > 0) {
         result.stable = Stable::no;
         result.because = say("an eigenvalue has a positive real part");
     } else if (turning == 0 && (zeros == 0 || zeros_are_rates(problem, r, here, at, zeros))) {

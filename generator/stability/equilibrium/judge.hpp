@@ -36,6 +36,10 @@ bool is_conservative(const Mechanism& mechanism, const Residuals& residuals);
 /// the equations have a kink.
 MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Instant<long double>& at);
 
+/// Whether the stiffness changes by as much as it is within the digits to which a double root is known, as where
+/// two equilibria meet: there the first approximation at numbers decides nothing, unless both sides agree.
+bool is_near_fold(const SteadyProblem& problem, const Instant<long double>& at);
+
 /// Undecided, with the reason, if inertia is singular.
 StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at);
 

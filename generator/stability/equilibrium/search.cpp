@@ -7,6 +7,7 @@
 #include <random>
 
 #include "alembert/base/error.hpp"
+#include "stability/equilibrium/judge.hpp"
 #include "stability/linear/dense_long.hpp"
 
 namespace alembert {
@@ -14,7 +15,7 @@ namespace alembert {
 namespace {
 
 constexpr long double pi = 3.14159265358979323846264338327950288L, turn = 2 * pi;
-constexpr long double same = 1e-9L, same_if_singular = 1e-5L;  // in units of the scales
+constexpr long double same = 1e-9L, same_if_singular = 1e-5L, same_if_multiple = 2e-4L;  // in units of the scales
 constexpr int most_starts = 1500, least_starts = 60;
 constexpr int most_of_families = 5,
               most_ways_to_members = 60;  // then continua of one dimension are not told apart
@@ -165,7 +166,9 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
     const auto is_known = [&](const SteadyRoot& root) {
         return std::any_of(found.roots.begin(), found.roots.end(), [&](const FoundRoot& other) {
             const bool sharp = root.isolated && other.isolated;
-            return distance(problem, found.is_angle, root.at, other.at) < (sharp ? same : same_if_singular);
+            const long double apart = distance(problem, found.is_angle, root.at, other.at);
+            if (apart < (sharp ? same : same_if_singular)) return true;
+            return apart < same_if_multiple && (is_near_fold(problem, root.at) || is_near_fold(problem, other.at));
         });
     };
     int ways = 0;

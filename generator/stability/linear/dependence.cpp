@@ -18,6 +18,36 @@ namespace {
 constexpr long double nothing = 1e-9L;  // relative to the largest element; smaller derivatives count as zero
 constexpr int random_states = 3;
 
+/// On whose sign a signum, an absolute value, a larger or a smaller value depends.
+std::vector<int> compared(const Program& p, const std::vector<int>& roots) {
+    std::vector<int> result;
+    for (const int id : p.needed(roots))
+        if (p[id].op == Op::sign || p[id].op == Op::abs || p[id].op == Op::min || p[id].op == Op::max)
+            result.insert(result.end(), p[id].args.begin(), p[id].args.end());
+    return result;
+}
+
+/// Coordinates and time that decide on sides: beyond a border far from the state they count, though nothing near
+/// it changes with them (a dead zone, a switch at a time).
+void add_sides(const Residuals& r, const Split& split, Dependences& depends) {
+    const auto p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size());
+    std::vector<int> shared = r.mass;
+    for (const auto* part : {&r.gamma, &r.row}) shared.insert(shared.end(), part->begin(), part->end());
+    for (Index i = 0; i < p + nr; ++i) {
+        std::vector<int> roots = i < p ? shared : std::vector<int>();
+        roots.push_back(i < p ? r.forcing[split.u[i]] : r.rate[split.q[i - p]]);
+        for (const int id : r.program.needed(compared(r.program, roots))) {
+            if (r.program[id].op != Op::variable) continue;
+            const Variable& v = r.program[id].variable;
+            if (v.kind == Variable::Kind::time) depends(i, nr + p) = true;
+            const auto q = v.kind == Variable::Kind::coordinate
+                               ? std::find(split.q.begin(), split.q.end(), v.index)
+                               : split.q.end();
+            if (q != split.q.end()) depends(i, q - split.q.begin()) = true;
+        }
+    }
+}
+
 }  // namespace
 
 Dependences dependences(const Residuals& residuals, const Split& split, const Instant<long double>& at) {
@@ -48,6 +78,7 @@ Dependences dependences(const Residuals& residuals, const Split& split, const In
         other.t = about(at.t, size);
         if (settle(residuals, split, other) && note(tangent(residuals, split, other))) ++found;
     }
+    add_sides(residuals, split, result);
     return result;
 }
 

@@ -12,6 +12,8 @@
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
 #include "stability/linear/dense_long.hpp"
+#include "stability/linear/kinks.hpp"
+#include "stability/linear/paths.hpp"
 
 namespace alembert {
 
@@ -76,7 +78,9 @@ void leave_out_kept(SteadySystem& system, Index first, Index last) {
 }  // namespace
 
 SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start& start)
-    : residuals_(m, e),
+    : mechanism_(m),
+      equations_(e),
+      residuals_(m, e),
       start_(instant_of<long double>(residuals_, state_of(start, m, e))),
       essential_(static_cast<std::size_t>(m.size()), true),
       follows_q_(m.q_is_guess),
@@ -322,6 +326,17 @@ std::vector<std::pair<std::string, std::string>> steady_nearby(const Mechanism& 
     return state;
 } catch (const std::runtime_error&) {  // there is no such state to suggest
     return {};
+}
+
+bool SteadyProblem::has_first_approximation(const Instant<long double>& at) const try {
+    if (!is_at_kink(residuals_, at)) return true;
+    const Split split = split_at(at);
+    check_differentiable(residuals_, split, at, tangent(residuals_, split, at, true), mechanism_, equations_);
+    return true;
+} catch (const ModelError&) {
+    return false;
+} catch (const IntegrationError&) {
+    return false;
 }
 
 }  // namespace alembert

@@ -45,11 +45,14 @@ struct SteadyRoot {
 
 class SteadyProblem {
 public:
-    /// About the state of `start`. Throws ModelError where the equations change with time other than through
-    /// inputs, IntegrationError where constraints or inertia are singular at this state and near it.
+    /// About the state of `start`. Mechanism and equations must outlive it. Throws ModelError where the equations
+    /// change with time other than through inputs, IntegrationError where constraints or inertia are singular at
+    /// this state and near it.
     SteadyProblem(const Mechanism& mechanism, const Equations& equations, const Start& start);
 
     const Residuals& residuals() const { return residuals_; }
+    /// Whether the equations have a first approximation at this state; they have none at a kink.
+    bool has_first_approximation(const Instant<long double>& at) const;
     /// Of which a step of `solve` computes values and derivatives.
     std::size_t nodes() const { return at_rest_ ? at_rest_->steady.size() : residuals_.steady.size(); }
     const Instant<long double>& start() const { return start_; }
@@ -101,6 +104,8 @@ private:
     /// The size of an ordinary change of an unknown.
     long double scale_of(const SteadySystem& here, Eigen::Index unknown) const;
 
+    const Mechanism& mechanism_;
+    const Equations& equations_;
     Residuals residuals_;
     std::optional<Residuals> at_rest_;  ///< with the rates 0 that Newton's method leaves at 0
     Instant<long double> start_;
