@@ -184,7 +184,7 @@ std::vector<Scene> scenes_with_redundant_rows() {
     };
     return {parse_scene(test::redundant_plate, "plate.toml"), parse_scene(bead, "bead.toml"),
             in_speeds("a = \"x' + 0.3*phi'\"\nb = \"phi'\"\nc = \"y' - x'\"\n"),
-            in_speeds("a = \"x' - R*phi'\"\nc = \"y'\"\n"), parse_scene(test::redundant_wheels, "wheels.toml")};
+            in_speeds("a = \"x' - R*phi'\"\n"), parse_scene(test::redundant_wheels, "wheels.toml")};
 }
 
 }  // namespace

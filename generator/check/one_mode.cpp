@@ -18,6 +18,7 @@
 #include "check/kinematic.hpp"
 #include "check/open_claims.hpp"
 #include "check/solution.hpp"
+#include "model/energy.hpp"
 #include "model/formalism/driven.hpp"
 #include "model/formalism/needs.hpp"
 
@@ -167,7 +168,8 @@ private:
             for (Mechanism::Constraint& c : *constraints) {
                 if (!c.position) continue;
                 const ex here = now_.m.z->expand(*c.position).subs(pose, GiNaC::subs_options::no_pattern).expand();
-                c.position = GiNaC::is_a<numeric>(here) ? std::nullopt : std::optional(now_.m.z->name(here));
+                const bool holds = GiNaC::is_a<numeric>(here) || is_identically_zero(here, now_.m);
+                c.position = holds ? std::nullopt : std::optional(now_.m.z->name(here));
             }
         return result;
     }

@@ -252,7 +252,7 @@ void check_steady(const LinearizedScene& near) {
 bool is_reached_fold(const LinearizedScene& near) {
     if (near.reached.empty()) return false;
     const SteadyProblem problem(near.mechanism, near.equations, near.start);
-    return is_near_fold(problem, problem.start());
+    return meeting_at(problem, problem.start()) == Meeting::open;
 }
 
 Decision undecided_at_fold() {

@@ -174,14 +174,20 @@ private:
         for (const auto* constraints : {&m_.constraints, &m_.redundant})
             for (const Mechanism::Constraint& c : *constraints) {
                 if (!c.position) continue;
-                const ex here = m_.z->expand(*c.position).subs(pose_, GiNaC::subs_options::no_pattern);
+                ex here = m_.z->expand(*c.position).subs(pose_, GiNaC::subs_options::no_pattern);
+                for (const Mechanism::Parameter& p : m_.parameters)
+                    here = here.subs(p.symbol == p.value, GiNaC::subs_options::no_pattern);
                 std::vector<std::size_t> free;
                 for (std::size_t i = 0; i < n_; ++i)
                     if (here.has(m_.q[i])) free.push_back(i);
                 if (std::any_of(free.begin(), free.end(), [&](std::size_t i) { return m_.q_is_guess[i]; }) ||
                     is_identically_zero(here, m_))
                     continue;
-                for (const std::size_t i : free) pose_[m_.q[i]] = m_.q_start[i];
+                for (const std::size_t i : free) {
+                    for (auto& [q, value] : pose_)
+                        value = value.subs(m_.q[i] == m_.q_start[i], GiNaC::subs_options::no_pattern);
+                    pose_[m_.q[i]] = m_.q_start[i];
+                }
             }
     }
 

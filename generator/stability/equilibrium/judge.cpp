@@ -129,18 +129,18 @@ std::optional<Sides> sides_at(const SteadyProblem& problem, Instant<long double>
 
 }  // namespace
 
-bool is_near_fold(const SteadyProblem& problem, const Instant<long double>& at) {
-    constexpr long double known_to = 2e-5L, much = 0.5L, nothing = 1e-13L;
-    if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return false;
+Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at) {
+    constexpr long double known_to = 2e-5L, much = 0.5L, nothing = 1e-17L;
+    if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return Meeting::none;
     const SteadySystem here = problem.linearized_at(at, at.u);
     const Tangent<long double> t =
         tangent(problem.residuals(), here.split, at, is_at_kink(problem.residuals(), at));
-    if (!t.speed_rates_by.allFinite()) return false;
+    if (!t.speed_rates_by.allFinite()) return Meeting::none;
     const Reduced r = reduced(problem, here.split, t);
     const Index n = static_cast<Index>(r.e.size());
-    if (n == 0) return false;
+    if (n == 0) return Meeting::none;
     const LongSingularValues values = singular_values(r.A.bottomLeftCorner(r.A.rows() - n, n));
-    if (values.values.size() < n) return false;
+    if (values.values.size() < n) return Meeting::none;
     const long double least = values.values[n - 1];
     const VectorOf<long double> softest = values.right.col(n - 1);
     std::vector<Sides> beside;
@@ -151,14 +151,14 @@ bool is_near_fold(const SteadyProblem& problem, const Instant<long double>& at) 
             other.q[q] += sign * known_to * problem.scales()[q] * softest[j];
         }
         const auto found = sides_at(problem, std::move(other));
-        if (!found) return false;
+        if (!found) return Meeting::none;
         beside.push_back(*found);
     }
     const long double most = std::max(beside[0].stiffness, beside[1].stiffness),
                       change =
                           std::max(std::abs(beside[0].stiffness - least), std::abs(beside[1].stiffness - least));
-    if (most <= nothing || change <= much * least) return false;
-    return beside[0].grows != beside[1].grows || !beside[0].grows;
+    if (most <= nothing * values.values[0] || change <= much * least) return Meeting::none;
+    return beside[0].grows && beside[1].grows ? Meeting::grows : Meeting::open;
 }
 
 namespace {
@@ -239,7 +239,7 @@ StabilityHint judge(const SteadyProblem& problem, bool conservative, const Insta
     const auto growing = count([](const auto& v) { return v.real() > 0; });
     const auto turning = count([](const auto& v) { return v.real() == 0 && v.imag() != 0; });
     const auto zeros = count([](const auto& v) { return v.real() == 0 && v.imag() == 0; });
-    if (is_near_fold(problem, at)) {
+    if (meeting_at(problem, at) == Meeting::open) {
         result.because = say(
             "equilibria meet here, or nearly so: which way the first approximation decides, the last digits of "
             "the state tell");

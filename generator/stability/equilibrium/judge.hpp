@@ -36,9 +36,11 @@ bool is_conservative(const Mechanism& mechanism, const Residuals& residuals);
 /// the equations have a kink.
 MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Instant<long double>& at);
 
-/// Whether the stiffness changes by as much as it is within the digits to which a double root is known, as where
-/// two equilibria meet: there the first approximation at numbers decides nothing, unless both sides agree.
-bool is_near_fold(const SteadyProblem& problem, const Instant<long double>& at);
+/// Where equilibria meet, or nearly so, the stiffness changes by as much as it is within the digits to which a
+/// multiple root is known: the first approximation at numbers decides nothing, unless disturbances grow on both
+/// sides.
+enum class Meeting { none, grows, open };
+Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at);
 
 /// Undecided, with the reason, if inertia is singular.
 StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at);

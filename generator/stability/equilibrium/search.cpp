@@ -168,7 +168,8 @@ SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Sta
             const bool sharp = root.isolated && other.isolated;
             const long double apart = distance(problem, found.is_angle, root.at, other.at);
             if (apart < (sharp ? same : same_if_singular)) return true;
-            return apart < same_if_multiple && (is_near_fold(problem, root.at) || is_near_fold(problem, other.at));
+            return apart < same_if_multiple && (meeting_at(problem, root.at) != Meeting::none ||
+                                                meeting_at(problem, other.at) != Meeting::none);
         });
     };
     int ways = 0;

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// What is called a constant may jump on the border of two cells, exact arithmetic takes multiples of its prime for
+// zero and lacks some square roots, and a later claim may hide an earlier one. What is right is known by hand.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "alembert/base/error.hpp"
+#include "analysis/audit/audit.hpp"
+#include "checked.hpp"
+
+namespace check_jumps {
+
+using namespace alembert;
+using test::check_verdicts;
+
+namespace {
+
+Checked of(const std::string& scene, const std::string& claims) {
+    const Scene read = with_claims(parse_scene(scene, "scene.toml"), claims, "claims.txt");
+    const Prepared made = prepared(read, {}, true);
+    return check(made.scene, made.mechanism, made.sheets);
+}
+
+/// A mass with this force; the parameters are those of all tests here.
+std::string pushed_by(const std::string& force, const std::string& start = "{ initial = 0.5, rate = -1.2 }") {
+    return fmt::format(R"toml(
+[parameters]
+m = 3
+k = 1.9
+a = 0.9
+b = 0.4
+[coordinates]
+x = {}
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", 0]
+[forces]
+x = "{}"
+)toml",
+                       start, force);
+}
+
+const auto proved = Verdict::proved, refuted = Verdict::refuted;
+
+}  // namespace
+
+TEST_CASE("check: a constant of the motion does not jump") {
+    const Checked spring = of(pushed_by("-k*x"), R"(
+constants C D E F G H
+sign(x') = C
+x/abs(x) = D
+m*x'^2 + k*x^2 = E
+m*x'^2*sign(x)^2 + k*abs(x)^2 = F
+atan2(1, x) - atan(1/x) = G
+sign(2 + sin(x)) = H
+)");
+    check_verdicts(spring, {refuted, refuted, proved, proved, refuted, proved});
+    CHECK(spring.claims[0].reason.find("x' = 0") != std::string::npos);
+    CHECK(spring.claims[0].residual_value == doctest::Approx(2));
+    check_verdicts(of(pushed_by("-(a + b*sign(5 - t))*x"), R"(
+constants C D
+sign(5 - t) = C
+m*x'^2 + (a + b*sign(5 - t))*x^2 = D
+)"),
+                   {refuted, refuted});
+}
+
+TEST_CASE("check: an integral holds on all sides, and its constant has a value on each") {
+    check_verdicts(of(pushed_by("-k*sign(x - 0.05)"), R"(
+constants C D E
+m*x'^2/2 + k*(x - 0.05) = C
+m*x'^2/2 + k*abs(x - 0.05) = D
+max(x, 30) = E
+)"),
+                   {refuted, proved, refuted});
+}
+
+TEST_CASE("check: coefficients near the prime of exact arithmetic are compared in numbers") {
+    const Checked big = of(pushed_by("-k*x"), R"(
+m*x'' + 2305843009213693952*k*x = 0
+2305843009213693952*x'' = x''
+m*x'' + k*x + 2305843009213693951*x^3 = 0
+cos(2305843009213693952*x) = 1
+exp(1152921504606846975*x) = 1
+2147483648*m*x'' + 2147483648*k*x = 0
+)");
+    check_verdicts(big, {refuted, refuted, refuted, refuted, refuted, proved});
+    for (const CheckedClaim& claim : big.claims)
+        CHECK_FALSE((claim.likely.has_value() && !claim.likely->repair.empty()));
+}
+
+TEST_CASE("check: a root of rates has the sign of no initial state") {
+    const std::string blade = R"toml(
+[parameters]
+m = 0.5
+J = 2
+[coordinates]
+x = { initial = 0, rate = "1.1*cos(2.5)" }
+y = { initial = 0, rate = "1.1*sin(2.5)" }
+phi = { initial = 2.5, rate = -0.9 }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+[energy]
+kinetic = "J*phi'^2/2"
+[[constraint]]
+name = "blade"
+nonholonomic = "x'*sin(phi) - y'*cos(phi)"
+)toml";
+    check_verdicts(of(blade, R"(
+sqrt(x'^2 + y'^2) = x'*cos(phi) + y'*sin(phi)
+x'^2 + y'^2 = (x'*cos(phi) + y'*sin(phi))^2
+)"),
+                   {refuted, proved});
+}
+
+TEST_CASE("check: rest at roots that the prime field lacks is rest, in all combinations") {
+    const std::string wells = R"toml(
+[parameters]
+m = 2
+[coordinates]
+x = 0
+y = "sqrt(2)"
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+[forces]
+x = "6*x - x^3"
+y = "(y^2 - 2)*y"
+)toml";
+    check_verdicts(of(wells, "rest\nx*(y^2 - 2) = 0\nx^3 = 6*x\ny^3 = 2*y\nx = 0\n"),
+                   {refuted, proved, proved, refuted});
+    check_verdicts(of(pushed_by("-a*sin(6*x) - 0.1*x'", "\"pi/2\""), "rest\nsin(x)*cos(x) = 0\nsin(6*x) = 0\n"),
+                   {refuted, proved});
+}
+
+TEST_CASE("check: sines of inverse functions, on all sides") {
+    check_verdicts(
+        of(pushed_by("-k*x"), R"(
+sin(asin(x)) = x
+cos(atan(x))*sqrt(1 + x^2) = 1
+tan(atan(x)) = x
+sin(acos(x))^2 = 1 - x^2
+sin(atan2(x, x'))*sqrt(x^2 + x'^2) = x
+sin(2*atan(x)) = x/(1 + x^2)
+)"),
+        {Verdict::vacuous, Verdict::vacuous, Verdict::vacuous, Verdict::vacuous, Verdict::vacuous, refuted});
+}
+
+TEST_CASE("check: of two motions claimed for one coordinate each is judged") {
+    const std::string two = R"(
+solution
+constants A B
+x = A*cos(5*t)
+x = A*cos(sqrt(k/m)*t)
+x = B*sin(sqrt(k/m)*t)
+)";
+    check_verdicts(of(pushed_by("-k*x"), two), {refuted, proved, proved});
+}
+
+TEST_CASE("check: where an impact is, angles that constraints relate have no other values") {
+    const std::string tied = R"toml(
+[parameters]
+m = 1.1
+S = 0.4
+l = 1.3
+[coordinates]
+a = { initial = 1.1, rate = -0.9 }
+b = { initial = "pi - 1.1", rate = 0.9 }
+[[particle]]
+name = "A"
+mass = "m"
+position = ["l*sin(a)", "-l*cos(a)"]
+[[particle]]
+name = "B"
+mass = "2*m"
+position = ["l*sin(b)", "-l*cos(b)"]
+[impulses]
+a = "S"
+[[constraint]]
+name = "tie"
+holonomic = "sin(a) - sin(b)"
+)toml";
+    check_verdicts(of(tied, "impact\na' = -b'\na' - a'(-) = S/(3*m*l^2)\na' = b'\n"), {proved, proved, refuted});
+}
+
+TEST_CASE("constraints whose rates stand in absolute values, roots, larger and smaller values are refused") {
+    for (const std::string rate :
+         {"abs(x')", "sqrt(x'^2)", "max(x', 0)", "sign(x')*x'", "min(x', 2*x')", "norm(vel(P))"}) {
+        CAPTURE(rate);
+        const std::string scene = fmt::format(R"toml(
+[coordinates]
+x = {{ initial = 0, rate = 1 }}
+y = {{ initial = 0, rate = 1 }}
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", "y"]
+[[constraint]]
+name = "c"
+nonholonomic = "y' - {}"
+)toml",
+                                              rate);
+        CHECK_THROWS_AS(prepared(parse_scene(scene, "scene.toml"), {}, true), SceneError);
+    }
+}
+
+// On the branch b = a + 2π/3 of cos 3a = cos 3b the second constraint holds e; on a = b it holds nothing.
+TEST_CASE("audit: the degrees of freedom are those of the scene's own branch") {
+    const std::string scene = R"toml(
+[coordinates]
+a = 0.2
+b = "0.2 + 2/3*pi"
+e = 1
+[energy]
+kinetic = "(a'^2 + b'^2 + e'^2)/2"
+[forces]
+e = 5
+[[constraint]]
+name = "z0"
+holonomic = "4*cos(a)^3 - 3*cos(a) - cos(3*b)"
+[[constraint]]
+name = "z1"
+holonomic = "(cos(a) - cos(b))*(e - 1)"
+)toml";
+    const Audit found = audit(parse_scene(scene, "scene.toml")).audit;
+    CHECK(found.degrees_of_freedom == 1);
+    CHECK_FALSE(found.exact_rank);
+}
+
+}  // namespace check_jumps

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Where equilibria meet, roundings decide nothing; what switches is no constant; branches are the same whichever
+// way the parameter runs. What is right is known from the forces, which are written down.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "json.hpp"
+#include "program.hpp"
+
+namespace commands_equilibria_meet {
+
+using alembert::test::Json;
+using alembert::test::json_of;
+using alembert::test::run;
+using alembert::test::temporary;
+
+namespace {
+
+std::string pushed(const std::string& force, const std::string& more = "", double start = 0) {
+    return temporary("pushed.toml",
+                     fmt::format("[parameters]\np = 0.3\nk = 3.2\n[coordinates]\nx = {{ initial = {} }}\n"
+                                 "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"
+                                 "[forces]\nx = \"{}\"\n{}",
+                                 start, force, more));
+}
+
+}  // namespace
+
+TEST_CASE("equilibrium, stability: a saddle-node is called stable from neither side") {
+    for (const char* force : {"-(x + 0.4)^2", "(x - 0.3)^2", "(x - 0.3)^2 - x'/2", "-(x + 1.7)^2 - 0.01*x'",
+                              "-x^3 - 1.5*x^2 + 0.72*x - 0.076", "x^3 - 4.3*x^2 + 5.95*x - 2.601 - 3*x'"})
+        for (const double start : {-0.5, 0.2, 0.31, 1.6}) {
+            CAPTURE(std::string(force));
+            CAPTURE(start);
+            const std::string scene = pushed(force, "", start);
+            for (const Json& one : json_of({"equilibrium", scene, "--json"})["equilibria"]) {
+                const double x = one["coordinates"]["x"];
+                const bool is_double = std::min({std::abs(x + 0.4), std::abs(x - 0.3), std::abs(x + 1.7),
+                                                 std::abs(x - 0.2), std::abs(x - 1.7)}) < 1e-3;
+                if (is_double) CHECK(one["stable"] != "yes");
+            }
+            const auto judged = run({"stability", scene, "--json"});
+            if (judged.exit != 0 && judged.exit != 2) continue;  // Newton's method reaches no state from there
+            const Json verdict = Json::parse(judged.out);
+            const double x = verdict["coordinates"]["x"];
+            if (std::abs(x + 1.9) > 1e-3 && std::abs(x - 0.9) > 1e-3)
+                CHECK(std::string(verdict["verdict"]).find("stable") != 0);
+        }
+}
+
+TEST_CASE("equilibrium: a double or triple root is listed once") {
+    for (const char* force : {"-(x - 0.2)^2*(x + 1.9)", "-x^3 - 1.5*x^2 + 0.72*x - 0.076",
+                              "x^3 + 1.8*x^2 + 1.08*x + 0.216", "x^3 - 1.2*x^2 + 0.48*x - 0.064 - 0.5*x'"}) {
+        CAPTURE(std::string(force));
+        const Json found = json_of({"equilibrium", pushed(force), "--json"})["equilibria"];
+        std::vector<double> roots;
+        for (const Json& one : found) roots.push_back(one["coordinates"]["x"]);
+        std::sort(roots.begin(), roots.end());
+        for (std::size_t i = 1; i < roots.size(); ++i) CHECK(roots[i] - roots[i - 1] > 0.1);
+        CHECK(roots.size() <= 2);
+    }
+}
+
+TEST_CASE("stability, equilibrium: what switches at a time is no constant") {
+    for (const char* force : {"-x - 0.1*sign(5 - t)*x'", "-x - 0.5*sign(2*t - 50)*x'", "-max(1, t - 7)*x - x'"}) {
+        CAPTURE(std::string(force));
+        CHECK(run({"stability", pushed(force)}).exit == 3);
+        CHECK(run({"equilibrium", pushed(force)}).exit == 3);
+    }
+}
+
+TEST_CASE("equilibrium: beyond a clearance is where a weight rests") {
+    const Json found =
+        json_of({"equilibrium", pushed("-9.81 - 100*max(0, x - 1) + 100*max(0, -x - 1)"), "--json"});
+    REQUIRE(found["equilibria"].size() == 1);
+    CHECK(double(found["equilibria"][0]["coordinates"]["x"]) == doctest::Approx(-1.0981));
+}
+
+TEST_CASE("equilibrium: branches are the same whichever way the parameter runs") {
+    const std::string scene = pushed("(p - 0.2)*x - x^2");
+    const Json up = json_of({"equilibrium", scene, "--vary", "p=-1.8:1.2", "--json"}),
+               down = json_of({"equilibrium", scene, "--vary", "p=1.2:-1.8", "--json"});
+    REQUIRE(up["branches"].size() == down["branches"].size());
+    for (std::size_t k = 0; k < up["branches"].size(); ++k) CHECK(up["branches"][k] == down["branches"][k]);
+    REQUIRE(up["points"].size() == 1);
+    CHECK(double(up["points"][0]["parameter"]) == doctest::Approx(0.2));
+}
+
+TEST_CASE("stability: a kink that is differentiable does not hide where a root crosses") {
+    const Json found = json_of({"stability", pushed("p*x - x' - x*abs(x)"), "--vary", "p=-0.5:2.3", "--json"});
+    REQUIRE(found["crossings"].size() == 1);
+    CHECK(std::abs(double(found["crossings"][0]["value"])) < 1e-6);
+    CHECK(found["without_roots"] == 0);
+}
+
+}  // namespace commands_equilibria_meet
