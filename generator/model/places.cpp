@@ -2,6 +2,7 @@
 #include "model/places.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/language/say.hpp"
 #include "model/joints.hpp"
@@ -17,17 +18,66 @@ std::size_t coordinate_index(const std::string& name, const Mechanism& m) {
     throw std::out_of_range("coordinate '" + name + "'");
 }
 
+namespace {
+
+constexpr std::size_t longest_recursion = 100;
+
+/// The names that `base` leads to from this one and that are not known yet, the last first, where they are many:
+/// each can be found from the one before, without a recursion through a long chain.
+template <typename Base, typename Known>
+std::vector<std::string> unknown_bases(const std::string& name, const Base& base, const Known& known) {
+    std::vector<std::string> chain;
+    for (std::string next = base(name); !next.empty() && !known.contains(next); next = base(next))
+        chain.push_back(next);
+    if (chain.size() < longest_recursion) return {};
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+}
+
+const Name& body_before(const Joint& joint) {
+    return *joint.places_child ? joint.parent.body : joint.child.body;
+}
+
+}  // namespace
+
+std::string Places::base_of_frame(const std::string& name) const {
+    for (const Frame& frame : scene_.frames)
+        if (frame.name.text == name) return frame.parent.text == "N" ? "" : frame.parent.text;
+    for (const Body& body : scene_.bodies) {
+        if (body.name.text != name) continue;
+        const std::string& base = body.joint ? body_before(scene_.joints[*body.joint]).text : body.frame.text;
+        return base == "N" ? "" : base;
+    }
+    return {};
+}
+
 const Orientation& Places::orientation(const std::string& name) {
     if (const auto found = orientations_.find(name); found != orientations_.end()) return found->second;
-    if (name == "N") return orientations_["N"];
+    const auto base = [this](const std::string& frame) { return base_of_frame(frame); };
+    for (const std::string& one : unknown_bases(name, base, orientations_)) orient(one);
+    orient(name);
+    return orientations_.at(name);
+}
+
+void Places::orient(const std::string& name) {
+    if (name == "N") {
+        orientations_["N"];
+        return;
+    }
     for (const Frame& frame : scene_.frames)
-        if (frame.name.text == name) return orientations_[name] = turn(frame);
+        if (frame.name.text == name) {
+            Orientation turned = turn(frame);
+            orientations_[name] = std::move(turned);
+            return;
+        }
     for (const Body& body : scene_.bodies)
         if (body.name.text == name) {
-            if (!body.joint) return orientation(body.frame.text);
-            const Joint& joint = scene_.joints[*body.joint];
-            SourceScope source(*m_.z, "joint " + joint.name.text);
-            return orientations_[name] = orientation_by(joint, *this);
+            const Joint* const joint = body.joint ? &scene_.joints[*body.joint] : nullptr;
+            std::optional<SourceScope> source;
+            if (joint != nullptr) source.emplace(*m_.z, "joint " + joint->name.text);
+            Orientation result = joint != nullptr ? orientation_by(*joint, *this) : orientation(body.frame.text);
+            orientations_[name] = std::move(result);
+            return;
         }
     throw std::out_of_range("frame '" + name + "'");
 }
@@ -122,19 +172,36 @@ const Position* Places::find(const std::string& name) const {
     return nullptr;
 }
 
+std::string Places::base_of_point(const std::string& name) const {
+    const Joint* const joint = joint_of(name);
+    const Position* const where = joint == nullptr ? find(name) : nullptr;
+    const std::string base = joint != nullptr   ? body_before(*joint).text
+                             : where != nullptr ? where->from.text
+                                                : "";
+    return base == "N" || base == "O" ? "" : base;
+}
+
 Vector3 Places::position(const std::string& name) {
     if (name == "O") return {0, 0, 0};
     if (const auto found = positions_.find(name); found != positions_.end()) return found->second;
+    const auto base = [this](const std::string& point) { return base_of_point(point); };
+    for (const std::string& one : unknown_bases(name, base, positions_)) place(one);
+    place(name);
+    return positions_.at(name);
+}
+
+void Places::place(const std::string& name) {
     if (const Joint* joint = joint_of(name)) {
         SourceScope source(*m_.z, "joint " + joint->name.text);
         points_[name] = point_by(*joint, *this);
-        return positions_[name] = position_by(*joint, *this);
+        positions_[name] = position_by(*joint, *this);
+        return;
     }
     const Position* where = find(name);
     if (where == nullptr) throw std::out_of_range("point '" + name + "'");
     SourceScope source(*m_.z, "point " + name);
     points_[name] = step(point(where->from.text), orientation(where->axes.text).frame, vector(where->offset));
-    return positions_[name] = add(position(where->from.text), along(where->offset, where->axes), *m_.z);
+    positions_[name] = add(position(where->from.text), along(where->offset, where->axes), *m_.z);
 }
 
 std::string Places::frame_of(const std::string& name) const {
