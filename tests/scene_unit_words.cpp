@@ -541,9 +541,27 @@ kinetic = "(v*l*a*A + smoots)*x'^2"
     CHECK(in_si(scene, "l", "3 smoot") == "(3*(1.7018))");
     CHECK(in_si(scene, "v", "1").find("201.168") == std::string::npos);  // 10*(66*(0.3048))
     CHECK_THROWS_AS(in_si(scene, "x", "20 kg"), ModelError);
+    // The unit of theta follows from the sine.
+    const Scene pendulum = parse_scene(
+        "[parameters]\nl = { value = 2, unit = \"m\" }\n[coordinates]\ntheta = 1\n"
+        "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"l*sin(theta)\", 0]\n",
+        "pendulum.toml");
+    CHECK_THROWS_AS(in_si(pendulum, "theta", "20 N"), ModelError);
+    CHECK(in_si(pendulum, "theta", "20 deg") == "20 deg");
+    CHECK(in_si(pendulum, "theta", "20") == "20");
     CHECK_THROWS_AS(in_si(scene, "x'", "3 m"), ModelError);
     CHECK_THROWS_AS(in_si(scene, "a", "3 m"), ModelError);
     CHECK(in_si(scene, "x'", "3 furlong/day").find("/(86400)") != std::string::npos);
+
+    // Fractions, and plurals unless they are names of the scene.
+    const Scene plurals = parse_scene(
+        "[units]\ncubit = \"4/3 m\"\nspan = \"1/2 cubit\"\n[parameters]\na = \"3 cubits\"\nb "
+        "= { value = 6, unit = \"cubits/s\" }\nspans = 2\n[coordinates]\nx = { initial = "
+        "\"3 span\", unit = \"m\" }\n[energy]\nkinetic = \"a*b*spans*x'^2\"\n",
+        "plurals.toml");
+    CHECK(*value_of(plurals.parameters[0].value) == doctest::Approx(4).epsilon(1e-14));
+    CHECK(*value_of(plurals.parameters[1].value) == doctest::Approx(8).epsilon(1e-14));
+    CHECK(*value_of(plurals.coordinates[0].initial) == doctest::Approx(2).epsilon(1e-14));
 
     const std::pair<const char*, const char*> wrong[] = {{"m = \"3 ft\"", "'m' is a unit already"},
                                                          {"u = 3", "a string"},

@@ -237,8 +237,9 @@ private:
         if (word.kind != Token::Kind::name || Words::is(next, '(') || next.kind == Token::Kind::primes)
             return false;
         const std::string text = words_.word(word);
-        if (names_ != nullptr && own_unit(names_->units(), text) != nullptr) return true;
+        if (names_ != nullptr && names_->units().contains(text)) return true;
         if (names_ != nullptr && names_->has(text) && !is_unit_symbol(text)) return false;
+        if (names_ != nullptr && own_unit(names_->units(), text) != nullptr) return true;  // in the plural
         return is_known_unit(text) || is_no_multiple(text);
     }
 
