@@ -2,7 +2,6 @@
 #include "model/places.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "base/language/say.hpp"
 #include "model/joints.hpp"
@@ -54,30 +53,16 @@ std::string Places::base_of_frame(const std::string& name) const {
 const Orientation& Places::orientation(const std::string& name) {
     if (const auto found = orientations_.find(name); found != orientations_.end()) return found->second;
     const auto base = [this](const std::string& frame) { return base_of_frame(frame); };
-    for (const std::string& one : unknown_bases(name, base, orientations_)) orient(one);
-    orient(name);
-    return orientations_.at(name);
-}
-
-void Places::orient(const std::string& name) {
-    if (name == "N") {
-        orientations_["N"];
-        return;
-    }
+    for (const std::string& one : unknown_bases(name, base, orientations_)) orientation(one);
+    if (name == "N") return orientations_["N"];
     for (const Frame& frame : scene_.frames)
-        if (frame.name.text == name) {
-            Orientation turned = turn(frame);
-            orientations_[name] = std::move(turned);
-            return;
-        }
+        if (frame.name.text == name) return orientations_[name] = turn(frame);
     for (const Body& body : scene_.bodies)
         if (body.name.text == name) {
-            const Joint* const joint = body.joint ? &scene_.joints[*body.joint] : nullptr;
-            std::optional<SourceScope> source;
-            if (joint != nullptr) source.emplace(*m_.z, "joint " + joint->name.text);
-            Orientation result = joint != nullptr ? orientation_by(*joint, *this) : orientation(body.frame.text);
-            orientations_[name] = std::move(result);
-            return;
+            if (!body.joint) return orientation(body.frame.text);
+            const Joint& joint = scene_.joints[*body.joint];
+            SourceScope source(*m_.z, "joint " + joint.name.text);
+            return orientations_[name] = orientation_by(joint, *this);
         }
     throw std::out_of_range("frame '" + name + "'");
 }
@@ -185,23 +170,17 @@ Vector3 Places::position(const std::string& name) {
     if (name == "O") return {0, 0, 0};
     if (const auto found = positions_.find(name); found != positions_.end()) return found->second;
     const auto base = [this](const std::string& point) { return base_of_point(point); };
-    for (const std::string& one : unknown_bases(name, base, positions_)) place(one);
-    place(name);
-    return positions_.at(name);
-}
-
-void Places::place(const std::string& name) {
+    for (const std::string& one : unknown_bases(name, base, positions_)) position(one);
     if (const Joint* joint = joint_of(name)) {
         SourceScope source(*m_.z, "joint " + joint->name.text);
         points_[name] = point_by(*joint, *this);
-        positions_[name] = position_by(*joint, *this);
-        return;
+        return positions_[name] = position_by(*joint, *this);
     }
     const Position* where = find(name);
     if (where == nullptr) throw std::out_of_range("point '" + name + "'");
     SourceScope source(*m_.z, "point " + name);
     points_[name] = step(point(where->from.text), orientation(where->axes.text).frame, vector(where->offset));
-    positions_[name] = add(position(where->from.text), along(where->offset, where->axes), *m_.z);
+    return positions_[name] = add(position(where->from.text), along(where->offset, where->axes), *m_.z);
 }
 
 std::string Places::frame_of(const std::string& name) const {

@@ -64,8 +64,6 @@ public:
     const Attitude& attitude(int frame) const { return attitudes_[static_cast<std::size_t>(frame)]; }
 
 private:
-    void orient(const std::string& frame);
-    void place(const std::string& point);
     /// What its position or orientation is counted from; empty for none.
     std::string base_of_point(const std::string& point) const;
     std::string base_of_frame(const std::string& frame) const;
