@@ -54,6 +54,10 @@ Run run_on(std::vector<std::string> verb, const std::string& file) {
     return run(verb);
 }
 
+bool holds(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+}
+
 /// Whether a run ended as a program ends that knows what it does.
 void is_orderly(const std::vector<std::string>& verb, const std::string& file) {
     const Run result = run_on(verb, file);
@@ -87,10 +91,27 @@ TEST_CASE("odd scenes: a parameter without a value is refused with its line") {
           "exp(1000)", "cosh(1000 + a)", "exp(exp(10))", "(-8)^(1/3)", "1e300*exp(700)"})
         is_refused(with_parameter(value), "3:");
     is_refused("[parameters]\nR = 1e300\nS = \"R*R\"\n" + particle, "3:");
+    for (const char* huge : {"1e20", "1e100", "1e308"})  // CLN takes the exponential of the last two for 1
+        for (const char* value : {"exp(a)", "1 + exp(2*a)", "cosh(a)", "sinh(-a)", "1/exp(-a)"})
+            is_refused("[parameters]\na = " + std::string(huge) + "\nb = \"" + value + "\"\n" + particle, "3:");
     is_refused(
         "[parameters]\na = 0\n[coordinates]\nx = \"1/a\"\n[[particle]]\nname = \"p\"\nmass = 1\nposition = "
         "[\"x\", 0]\n",
         "4:");
+}
+
+TEST_CASE("odd scenes: an output without a value is warned of with its line, and --strict refuses it") {
+    for (const char* value : {"1/a", "asin(2 + a)", "log(a)", "x/a", "sqrt(a - 1)", "exp(x*1e4)"}) {
+        const std::string file =
+            temporary("no_output.toml", "[parameters]\na = 0\n" + particle + "[outputs]\no = \"" + value + "\"\n");
+        const Run result = run({"eval", file}), strict = run({"eval", file, "--strict"});
+        CAPTURE(std::string(value));
+        CHECK(result.exit == 0);
+        CHECK_MESSAGE(holds(result.err, "no_output.toml:10:"), result.err);
+        CHECK(holds(result.err, "'o' is not a finite number here"));
+        CHECK(strict.exit == 3);
+        CHECK(strict.out.empty());
+    }
 }
 
 TEST_CASE("odd scenes: a shape without an area has no inertia, and is refused with its line") {

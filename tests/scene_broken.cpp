@@ -197,7 +197,7 @@ TEST_CASE("broken scenes: files that cannot be read are reported as such") {
     CHECK(message("/nonexistent/scene.toml") == "/nonexistent/scene.toml: no such file\n");
     CHECK(message("/") == "/: is a directory; expected a scene file\n");
     CHECK(message("/nonexistent/\x1b[31m.toml") == "/nonexistent/\\u001B[31m.toml: no such file\n");
-    CHECK(message("") == ": no such file\n");
+    CHECK(message("") == "\"\": the name of the file is empty; expected the path of a scene\n");
 }
 
 TEST_CASE("broken scenes: more than a mebibyte is refused") {

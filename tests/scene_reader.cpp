@@ -294,4 +294,28 @@ K = "T"
     }
 }
 
+TEST_CASE("reader: a chain of a thousand links is read in any order, and the limit has a reason and a way out") {
+    const auto chain = [](int links, bool is_reversed) {
+        std::string scene = "[parameters]\nL = 0.2\n[coordinates]\n";
+        for (int k = 0; k < links; ++k) scene += fmt::format("q{} = 0.3\n", k);
+        for (int k = 0; k < links; ++k) {
+            const int link = is_reversed ? links - 1 - k : k;
+            scene += fmt::format(
+                "[[particle]]\nname = \"P{}\"\nmass = 1\nfrom = \"{}\"\nposition = [\"L*sin(q{})\", "
+                "\"-L*cos(q{})\"]\n",
+                link, link == 0 ? "O" : fmt::format("P{}", link - 1), link, link);
+        }
+        try {
+            return fmt::format("{} particles", parse_scene(scene, "chain.toml").particles.size());
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+    };
+    CHECK(chain(1000, false) == "1000 particles");
+    CHECK(chain(1000, true) == "1000 particles");
+    const std::string told = chain(2100, false);
+    CHECK_MESSAGE(told.find("depends on other names through more than 2000 levels") != std::string::npos, told);
+    CHECK(told.find("count it from a nearer point or frame") != std::string::npos);
+}
+
 }  // namespace scene_reader

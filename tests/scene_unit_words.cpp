@@ -10,6 +10,7 @@
 
 #include "alembert/base/error.hpp"
 #include "scene/joints_file.hpp"
+#include "scene/known_names.hpp"
 #include "scene/scene.hpp"
 #include "scene/unit_text.hpp"
 #include "scene/units.hpp"
@@ -27,9 +28,18 @@ struct Reference {
 };
 
 // GNU units 2.22, `units -t -d 15 UNIT`; ozf and gf, which it has not, from NIST SP 811 (2008), B.8, to seven
-// digits.
+// digits; the parsec, 648000/π au, from resolution B2 of the IAU (2015).
 constexpr Reference references[] = {{"1", 1, ""},
                                     {"%", 0.01, ""},
+                                    {"ly", 9.4607304725808e15, "m"},
+                                    {"parsec", 3.0856775814913673e16, "m"},
+                                    {"stone", 6.35029318, "kg"},
+                                    {"carat", 0.0002, "kg"},
+                                    {"kmph", 0.277777777777778, "m s^-1"},
+                                    {"fpm", 0.00508, "m s^-1"},
+                                    {"gn", 9.80665, "m s^-2"},
+                                    {"g0", 9.80665, "m s^-2"},
+                                    {"ppm", 1e-06, ""},
                                     {"m", 1, "m"},
                                     {"s", 1, "s"},
                                     {"g", 0.001, "kg"},
@@ -316,6 +326,125 @@ TEST_CASE("units: what engineers write is read as they mean it, without a warnin
     }
 }
 
+TEST_CASE("units: a pound beside a foot or inch is a force in all spellings, as NIST has it") {
+    // NIST SP 811 (2008), B.8: pound-force foot, pound-force inch, ounce-force inch.
+    const std::pair<double, std::vector<const char*>> torques[] = {
+        {1.355818, {"ft lb",       "lb ft",       "ft·lb",       "ft*lb",      "ft.lb",      "ft lbs",
+                    "foot-pounds", "foot pounds", "foot-pound",  "pound-feet", "lbs-ft",     "lb-ft",
+                    "ft-lb",       "ft-lbs",      "lbft",        "ftlbs",      "lbsft",      "footpounds",
+                    "FT-LB",       "Ft Lb",       "(lb ft)",     "pound foot", "feet*lbs",   "lb (ft)",
+                    "ft lb/rad",   "lbf ft",      "pounds feet", "lb⋅ft",      "foot‑pounds"}},
+        {0.1129848,
+         {"in lb", "lb in", "inch-pounds", "in-lbs", "lb-in", "in.lb", "pounds*inches", "inlb", "lbin"}},
+        {7.061552e-3, {"oz in", "in oz", "oz-in", "in-oz", "ounce-inches", "ozin", "oz*in"}}};
+    for (const auto& [factor, spellings] : torques)
+        for (const std::string typed : spellings) {
+            CAPTURE(typed);
+            CHECK(said_of(typed) == "");
+            const auto meaning = meaning_of_unit(typed);
+            REQUIRE(meaning);
+            CHECK(meaning->factor == doctest::Approx(factor).epsilon(5e-7));
+            CHECK(value_of_factor(*meaning) == doctest::Approx(factor).epsilon(5e-7));
+            CHECK(meaning_of_unit(meaning->si)->exponents == meaning->exponents);
+        }
+    // As a mass: moments of inertia, densities, flows, and a poundal (0.1382550 N in B.8).
+    const std::pair<const char*, double> masses[] = {{"lb", 0.4535924},       {"lb-ft^2", 0.04214011},
+                                                     {"lb ft2", 0.04214011},  {"lb/ft^3", 16.01846},
+                                                     {"lb ft/s^2", 0.138255}, {"lb-ft/s2", 0.138255},
+                                                     {"lb/(ft s)", 1.488164}, {"lb/s", 0.4535924},
+                                                     {"lbm ft", 0.1382550},   {"kg/m", 1},
+                                                     {"kg/m^2", 1},           {"kg m", 1}};
+    for (const auto& [typed, factor] : masses) {
+        CAPTURE(std::string(typed));
+        CHECK(said_of(typed) == "");
+        CHECK(meaning_of_unit(typed)->factor == doctest::Approx(factor).epsilon(5e-7));
+    }
+    CHECK(meaning_of_unit("lb in s^2")->exponents == UnitExponents{{"kg", 1}, {"m", 2}});  // of lbf
+}
+
+TEST_CASE("units: a mass where a force may be meant is told with its place and the unit of the force") {
+    const std::pair<const char*, const char*> doubtful[] = {
+        {"lb/in", "lbf/in"},         {"lbs/in", "lbf/in"},
+        {"lb/in2", "lbf/in2"},       {"lb/in^2", "lbf/in^2"},
+        {"lb/ft^2", "lbf/ft^2"},     {"kg/cm2", "kgf/cm2"},
+        {"lb s/in", "lbf s/in"},     {"kg-cm", "kgf-cm"},
+        {"kgcm", "kgfcm"},           {"kg/mm", "kgf/mm"},
+        {"g cm", "gf cm"},           {"lb-s", "lbf-s"},
+        {"oz/in", "ozf/in"},         {"in/lb", "in/lbf"},
+        {"lb s^2/in", "lbf s^2/in"}, {"pounds per inch", "lbf per inch"},
+        {"lb s^2 in", "lbf s^2 in"}, {"lb cm", "lbf cm"}};
+    for (const auto& [typed, meant] : doubtful) {
+        const std::string said = said_of(typed);
+        CHECK_MESSAGE(holds(said, std::string("if a force is meant, write ") + meant), typed, ": ", said);
+        CHECK_MESSAGE(holds(said, "is read with the mass"), said);
+        CHECK(said_of(meant) == "");
+    }
+    // Once, and in expressions too.
+    const Scene scene = parse_scene(
+        "[parameters]\na = { value = 3, unit = \"lb/in\" }\nb = { value = 3, unit = "
+        "\"lb/in\" }\nc = \"2 + 3 kg/cm^2/(1 kg/cm^2)\"\n[coordinates]\nx = 0\n"
+        "[energy]\nkinetic = \"a*b*c*x'^2\"\n",
+        "mass.toml");
+    int of_pounds = 0, of_kilograms = 0;
+    for (const Diagnostic& one : scene.warnings) {
+        of_pounds += holds(one.message, "'lb/in' is read with the mass 'lb'") && one.place.line == 2;
+        of_kilograms += holds(one.message, "write kgf/cm^2") && one.place.line == 4;
+    }
+    CHECK(of_pounds == 1);
+    CHECK(of_kilograms >= 1);
+}
+
+TEST_CASE("units: hyphens after a number join units, or are refused where a name may be subtracted") {
+    const auto read = [](const std::string& expression, const std::string& names = "m = 2\ns = 3\n") {
+        try {
+            const Scene scene = parse_scene("[parameters]\n" + names + "a = \"" + expression +
+                                                "\"\n[coordinates]\nx = 1\n[energy]\nkinetic = \"a*x'^2\"\n",
+                                            "hyphens.toml");
+            const Expression& a = scene.parameters.back().value;
+            const auto value = value_of(a);
+            return value ? fmt::format("{:.6g}", *value) : a.text;
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+    };
+    const std::pair<const char*, const char*> units[] = {
+        {"20 N-m", "20"},         {"20 ft-lb", "27.1164"},      {"20 lb-in", "2.2597"}, {"2 lb-ft", "2.71164"},
+        {"20 oz-in", "0.141231"}, {"2 kW-h", "7.2e+06"},        {"3 N-m/rad", "3"},     {"3 N-s/m", "3"},
+        {"2 kg-m^2", "2"},        {"2 foot-pounds", "2.71164"}, {"2 ft lb", "2.71164"}, {"3 N-m - 1 N-m", "2"}};
+    for (const auto& [typed, value] : units) CHECK_MESSAGE(read(typed) == value, typed, ": ", read(typed));
+    CHECK(read("20 N-m", "s = 3\n") == "20");
+    CHECK(read("3 m-h", "s = 3\n") == "10800");
+    CHECK(read("20 N - m") == "20 N - m");  // a difference
+    CHECK(read("20-m") == "20-m");
+    CHECK(read("5 mm-y", "y = 2\n") == "5 mm-y");
+    CHECK(holds(read("3 m-s"), "write m*s for the unit, and m - s with blanks for the difference"));
+    CHECK(holds(read("3 mm-m"), "write mm*m for the unit"));
+}
+
+TEST_CASE("units: what follows a number and is no unit is told with what was probably meant") {
+    const auto said = [](const std::string& expression) {
+        std::vector<Diagnostic> mistakes;
+        KnownNames names;
+        names.add("foo");
+        return parse_expression(expression, {}, mistakes, &names) ? std::string("none") : mistakes.at(0).message;
+    };
+    const std::pair<const char*, const char*> cases[] = {
+        {"3 mpa", "did you mean mPa or MPa"},
+        {"3 tons", "did you mean tonne or 2000 lb"},
+        {"3 mil", "did you mean thou"},
+        {"3 nautical miles", "did you mean nmi"},
+        {"30 degre", "did you mean degree"},
+        {"3 bar mpa", "did you mean mPa or MPa"},
+        {"2 ft 3 in", "the sum of two is written 2 ft + 3 in"},
+        {"3 foo", "an operator is missing here; if a product was meant write 3*foo"},
+        {"7 % 3", "there are no remainders"},
+        {"3 furlong", "neither a known unit nor a name of the scene; if a product was meant write 3*furlong"}};
+    for (const auto& [typed, words] : cases) CHECK_MESSAGE(holds(said(typed), words), typed, ": ", said(typed));
+    CHECK(said("100 %") == "none");
+    CHECK(said("foo*5 % + 2%") == "none");
+    CHECK(said("1 g0 + 2 gn + 3 pH") == "none");
+}
+
 TEST_CASE("units: what is no unit is refused, with its place") {
     const std::pair<const char*, const char*> wrong[] = {
         {"m/", "1:26"},          {"/m", "1:25"},      {"3 m", "1:25"},   {"m*2", "1:27"},   {"m^", "1:26"},
@@ -341,7 +470,7 @@ TEST_CASE("units: what is no unit is refused, with its place") {
 
 TEST_CASE("units: a word that is not known is warned of once, with what was probably meant") {
     const std::pair<const char*, const char*> doubtful[] = {
-        {"furlong", "the unit 'furlong' of 'a' is not known, and numbers in it stay as they are; a unit"},
+        {"furlong", "the unit 'furlong' of 'a' is not known, and numbers in it stay as they are; if"},
         {"metrs", "did you mean metre"},
         {"kilometre", ""},
         {"mpa", "did you mean mPa or MPa"},
@@ -360,6 +489,11 @@ TEST_CASE("units: a word that is not known is warned of once, with what was prob
         {"kNmmm", "did you mean"},
         {"N furlong/s", "furlong"},
         {"t", "tonne"},
+        {"kiloton", "did you mean 1000 tonne"},
+        {"ktons", "did you mean 1000 tonne"},
+        {"nautical", "did you mean nmi"},
+        {"kin", "numbers in it stay as they are; if it is a unit of your own, write in a table [units]"},
+        {"furlong", "write in a table [units] what it is worth, as in furlong = \"2.5 m\""},
         {"l", "litre"}};
     for (const auto& [typed, words] : doubtful) {
         CAPTURE(std::string(typed));
@@ -407,9 +541,27 @@ kinetic = "(v*l*a*A + smoots)*x'^2"
     CHECK(in_si(scene, "l", "3 smoot") == "(3*(1.7018))");
     CHECK(in_si(scene, "v", "1").find("201.168") == std::string::npos);  // 10*(66*(0.3048))
     CHECK_THROWS_AS(in_si(scene, "x", "20 kg"), ModelError);
+    // The unit of theta follows from the sine.
+    const Scene pendulum = parse_scene(
+        "[parameters]\nl = { value = 2, unit = \"m\" }\n[coordinates]\ntheta = 1\n"
+        "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"l*sin(theta)\", 0]\n",
+        "pendulum.toml");
+    CHECK_THROWS_AS(in_si(pendulum, "theta", "20 N"), ModelError);
+    CHECK(in_si(pendulum, "theta", "20 deg") == "20 deg");
+    CHECK(in_si(pendulum, "theta", "20") == "20");
     CHECK_THROWS_AS(in_si(scene, "x'", "3 m"), ModelError);
     CHECK_THROWS_AS(in_si(scene, "a", "3 m"), ModelError);
     CHECK(in_si(scene, "x'", "3 furlong/day").find("/(86400)") != std::string::npos);
+
+    // Fractions, and plurals unless they are names of the scene.
+    const Scene plurals = parse_scene(
+        "[units]\ncubit = \"4/3 m\"\nspan = \"1/2 cubit\"\n[parameters]\na = \"3 cubits\"\nb "
+        "= { value = 6, unit = \"cubits/s\" }\nspans = 2\n[coordinates]\nx = { initial = "
+        "\"3 span\", unit = \"m\" }\n[energy]\nkinetic = \"a*b*spans*x'^2\"\n",
+        "plurals.toml");
+    CHECK(*value_of(plurals.parameters[0].value) == doctest::Approx(4).epsilon(1e-14));
+    CHECK(*value_of(plurals.parameters[1].value) == doctest::Approx(8).epsilon(1e-14));
+    CHECK(*value_of(plurals.coordinates[0].initial) == doctest::Approx(2).epsilon(1e-14));
 
     const std::pair<const char*, const char*> wrong[] = {{"m = \"3 ft\"", "'m' is a unit already"},
                                                          {"u = 3", "a string"},

@@ -236,6 +236,21 @@ theta = { initial = 1, unit = "rad" }
     CHECK_MESSAGE(holds(force, {"a force is in kg*m/s^2, but its units make kg*m/s"}), force);
     const std::string constraint = told("[[constraint]]\nname = \"c\"\nholonomic = \"x = theta\"\n");
     CHECK_MESSAGE(holds(constraint, {"'theta' is in 1", "'x' in m"}), constraint);
+    const std::pair<const char*, const char*> calls[] = {
+        {"max(l, 2 kg)", "the arguments of max have different dimensions"},
+        {"min(l, m)", "the arguments of min have different dimensions"},
+        {"atan2(l, m)", "the arguments of atan2 have different dimensions"},
+        {"min(max(l, x), k)", "the arguments of min have different dimensions"},
+        {"2^m", "an exponent is a number; 'm' is in kg"},
+        {"theta^(x + l)", "an exponent is a number; 'x + l' is in m"},
+        {"theta^(2 N)", "an exponent is a number"}};
+    for (const auto& [typed, words] : calls) {
+        const std::string said = told("[outputs]\no = \"" + std::string(typed) + "\"\n");
+        CHECK_MESSAGE(holds(said, {words, "10: "}), typed, ": ", said);
+    }
+    for (const char* const right : {"max(l, x)", "min(l, 0)", "atan2(x, l)", "max(l, 2 mm)", "x^(l/x)",
+                                    "max(x, 9.81)", "l^2.5", "max(theta, 2)", "x + 3"})
+        CHECK_MESSAGE(told("[outputs]\no = \"" + std::string(right) + "\"\n") == "0 warnings", right);
     CHECK(told("[energy]\npotential = \"k*x^2/2 + m*g*l*(1 - cos(theta)) + 0.5*k*(x - 3)^2\"\n") == "0 warnings");
 }
 

@@ -6,7 +6,9 @@
 /// They are computed in floating point, each parameter once from those that it uses, because exact values of
 /// chained powers would grow without bound.
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "model/mechanism.hpp"
 
@@ -54,9 +56,40 @@ private:
         if (const GiNaC::ex value = in_numbers(e); GiNaC::is_a<GiNaC::numeric>(value)) known_[symbol] = value;
     }
 
+    static bool is_exp(const GiNaC::ex& e) { return GiNaC::is_the_function<GiNaC::exp_SERIAL>(e); }
+    static bool is_exponential(const GiNaC::ex& e) {
+        return is_exp(e) || GiNaC::is_the_function<GiNaC::sinh_SERIAL>(e) ||
+               GiNaC::is_the_function<GiNaC::cosh_SERIAL>(e);
+    }
+    static bool has_exponential(const GiNaC::ex& e) {
+        return is_exponential(e) || std::any_of(e.begin(), e.end(), has_exponential);
+    }
+
+    /// Puts in the values. CLN takes exp(1e100) for 1, because the argument has too few digits to be reduced.
+    class WithoutOverflow : public GiNaC::map_function {
+    public:
+        explicit WithoutOverflow(const GiNaC::exmap& known) : known_(known) {}
+
+        GiNaC::ex operator()(const GiNaC::ex& e) override {
+            if (const auto found = known_.find(e); found != known_.end()) return found->second;
+            if (!is_exponential(e)) return e.map(*this);
+            const GiNaC::ex argument = (*this)(e.op(0)).evalf();
+            if (GiNaC::is_a<GiNaC::numeric>(argument) && GiNaC::ex_to<GiNaC::numeric>(argument).is_real()) {
+                const double size = GiNaC::ex_to<GiNaC::numeric>(argument).to_double();
+                if (std::abs(size) > 1e6 && is_exp(e) && size < 0) return 0;
+                if (std::abs(size) > 1e6) throw std::overflow_error("beyond the range of double precision");
+            }
+            return e.map(*this);
+        }
+
+    private:
+        const GiNaC::exmap& known_;
+    };
+
     /// The expression itself where it has a pole, or a number beyond the range of CLN.
     GiNaC::ex in_numbers(const GiNaC::ex& e) const {
         try {
+            if (has_exponential(e)) return WithoutOverflow(known_)(e).evalf();
             return e.subs(known_, GiNaC::subs_options::no_pattern).evalf();
         } catch (const std::exception&) {
             return e;

@@ -17,8 +17,43 @@ std::size_t coordinate_index(const std::string& name, const Mechanism& m) {
     throw std::out_of_range("coordinate '" + name + "'");
 }
 
+namespace {
+
+constexpr std::size_t longest_recursion = 100;
+
+/// The names that `base` leads to from this one and that are not known yet, the last first, where they are many:
+/// each can be found from the one before, without a recursion through a long chain.
+template <typename Base, typename Known>
+std::vector<std::string> unknown_bases(const std::string& name, const Base& base, const Known& known) {
+    std::vector<std::string> chain;
+    for (std::string next = base(name); !next.empty() && !known.contains(next); next = base(next))
+        chain.push_back(next);
+    if (chain.size() < longest_recursion) return {};
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+}
+
+const Name& body_before(const Joint& joint) {
+    return *joint.places_child ? joint.parent.body : joint.child.body;
+}
+
+}  // namespace
+
+std::string Places::base_of_frame(const std::string& name) const {
+    for (const Frame& frame : scene_.frames)
+        if (frame.name.text == name) return frame.parent.text == "N" ? "" : frame.parent.text;
+    for (const Body& body : scene_.bodies) {
+        if (body.name.text != name) continue;
+        const std::string& base = body.joint ? body_before(scene_.joints[*body.joint]).text : body.frame.text;
+        return base == "N" ? "" : base;
+    }
+    return {};
+}
+
 const Orientation& Places::orientation(const std::string& name) {
     if (const auto found = orientations_.find(name); found != orientations_.end()) return found->second;
+    const auto base = [this](const std::string& frame) { return base_of_frame(frame); };
+    for (const std::string& one : unknown_bases(name, base, orientations_)) orientation(one);
     if (name == "N") return orientations_["N"];
     for (const Frame& frame : scene_.frames)
         if (frame.name.text == name) return orientations_[name] = turn(frame);
@@ -122,9 +157,20 @@ const Position* Places::find(const std::string& name) const {
     return nullptr;
 }
 
+std::string Places::base_of_point(const std::string& name) const {
+    const Joint* const joint = joint_of(name);
+    const Position* const where = joint == nullptr ? find(name) : nullptr;
+    const std::string base = joint != nullptr   ? body_before(*joint).text
+                             : where != nullptr ? where->from.text
+                                                : "";
+    return base == "N" || base == "O" ? "" : base;
+}
+
 Vector3 Places::position(const std::string& name) {
     if (name == "O") return {0, 0, 0};
     if (const auto found = positions_.find(name); found != positions_.end()) return found->second;
+    const auto base = [this](const std::string& point) { return base_of_point(point); };
+    for (const std::string& one : unknown_bases(name, base, positions_)) position(one);
     if (const Joint* joint = joint_of(name)) {
         SourceScope source(*m_.z, "joint " + joint->name.text);
         points_[name] = point_by(*joint, *this);

@@ -64,6 +64,9 @@ public:
     const Attitude& attitude(int frame) const { return attitudes_[static_cast<std::size_t>(frame)]; }
 
 private:
+    /// What its position or orientation is counted from; empty for none.
+    std::string base_of_point(const std::string& point) const;
+    std::string base_of_frame(const std::string& frame) const;
     Orientation turn(const Frame& frame);
     void turn_step(Skeleton::Turn turn, Orientation& to);
     const Joint* joint_of(const std::string& body) const;

@@ -133,6 +133,7 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
         claim.equation = parse_equality(line, places, mistakes, claim.at == Claim::At::impact, &names);
         result.claims.push_back(std::move(claim));
     }
+    std::erase_if(mistakes, [](const Diagnostic& one) { return one.severity == Severity::warning; });
     if (!mistakes.empty()) fail(result, std::move(mistakes));
     mistakes = check_claims(result);
     if (!mistakes.empty()) fail(result, std::move(mistakes));

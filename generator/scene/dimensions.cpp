@@ -135,7 +135,7 @@ void Dimensions::add(std::vector<Term>& terms, const Tree& tree) {
 }
 
 /// The dimension of most terms; a term with another dimension is wrong.
-std::optional<Dimension> Dimensions::common(const std::vector<Term>& terms) {
+std::optional<Dimension> Dimensions::common(const std::vector<Term>& terms, const std::string* in) {
     std::map<Dimension, int> votes;
     for (const Term& term : terms)
         if (term.dimension) ++votes[*term.dimension];
@@ -148,8 +148,12 @@ std::optional<Dimension> Dimensions::common(const std::vector<Term>& terms) {
         if (!wrong_) wrong_ = term.text;
         contradictions_.push_back(
             {term.place,
-             say("terms of different dimensions are added: {} is in {}, {} in {}", in_quotes(term.text),
-                 text_of(*term.dimension), in_quotes(most->text), text_of(*most->dimension)),
+             in == nullptr
+                 ? say("terms of different dimensions are added: {} is in {}, {} in {}", in_quotes(term.text),
+                       text_of(*term.dimension), in_quotes(most->text), text_of(*most->dimension))
+                 : say("the arguments of {} have different dimensions: {} is in {}, {} in {}", *in,
+                       in_quotes(term.text), text_of(*term.dimension), in_quotes(most->text),
+                       text_of(*most->dimension)),
              Severity::warning, "unit_mismatch"});
         break;
     }
@@ -219,7 +223,11 @@ std::optional<Dimension> Dimensions::of_product(const Tree& tree) {
 
 std::optional<Dimension> Dimensions::of_power(const Tree& tree) {
     const Known base = of(*tree.args[0]);
-    of(*tree.args[1]);
+    if (const Known exponent = of(*tree.args[1]); exponent && !exponent->empty())
+        contradictions_.push_back(
+            {current_->place(tree.args[1]->offset),
+             say("an exponent is a number; {} is in {}", in_quotes(text(*tree.args[1])), text_of(*exponent)),
+             Severity::warning, "unit_mismatch"});
     if (base && base->empty()) return base;
     if (!base || tree.args[1]->kind != Tree::Kind::number) return {};
     return multiplied({}, *base, value_of_digits(tree.args[1]->text));
@@ -228,9 +236,15 @@ std::optional<Dimension> Dimensions::of_power(const Tree& tree) {
 std::optional<Dimension> Dimensions::of_call(const Tree& tree) {
     if (const auto known = dimensions_of_geometry().find(tree.text); known != dimensions_of_geometry().end())
         return known->second;
+    if (tree.text == "min" || tree.text == "max" || tree.text == "atan2") {
+        std::vector<Term> terms;
+        for (const TreePtr& arg : tree.args) add(terms, *arg);
+        const Known all = common(terms, &tree.text);
+        return tree.text == "atan2" ? Known(Dimension{}) : all;
+    }
     std::vector<Known> args;
     for (const TreePtr& arg : tree.args) args.push_back(of(*arg));
-    if (tree.text == "sign" || tree.text == "atan2") return Dimension{};
+    if (tree.text == "sign") return Dimension{};
     if (functions_of_numbers().contains(tree.text)) {
         if (args.size() == 1 && args[0] && !args[0]->empty())
             contradictions_.push_back({current_->place(tree.offset),

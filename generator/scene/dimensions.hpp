@@ -73,7 +73,8 @@ private:
 
     void know(const std::string& name, const std::string& unit);
     void add(std::vector<Term>& terms, const Tree& tree);
-    Known common(const std::vector<Term>& terms);
+    /// `in` is the function whose arguments they are; null for terms of a sum.
+    Known common(const std::vector<Term>& terms, const std::string* in = nullptr);
     Known of(const Tree& tree);
     Known of_number(const Tree& tree) const;
     Known of_name(const Tree& tree);

@@ -7,7 +7,7 @@
 //     power    = primary ("^" exponent)?            exponent = ("-" | "+") exponent | power
 //     primary  = number unit? | name primes? | function "(" sum ("," sum)* ")" | "(" sum ")" primes?
 //
-//     unit     = word power? (("*" | "/")? word power?)*     of words that are units (scene/unit_text.hpp)
+//     unit     = word power? (("*" | "/" | "-")? word power?)*     of words that are units (scene/unit_text.hpp)
 //
 // Sums and products are flat, so that only nesting adds depth.
 
@@ -58,8 +58,12 @@ public:
         return whole.tree;
     }
 
+    /// What is doubtful in the units of its quantities.
+    const std::vector<Mistake>& doubts() const { return doubts_; }
+
 private:
     Words words_;
+    std::vector<Mistake> doubts_;
     const bool rates_before_;
     const KnownNames* const names_;  ///< of the scene, and the units of its own; null for none
     int depth_ = 0;
@@ -105,7 +109,7 @@ private:
     Operand product() {
         const int begin = now().offset;
         Operand first = signed_power();
-        refuse_neighbour(words_, begin);
+        refuse_second(first, begin);
         if (!at('*') && !at('/')) return first;
         std::vector<TreePtr> factors{first.tree};
         std::optional<double> value = first.value;
@@ -114,7 +118,7 @@ private:
             const int sign = next();
             const int factor_begin = now().offset;
             const Operand factor = signed_power();
-            refuse_neighbour(words_, factor_begin);
+            refuse_second(factor, factor_begin);
             factors.push_back(over ? make(Kind::reciprocal, sign, "", {factor.tree}) : factor.tree);
             if (over && factor.value == 0.0) stop(sign, say("a division by zero"));
             if (value)
@@ -122,6 +126,19 @@ private:
                                      : std::nullopt;
         }
         return {make(Kind::product, begin, "", std::move(factors)), checked(value, begin)};
+    }
+
+    /// A factor right after another one: after a number, most likely a unit that is not known.
+    void refuse_second(const Operand& first, int begin) const {
+        const Token& second = now();
+        const std::string word = words_.word(second);
+        const bool is_quantity = !first.tree->unit.empty();
+        if (is_quantity && second.kind == Token::Kind::number) refuse_second_number(words_, begin);
+        const bool is_word = second.kind == Token::Kind::name && !Words::is(words_.ahead(1), '(');
+        if ((is_quantity || first.tree->kind == Kind::number) && is_word &&
+            (names_ == nullptr || !names_->has(word)))
+            refuse_unknown_unit(words_, begin);
+        refuse_neighbour(words_, begin);
     }
 
     Operand signed_power() {
@@ -222,6 +239,7 @@ private:
         const std::string text = words_.word(word);
         if (names_ != nullptr && names_->units().contains(text)) return true;
         if (names_ != nullptr && names_->has(text) && !is_unit_symbol(text)) return false;
+        if (names_ != nullptr && own_unit(names_->units(), text) != nullptr) return true;  // in the plural
         return is_known_unit(text) || is_no_multiple(text);
     }
 
@@ -231,6 +249,8 @@ private:
         const std::string text = unit();
         const UnitReading unit = names_ == nullptr ? read_unit(text) : read_unit(text, names_->units());
         if (!unit.meaning) stop(unit_begin, say("'{}' is no unit: {}", text, unit.mistake));
+        for (const UnitDoubt& doubt : unit.doubts)
+            if (!doubt.mass.empty()) doubts_.push_back({unit_begin, advice_on_mass(doubt)});
         std::vector<TreePtr> factors{number};
         if (!unit.meaning->exact.empty()) factors.push_back(Parser(unit.meaning->exact, false, nullptr).parse());
         Tree whole{Kind::product, "", 0, std::move(factors), begin, words_.end() - begin};
@@ -241,8 +261,9 @@ private:
     std::string unit() {
         std::string text;
         while (true) {
-            const bool is_joined = !text.empty() && (at('*') || at('/'));
+            const bool is_joined = !text.empty() && (at('*') || at('/') || is_hyphen());
             if (!is_unit(is_joined ? 1 : 0)) return text;
+            if (is_joined && at('-')) check_hyphen();
             if (is_joined)
                 text += words_.word(words_.tokens[words_.at++]);
             else if (!text.empty())
@@ -257,6 +278,24 @@ private:
             next();
             if (at('^')) text += unit_power();
         }
+    }
+
+    /// A minus sign without blanks between two words, the second of which is a unit: N-m.
+    bool is_hyphen() const {
+        const Token& next = words_.ahead(1);
+        return at('-') && words_.last().kind == Token::Kind::name && now().offset == words_.end() &&
+               next.offset == now().offset + 1;
+    }
+
+    /// Returns where the hyphen joins two units: the scene has no name that could be subtracted, or engineers
+    /// write the two as one.
+    void check_hyphen() const {
+        const std::string first = words_.word(words_.last()), second = words_.word(words_.ahead(1));
+        if (names_ == nullptr || !names_->has(second) || is_product_of_units(first, second)) return;
+        stop(now().offset,
+             say("'{0}-{1}' may be a unit or a difference; write {0}*{1} for the unit, and {0} - {1} "
+                 "with blanks for the difference",
+                 first, second));
     }
 
     /// ^2 or ^-1 after a unit.
@@ -342,7 +381,12 @@ TreePtr parse(const Expression& expression, bool rates_before, std::vector<Diagn
         return nullptr;
     }
     try {
-        return Parser(expression.text, rates_before, names).parse();
+        Parser parser(expression.text, rates_before, names);
+        TreePtr tree = parser.parse();
+        for (const Mistake& doubt : parser.doubts())
+            diagnostics.push_back(
+                {expression.place(doubt.offset), doubt.message, Severity::warning, "unknown_unit"});
+        return tree;
     } catch (const Mistake& mistake) {
         diagnostics.push_back({expression.place(mistake.offset), mistake.message});
         return nullptr;

@@ -8,6 +8,7 @@
 #include "base/language/say.hpp"
 #include "scene/scene.hpp"
 #include "scene/text.hpp"
+#include "scene/unit_words.hpp"
 
 namespace alembert {
 namespace {
@@ -70,6 +71,22 @@ void refuse_neighbour(const Words& words, int begin) {
     stop(next.offset,
          say("an operator is missing here; if a product was meant write {}*{}{}", escaped(left), escaped(right),
              is_primed ? say("; the derivative of a function of [functions] is diff(f(x), x)") : ""));
+}
+
+void refuse_unknown_unit(const Words& words, int begin) {
+    const std::string word = words.word(words.now());
+    const std::string before = words.text.substr(begin, words.end() - begin);
+    const std::string known = unit_word(word).meant, near = known.empty() ? nearest_unit(word) : known;
+    if (near.empty() && words.now().offset == words.end()) refuse_neighbour(words, begin);  // 2x
+    stop(words.now().offset,
+         say("'{0}' is neither a known unit nor a name of the scene{1}; if a product was meant write {2}*{0}",
+             escaped(word), near.empty() ? "" : say("; did you mean {}?", near), escaped(before, 24)));
+}
+
+void refuse_second_number(const Words& words, int begin) {
+    stop(words.now().offset, say("a quantity is one number with its unit; the sum of two is written {} + {}",
+                                 escaped(words.text.substr(begin, words.end() - begin), 24),
+                                 escaped(words.text.substr(words.now().offset), 24)));
 }
 
 void refuse_missing_operand(const Words& words) {

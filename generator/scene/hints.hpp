@@ -20,6 +20,12 @@ namespace alembert {
 /// `2x`, `2(x)`, `x y`, `)(`: a factor directly after the one that began at `begin`. Returns if there is none.
 void refuse_neighbour(const Words& words, int begin);
 
+/// `3 mpa`: a word that is neither a unit nor a name of the scene.
+[[noreturn]] void refuse_unknown_unit(const Words& words, int begin);
+
+/// `2 ft 3 in`: a number after a unit.
+[[noreturn]] void refuse_second_number(const Words& words, int begin);
+
 /// A number, name or parenthesis is missing.
 [[noreturn]] void refuse_missing_operand(const Words& words);
 

@@ -56,17 +56,24 @@ private:
         const char* const first = value.data() + begin;
         const auto read = std::from_chars(first, value.data() + value.size(), number);
         const bool has_number = read.ec == std::errc{} && read.ptr != first && std::isfinite(number);
-        std::size_t unit_begin = has_number ? static_cast<std::size_t>(read.ptr - value.data()) : begin;
+        const char* number_end = read.ptr;
+        if (double below = 1;
+            has_number && read.ptr != value.data() + value.size() && *read.ptr == '/') {  // 1/3 m
+            const auto rest = std::from_chars(read.ptr + 1, value.data() + value.size(), below);
+            if (rest.ec == std::errc{} && below > 0 && std::isfinite(number / below))
+                number /= below, number_end = rest.ptr;
+        }
+        std::size_t unit_begin = has_number ? static_cast<std::size_t>(number_end - value.data()) : begin;
         unit_begin = std::min(value.find_first_not_of(" *", unit_begin), value.size());
         if (read.ec == std::errc::result_out_of_range || (has_number && number <= 0) || unit_begin == value.size())
             return complain_(k, begin, translated(expected_definition)), true;
         const UnitReading unit = read_unit(value.substr(unit_begin), known_);
         if (!unit.meaning)
             return complain_(k, unit_begin + static_cast<std::size_t>(unit.offset), unit.mistake), true;
-        if (!unit.doubts.empty()) return false;
+        if (!unit.doubts.empty() && unit.doubts.front().mass.empty()) return false;
         UnitMeaning meaning = *unit.meaning;
         meaning.factor *= number;
-        const std::string typed = has_number ? std::string(first, read.ptr) : "1";
+        const std::string typed = has_number ? std::string(first, number_end) : "1";
         meaning.exact = meaning.exact.empty() ? typed : fmt::format("{}*({})", typed, meaning.exact);
         if (!(meaning.factor > 1e-250 && meaning.factor < 1e250))
             return complain_(k, begin, say("this unit is beyond the range of double precision")), true;

@@ -22,7 +22,11 @@ struct Node {
     DeclaredAs kind;
     std::size_t index;
     const Name* name;
-    std::vector<std::size_t> targets = {};
+    struct Target {
+        std::size_t node;
+        bool is_inside;  ///< an expression of the node, and no place or frame from which it is counted
+    };
+    std::vector<Target> targets = {};
     int weight = 1;  ///< levels of nesting in its own expressions
     enum class State { fresh, open, done } state = State::fresh;
     int levels = 0;
@@ -81,7 +85,7 @@ private:
         for (const Speed& s : scene_.speeds) look(nodes_[n++], s.form);
         for (const Frame& frame : scene_.frames) {
             Node& node = nodes_[n++];
-            target(node, frames_, frame.parent.text);
+            base(node, frames_, frame.parent.text);
             for (const Rotation& rotation : frame.rotations) {
                 look(node, rotation.angle);
                 for (const Expression& component : rotation.axis.component) look(node, component);
@@ -92,7 +96,7 @@ private:
             if (body.joint)
                 look(node, scene_.joints[*body.joint], frames_);
             else
-                target(node, frames_, body.frame.text);
+                base(node, frames_, body.frame.text);
         }
         for (const Point& point : scene_.points) look(nodes_[n++], point.position);
         for (const Particle& particle : scene_.particles) look(nodes_[n++], particle.position);
@@ -108,8 +112,8 @@ private:
     /// A body that a joint places refers to the other body of the joint.
     void look(Node& node, const Joint& joint, const Index& index) {
         const Joint::Side& other = *joint.places_child ? joint.parent : joint.child;
-        target(node, frames_, other.body.text);
-        target(node, index, other.body.text);
+        base(node, frames_, other.body.text);
+        base(node, index, other.body.text);
         for (const Joint::Side* side : {&joint.parent, &joint.child}) {
             for (const Expression& component : side->point.component) look(node, component);
             for (const Rotation& rotation : side->rotate) {
@@ -122,13 +126,15 @@ private:
         for (const Name& coordinate : joint.coordinates) target(node, values_, coordinate.text);
     }
 
-    static void target(Node& node, const Index& index, const std::string& name) {
-        if (const auto found = index.find(name); found != index.end()) node.targets.push_back(found->second);
+    static void target(Node& node, const Index& index, const std::string& name, bool is_inside = true) {
+        if (const auto found = index.find(name); found != index.end())
+            node.targets.push_back({found->second, is_inside});
     }
+    static void base(Node& node, const Index& index, const std::string& name) { target(node, index, name, false); }
 
     void look(Node& node, const Position& position) {
-        target(node, points_, position.from.text);
-        target(node, frames_, position.axes.text);
+        base(node, points_, position.from.text);
+        base(node, frames_, position.axes.text);
         for (const Expression& component : position.offset.component) look(node, component);
     }
 
@@ -159,7 +165,7 @@ private:
         while (!path.empty()) {
             const std::size_t here = path.back().first;
             if (path.back().second < nodes_[here].targets.size()) {
-                const std::size_t next = nodes_[here].targets[path.back().second++];
+                const std::size_t next = nodes_[here].targets[path.back().second++].node;
                 if (nodes_[next].state == Node::State::open) {
                     tell_circle(path, next, diagnostics);
                 } else if (nodes_[next].state == Node::State::fresh) {
@@ -176,12 +182,19 @@ private:
     void leave(std::size_t here, std::vector<Diagnostic>& diagnostics) {
         Node& node = nodes_[here];
         node.state = Node::State::done;
-        int deepest = 0;
-        for (const std::size_t next : node.targets) deepest = std::max(deepest, nodes_[next].levels);
-        node.levels = std::min(deepest + node.weight, most_defined_levels + 1);
+        int levels = node.weight, deepest = 0;
+        for (const auto& [next, is_inside] : node.targets) {
+            deepest = std::max(deepest, nodes_[next].levels);
+            levels = std::max(levels, nodes_[next].levels + (is_inside ? node.weight : 1));
+        }
+        node.levels = std::min(levels, most_defined_levels + 1);
         if (node.levels > most_defined_levels && deepest <= most_defined_levels)
-            diagnostics.push_back({node.name->place, say("{} depends on other names through more than {} levels",
-                                                         in_quotes(node.name->text), most_defined_levels)});
+            diagnostics.push_back(
+                {node.name->place,
+                 say("{} depends on other names through more than {} levels, which are followed one inside "
+                     "another in "
+                     "limited memory; define it by fewer names in a row, or count it from a nearer point or frame",
+                     in_quotes(node.name->text), most_defined_levels)});
         if ((node.kind == DeclaredAs::definition || node.kind == DeclaredAs::speed) && !node.in_circle)
             references_.definitions.emplace_back(node.kind, node.index);
     }

@@ -29,6 +29,7 @@ std::string text_of_file(const std::string& file) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error))
         refuse_file(file, say("is a directory; expected a scene file"));
+    if (file.empty()) refuse_file("\"\"", say("the name of the file is empty; expected the path of a scene"));
     if (!std::filesystem::exists(file, error)) refuse_file(file, say("no such file"));
     std::ifstream stream(file, std::ios::binary);
     if (!stream) refuse_file(file, say("cannot be opened: {}", std::strerror(errno)));

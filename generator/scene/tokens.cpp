@@ -53,7 +53,7 @@ std::string replacement(char32_t c) {
         case U'@':
             return say("use names, numbers and + - * / ^");
         case U'%':
-            return say("there are no percentages or remainders; use /100");
+            return say("there are no remainders; a percentage is a number with %, as in 5 %");
         case U'!':
             return say("there are no factorials");
         default:
@@ -101,7 +101,7 @@ private:
             return add(Token::Kind::symbol, begin, byte);
         }
         const char32_t c = decode(text_, at_);
-        if (c == U'°') return add(Token::Kind::name, begin);  // a unit after a number
+        if (c == U'°' || (c == U'%' && is_percentage())) return add(Token::Kind::name, begin);  // units
         if (!is_letter(c)) stray(begin, c);
         while (at_ < text_.size()) {
             std::size_t after = at_;
@@ -110,6 +110,16 @@ private:
             at_ = after;
         }
         add(Token::Kind::name, begin);
+    }
+
+    /// Whether the % before `at_` stands right after a number, and is no remainder: nothing follows that it
+    /// divides.
+    bool is_percentage() const {
+        if (list_.empty() || list_.back().kind != Token::Kind::number) return false;
+        std::size_t next = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size());
+        if (next == text_.size()) return true;
+        const char32_t c = decode(text_, next);
+        return !is_letter(c) && !is_digit(c) && c != U'(';
     }
 
     void number() {

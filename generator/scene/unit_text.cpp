@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "scene/text.hpp"
 #include "scene/tokens.hpp"
 #include "scene/typed.hpp"
+#include "scene/unit_pounds.hpp"
 
 namespace alembert {
 
@@ -33,8 +35,9 @@ std::string without_digits(const std::string& word) {
 
 class UnitText {
 public:
-    UnitText(const std::string& text, const OwnUnits& own, UnitReading& reading)
-        : text_(text), own_(own), reading_(reading) {}
+    /// The words that begin at `forces` are forces: the pounds of torques.
+    UnitText(const std::string& text, const OwnUnits& own, UnitReading& reading, std::set<std::size_t> forces = {})
+        : text_(text), own_(own), reading_(reading), forces_(std::move(forces)) {}
 
     UnitMeaning meaning() {
         UnitMeaning result = product();
@@ -42,6 +45,8 @@ public:
             stop(static_cast<int>(at_), say("this parenthesis closes nothing: none is open here"));
         return result;
     }
+
+    const std::vector<WrittenWord>& words() const { return words_; }
 
 private:
     bool take(char c) {
@@ -101,9 +106,13 @@ private:
 
     /// A word or a parenthesis with its exponent.
     void multiply(UnitMeaning& result, const Link& before, bool is_first) {
-        const std::vector<UnitMeaning> factors = take('(') ? std::vector{in_brackets()} : word();
+        const std::size_t first = words_.size();
+        const bool has_brackets = take('(');
+        const std::vector<UnitMeaning> factors = has_brackets ? std::vector{in_brackets()} : word();
         const std::size_t begin = at_;
         const int power = exponent();
+        for (std::size_t k = first; k < words_.size(); ++k)
+            words_[k].power *= (before.divides ? -1 : 1) * (has_brackets || k + 1 == words_.size() ? power : 1);
         const bool is_alone = is_first && begin == text_.size() && factors.size() == 1;
         std::string si;
         for (const UnitMeaning& factor : factors)
@@ -205,30 +214,38 @@ private:
             end = begin + hyphen;
             if (auto units = joined(name, end)) return *std::move(units);
         }
-        if (const auto known = own_.find(name); known != own_.end()) {
+        if (const UnitMeaning* const known = own_unit(own_, name)) {
             at_ = end;
             reading_.has_own = true;
-            return {known->second};
+            return {written(name, begin, *known)};
         }
         if (is_digit(static_cast<unsigned char>(name[0])) && name != "1")
             refuse(begin, say("a unit has no number but its exponents; the number is the value"));
-        return {of_word(name, end)};
+        return {written(name, begin, of_word(name, end))};
     }
 
-    /// Two words as one: "kNm", "kgm2", "ft-lb".
+    UnitMeaning written(const std::string& name, std::size_t begin, UnitMeaning meaning) {
+        if (forces_.contains(begin)) meaning = *unit_word(force_of_mass(meaning)).meaning;
+        words_.push_back({name, begin, 1, meaning});
+        return meaning;
+    }
+
+    /// Two words as one: "kNm", "kgm2", "ftlb".
     std::optional<std::vector<UnitMeaning>> joined(const std::string& name, std::size_t end) {
-        if (own_.contains(name) || unit_word(name).meaning) return {};
+        if (own_unit(own_, name) != nullptr || unit_word(name).meaning) return {};
         const std::string stem = without_digits(name);
         if (unit_word(stem).meaning) return {};
-        const bool has_digits = stem.size() < name.size();
-        const bool has_exponent = has_digits || (end < text_.size() && text_[end] == '^');
-        auto words = joined_units(stem, has_exponent);
+        auto words = joined_units(stem);
         const bool is_damping = !words && stem.ends_with("ms");  // Nms, kNmms
-        if (is_damping) words = joined_units(stem.substr(0, stem.size() - 1), true);
+        if (is_damping) words = joined_units(stem.substr(0, stem.size() - 1));
         if (!words || (is_damping && !words->first.ends_with('N'))) return {};
         at_ = end - (name.size() - stem.size());
-        std::vector<UnitMeaning> units{*unit_word(words->first).meaning, *unit_word(words->second).meaning};
-        if (is_damping) units.push_back(*unit_word("s").meaning);
+        const std::size_t begin = end - name.size();
+        std::vector<UnitMeaning> units;
+        units.push_back(written(words->first, begin, *unit_word(words->first).meaning));
+        const std::size_t second = begin + words->first.size();
+        units.push_back(written(words->second, second, *unit_word(words->second).meaning));
+        if (is_damping) units.push_back(written("s", at_ - 1, *unit_word("s").meaning));
         return units;
     }
 
@@ -241,11 +258,11 @@ private:
                        name));
         UnitWord known = unit_word(name);
         if (const std::string stem = without_digits(name); !known.meaning && stem.size() < name.size()) {
-            const auto own = own_.find(stem);
-            UnitWord of_stem = own == own_.end() ? unit_word(stem) : UnitWord{own->second};
+            const UnitMeaning* const own = own_unit(own_, stem);
+            UnitWord of_stem = own == nullptr ? unit_word(stem) : UnitWord{*own};
             if (of_stem.meaning) {
                 at_ = end - (name.size() - stem.size());
-                reading_.has_own |= own != own_.end();
+                reading_.has_own |= own != nullptr;
                 known = std::move(of_stem);
             }
         }
@@ -258,9 +275,21 @@ private:
     const std::string& text_;
     const OwnUnits& own_;
     UnitReading& reading_;
+    const std::set<std::size_t> forces_;
+    std::vector<WrittenWord> words_;
     std::size_t at_ = 0;
     int depth_ = 0;
 };
+
+/// Tells of a mass that may be meant as a force, with the text that has the force.
+void tell_mass(const std::string& text, const UnitText& read, const std::set<std::size_t>& forces,
+               UnitReading& reading) {
+    const WrittenWord* const mass = doubtful_mass(read.words(), forces);
+    if (mass == nullptr || !reading.doubts.empty()) return;
+    std::string meant = text;
+    meant.replace(mass->begin, mass->word.size(), force_of_mass(mass->meaning));
+    reading.doubts.push_back({text, std::move(meant), true, mass->word});
+}
 
 }  // namespace
 
@@ -270,15 +299,41 @@ UnitExponents multiplied(UnitExponents a, const UnitExponents& b, double exponen
     return a;
 }
 
+const UnitMeaning* own_unit(const OwnUnits& own, const std::string& word) {
+    auto found = own.find(word);
+    if (found == own.end() && word.ends_with('s') && !unit_word(word).meaning)
+        found = own.find(word.substr(0, word.size() - 1));
+    return found == own.end() ? nullptr : &found->second;
+}
+
 UnitReading read_unit(const std::string& text, const OwnUnits& own) {
     UnitReading reading;
     try {
-        reading.meaning = UnitText(text, own, reading).meaning();
+        UnitText read(text, own, reading);
+        reading.meaning = read.meaning();
+        const std::set<std::size_t> forces = pounds_of_force(read.words());
+        tell_mass(text, read, forces, reading);
+        UnitReading none;
+        if (!forces.empty()) reading.meaning = UnitText(text, own, none, forces).meaning();
     } catch (const Mistake& mistake) {
         reading.mistake = mistake.message;
         reading.offset = mistake.offset;
     }
     return reading;
+}
+
+namespace {
+
+/// Whether its words are known.
+bool is_certain(const UnitReading& reading) {
+    return reading.meaning && (reading.doubts.empty() || !reading.doubts[0].mass.empty());
+}
+
+}  // namespace
+
+std::string advice_on_mass(const UnitDoubt& doubt) {
+    return say("'{}' is read with the mass '{}'; if a force is meant, write {}", escaped(doubt.word),
+               escaped(doubt.mass), escaped(doubt.meant));
 }
 
 std::optional<UnitMeaning> meaning_of_unit(const std::string& text) {
@@ -290,8 +345,13 @@ std::optional<UnitMeaning> meaning_of_unit(const std::string& text) {
 
 bool is_known_unit(const std::string& word) {
     if (word.empty() || is_digit(static_cast<unsigned char>(word[0]))) return word == "1";
-    const UnitReading reading = read_unit(word);
-    return reading.meaning && reading.doubts.empty();
+    return is_certain(read_unit(word));
+}
+
+bool is_product_of_units(const std::string& first, const std::string& second) {
+    const UnitReading one = read_unit(first + second), two = read_unit(first + "*" + second);
+    return is_certain(one) && is_certain(two) && one.meaning->exponents == two.meaning->exponents &&
+           std::abs(one.meaning->factor / two.meaning->factor - 1) < 1e-12;
 }
 
 bool is_unit_symbol(const std::string& word) {

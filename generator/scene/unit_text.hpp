@@ -11,7 +11,8 @@
 ///
 /// A unit is words (scene/unit_words.hpp) with whole exponents (m^2, m2, m²), joined by spaces, points, *, hyphens
 /// and / or "per", which apply to the next word only. Words written as one are read where engineers write them so:
-/// kNm, kgm2, ft-lb. A word that is not known counts as a base unit, and is told.
+/// kNm, kgm2, ftlb. A word that is not known counts as a base unit, and is told. Whether a pound is a force:
+/// scene/unit_pounds.hpp.
 
 #include <optional>
 #include <string>
@@ -26,12 +27,19 @@ UnitExponents multiplied(UnitExponents a, const UnitExponents& b, double exponen
 /// The units of a scene's own, from [units].
 using OwnUnits = std::map<std::string, UnitMeaning>;
 
+/// That of this word, also in the plural, "furlongs"; null for none.
+const UnitMeaning* own_unit(const OwnUnits& own, const std::string& word);
+
 /// A word of a unit that is not known, or is most likely another one.
 struct UnitDoubt {
     std::string word;
     std::string meant;      ///< "litre"; may be empty
     bool is_known = false;  ///< "PA", the petaampere
+    std::string mass = {};  ///< "lb" in the word "lb/in", which is read, and may be meant as "lbf/in"
 };
+
+/// What is said of a mass that may be meant as a force.
+std::string advice_on_mass(const UnitDoubt& doubt);
 
 struct UnitReading {
     std::optional<UnitMeaning> meaning;  ///< nothing if the text is no unit
@@ -49,6 +57,9 @@ std::optional<UnitMeaning> meaning_of_unit(const std::string& text);
 
 /// Whether this word is a unit after a number: one of the table, with or without a prefix, or several as one.
 bool is_known_unit(const std::string& word);
+
+/// Whether two words are what engineers write as one unit: N and m as Nm, kW and h as kWh, but not m and s.
+bool is_product_of_units(const std::string& first, const std::string& second);
 
 /// Whether it is a symbol, "mm" or "kN", which no name of a scene takes away after a number.
 bool is_unit_symbol(const std::string& word);

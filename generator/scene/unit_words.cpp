@@ -37,6 +37,7 @@ constexpr double pound = 0.45359237, inch = 0.0254, foot = 0.3048, gravity = 9.8
 const std::vector<KnownUnit> table{
     {"1", {}, 1, "", "1"},
     {"%", {}, 0.01, "0.01", "1"},
+    {"ppm", {}, 1e-6, "0.000001", "1", alone, true},
     {"m", length, 1, "", "m", prefixed},
     {"s", duration, 1, "", "s", prefixed},
     {"g", mass, 1e-3, "0.001", "kg", prefixed},
@@ -76,6 +77,8 @@ const std::vector<KnownUnit> table{
     {"yd", length, 3 * foot, "0.9144", "m"},
     {"mi", length, 5280 * foot, "1609.344", "m"},
     {"nmi", length, 1852, "1852", "m", alone, true},
+    {"ly", length, 9460730472580800, "9460730472580800", "m", alone, true},
+    {"parsec", length, 149597870700 * 648000 / pi, "149597870700*648000/pi", "m", alone, true},
     {"thou", length, inch / 1000, "0.0000254", "m", alone, true},
     {"micron", length, 1e-6, "0.000001", "m", alone, true},
     {"Å", length, 1e-10, "0.0000000001", "m", alone, true},
@@ -92,6 +95,8 @@ const std::vector<KnownUnit> table{
     {"lbm", mass, pound, "0.45359237", "kg"},
     {"oz", mass, pound / 16, "0.45359237/16", "kg"},
     {"slug", mass, pound_force / foot, "0.45359237*9.80665/0.3048", "kg"},
+    {"stone", mass, 14 * pound, "14*0.45359237", "kg", alone, true},
+    {"carat", mass, 2e-4, "0.0002", "kg", alone, true},
     {"lbf", force, pound_force, "0.45359237*9.80665", "N"},
     {"ozf", force, pound_force / 16, "0.45359237*9.80665/16", "N", alone, true},
     {"pdl", force, pound* foot, "0.45359237*0.3048", "N", alone, true},
@@ -120,10 +125,14 @@ const std::vector<KnownUnit> table{
     {"mph", speed, 5280 * foot / 3600, "1609.344/3600", "m/s"},
     {"kmh", speed, 1 / 3.6, "1/3.6", "m/s"},
     {"kph", speed, 1 / 3.6, "1/3.6", "m/s", alone, true},
+    {"kmph", speed, 1 / 3.6, "1/3.6", "m/s", alone, true},
+    {"fpm", speed, foot / 60, "0.3048/60", "m/s", alone, true},
     {"mps", speed, 1, "", "m/s", alone, true},
     {"fps", speed, foot, "0.3048", "m/s", alone, true},
     {"ips", speed, inch, "0.0254", "m/s", alone, true},
     {"kn", speed, 1852.0 / 3600, "1852/3600", "m/s"},
+    {"gn", {{"m", 1}, {"s", -2}}, gravity, "9.80665", "m/s^2", alone, true},
+    {"g0", {{"m", 1}, {"s", -2}}, gravity, "9.80665", "m/s^2", alone, true},
 };
 
 /// Names in full and abbreviations, in small letters; each has a plural with s, and those of units that take
@@ -172,6 +181,10 @@ const std::map<std::string_view, std::string_view> unit_names{{"meter", "m"},
                                                               {"yard", "yd"},
                                                               {"yd", "yd"},
                                                               {"mile", "mi"},
+                                                              {"lightyear", "ly"},
+                                                              {"parsec", "parsec"},
+                                                              {"stone", "stone"},
+                                                              {"carat", "carat"},
                                                               {"micron", "micron"},
                                                               {"angstrom", "Å"},
                                                               {"thou", "thou"},
@@ -212,6 +225,18 @@ const std::map<std::string_view, std::vector<std::string>> ambiguous_words{
     {"Calories", {"kcal", "cal"}},
     {"ton", {"tonne", "2000 lb", "2240 lb"}},
     {"tons", {"tonne", "2000 lb", "2240 lb"}},
+    {"kton", {"1000 tonne"}},
+    {"ktons", {"1000 tonne"}},
+    {"kiloton", {"1000 tonne"}},
+    {"kilotons", {"1000 tonne"}},
+    {"metric", {"tonne"}},
+    {"short", {"2000 lb"}},
+    {"long", {"2240 lb"}},
+    {"nautical", {"nmi"}},
+    {"light", {"ly"}},
+    {"square", {"m^2"}},
+    {"sq", {"m^2"}},
+    {"cubic", {"m^3"}},
     {"t", {"tonne"}},
     {"kt", {"kn", "1000 tonne"}},
     {"tonf", {"1000 kgf", "2000 lbf", "2240 lbf"}},
@@ -398,7 +423,6 @@ bool mean_the_same(const std::vector<OtherCase>& found) {
 /// What is written without a sign between: the first and the second words.
 struct Joined {
     std::vector<std::string_view> first, second;
-    bool has_exponent = false;  ///< whether only where an exponent follows
 };
 
 const std::vector<Joined>& joined_table() {
@@ -410,21 +434,17 @@ const std::vector<Joined>& joined_table() {
                                          {{"kg"}, {"m", "cm", "mm"}},
                                          {{"g"}, {"cm", "mm"}},
                                          {{"slug"}, {"ft", "in"}},
-                                         {{"lb", "lbm", "oz"}, {"ft", "in"}, true},
+                                         {{"lb", "lbs", "lbm", "oz"}, {"ft", "in"}},
+                                         {{"ft", "in"}, {"lb", "lbs", "oz"}},
+                                         {{"foot", "inch"}, {"pound", "pounds"}},
+                                         {{"pound", "pounds"}, {"foot", "feet", "inch", "inches"}},
+                                         {{"newton", "kilonewton"}, {"meter", "meters", "metre", "metres"}},
                                          {{"A", "mA", "kA"}, {"s", "h"}},
                                          {{"V", "mV", "W", "mW", "kW", "J", "mJ"}, {"s"}},
                                          {{"V", "kV", "mV"}, {"A"}},
                                          {{"Pa", "mPa", "kPa", "MPa"}, {"s"}}};
     return all;
 }
-
-/// A torque in foot-pounds: the pound of it is a force.
-struct FootPounds {
-    std::string_view word, first, second;
-};
-constexpr FootPounds torques[] = {{"ftlb", "ft", "lbf"}, {"ftlbs", "ft", "lbf"}, {"lbft", "lbf", "ft"},
-                                  {"inlb", "in", "lbf"}, {"inlbs", "in", "lbf"}, {"lbin", "lbf", "in"},
-                                  {"inoz", "in", "ozf"}, {"ozin", "ozf", "in"}};
 
 }  // namespace
 
@@ -465,31 +485,29 @@ std::string nearest_unit(const std::string& word) {
             if (name.size() > 2) result.emplace_back(name);
         return result;
     }();
-    return word.size() < 3 ? "" : nearest(word, known);
+    // A slip changes neither the first letter nor most of a short word: a kin is no kN, and a gn no GN.
+    if (word.size() < 4) return {};
+    std::vector<std::string> like;
+    for (const std::string& one : known)
+        if (small_letters(one)[0] == small_letters(word)[0]) like.push_back(one);
+    return nearest(word, like);
 }
 
-std::optional<std::pair<std::string, std::string>> joined_units(std::string_view word, bool has_exponent) {
-    std::string plain(word);
-    std::erase(plain, '-');
-    if (!has_exponent)
-        for (const FootPounds& torque : torques)
-            if (plain == torque.word) return std::pair(std::string(torque.first), std::string(torque.second));
-    if (plain != word) return {};  // words with a hyphen stand apart
+std::optional<std::pair<std::string, std::string>> joined_units(std::string_view word) {
     for (const Joined& joined : joined_table())
         for (const std::string_view first : joined.first)
             for (const std::string_view second : joined.second) {
-                const bool has_kilo = first.starts_with('k') && plain.starts_with('K');  // KNm
-                const std::string_view rest = std::string_view(plain).substr(has_kilo ? 1 : 0);
-                if (rest != std::string(first.substr(has_kilo ? 1 : 0)) + std::string(second)) continue;
-                if (joined.has_exponent && !has_exponent) continue;
-                return std::pair(std::string(first), std::string(second));
+                const bool has_kilo = first.starts_with('k') && word.starts_with('K');  // KNm
+                const std::string_view rest = word.substr(has_kilo ? 1 : 0);
+                if (rest == std::string(first.substr(has_kilo ? 1 : 0)) + std::string(second))
+                    return std::pair(std::string(first), std::string(second));
             }
     return {};
 }
 
 bool is_no_multiple(const std::string& word) {
-    static const std::set<std::string> words{"degC",       "degF", "°C",  "°F", "℃",  "℉",    "celsius",
-                                             "fahrenheit", "dB",   "dBA", "Np", "pH", "psig", "barg"};
+    static const std::set<std::string> words{"degC",       "degF", "°C",  "°F", "℃",    "℉",   "celsius",
+                                             "fahrenheit", "dB",   "dBA", "Np", "psig", "barg"};
     return words.contains(word);
 }
 

@@ -46,9 +46,8 @@ UnitWord unit_word(const std::string& word);
 /// The word that an unknown one may be a slip of: "metre" for "metrs"; empty if none is near.
 std::string nearest_unit(const std::string& word);
 
-/// Two words written as one, "kNm" as kN and m, "ft-lb" as ft and lbf; the second word bears the exponent.
-/// `has_exponent` says whether one follows: a lb-ft is a torque, and a lb-ft^2 a moment of inertia.
-std::optional<std::pair<std::string, std::string>> joined_units(std::string_view word, bool has_exponent);
+/// Two words written as one, "kNm" as kN and m; the second word bears the exponent.
+std::optional<std::pair<std::string, std::string>> joined_units(std::string_view word);
 
 /// Whether the zero of this scale is elsewhere, or the scale is no multiple of a unit: "degC", "dB".
 bool is_no_multiple(const std::string& word);

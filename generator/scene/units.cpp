@@ -10,6 +10,7 @@
 
 #include "alembert/base/error.hpp"
 #include "base/language/say.hpp"
+#include "scene/concluded_dimensions.hpp"
 #include "scene/dimensions.hpp"
 #include "scene/known_names.hpp"
 #include "scene/text.hpp"
@@ -65,6 +66,11 @@ private:
     template <typename Item>
     void tell(const UnitDoubt& doubt, const Item& item) {
         if (!told_.insert(doubt.word).second) return;
+        if (!doubt.mass.empty()) {
+            found_.push_back(
+                {item.unit_place, advice_on_mass(doubt), Severity::warning, "unknown_unit", item.name.text});
+            return;
+        }
         const std::string word = escaped(doubt.word);
         const std::string near = doubt.meant.empty() ? nearest_unit(doubt.word) : doubt.meant;
         const std::string meant = near.empty() ? "" : say("; did you mean {}?", near);
@@ -73,9 +79,10 @@ private:
              doubt.is_known
                  ? say("'{}' in the unit of {} is read with the prefix of the SI that it begins with{}", word,
                        in_quotes(item.name.text), meant)
-                 : say("the unit '{0}' of {1} is not known, and numbers in it stay as they are{2}; a unit of "
-                       "your own is declared: [units] {0} = \"2.5 m\", or {0} = \"base\" where it is no multiple "
-                       "of others",
+                 : say("the unit '{0}' of {1} is not known, and numbers in it stay as they are{2}; if it is a "
+                       "unit "
+                       "of your own, write in a table [units] what it is worth, as in {0} = \"2.5 m\", or "
+                       "{0} = \"base\" where it is no multiple of others",
                        word, in_quotes(item.name.text), meant),
              Severity::warning, "unknown_unit", item.name.text});
     }
@@ -187,6 +194,9 @@ void refuse_other_unit(const Scene& scene, const std::string& name, const Expres
     const std::optional<Dimension> made = dimensions.of(value);
     const std::string stem = name.substr(0, name.find('\''));
     std::optional<Dimension> own = dimension_of_unit(unit_in_si(scene, stem));
+    if (made && !own)
+        for (const ConcludedDimension& one : concluded_dimensions(scene))
+            if (one.name == stem) own = one.dimension;
     if (!made || !own) return;
     own = over_time(*std::move(own), static_cast<int>(name.size() - stem.size()));
     if (*made == *own) return;

@@ -17,6 +17,7 @@
 #include "program/lower/lower.hpp"
 #include "program/lower/robot_functions.hpp"
 #include "program/without_rounding.hpp"
+#include "scene/text.hpp"
 #include "simulate/held_state.hpp"
 #include "simulate/sides.hpp"
 
@@ -95,6 +96,20 @@ void add_energies(Evaluation& e, const Program& program, const State<double>& st
                                what ? what->text : say("numbers that overflow")));
 }
 
+/// What the scene itself asks for.
+void warn_of_outputs(Evaluation& e) {
+    for (const auto& [name, value] : e.outputs) {
+        if (std::isfinite(value)) continue;
+        for (const Output& output : e.scene.outputs)
+            if (output.name.text == name)
+                e.warn({{output.value.place(),
+                         say("{} is not a finite number here: it divides by zero, an argument is outside its "
+                             "function's domain, or it is beyond the range of double precision",
+                             in_quotes(name)),
+                         Severity::warning, "not_a_number", name}});
+    }
+}
+
 /// The reactions as outputs, of joints and of bodies that roll.
 void add_reactions(Evaluation& e, const Program& program, const State<double>& state,
                    const std::vector<double>& value) {
@@ -165,6 +180,7 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     for (std::size_t k = 0; k < position.size(); ++k)
         e.residuals.push_back({m.constraints[k].name, {position[k], velocity[k]}});
     e.outputs = named_values(program, value, Group::output);
+    warn_of_outputs(e);
     if (options.matrices) {
         e.mass = matrix_at(m, "mass", start.state());
         e.coriolis = matrix_at(m, "coriolis", start.state());

@@ -42,7 +42,8 @@ class Draft:
         while name in self.scene["parameters"] or name in self.scene["coordinates"]:
             name += "_"
         if self.rng.random() < 0.15:
-            self.scene["parameters"][name] = {"value": value, "unit": self.rng.choice(["kg", "a */ int x; /*", "m/s^2"])}
+            text = self.rng.choice([{}, {"about": "a */ int x; /*"}, {"unit": "m/s^2"}])
+            self.scene["parameters"][name] = {"value": value, "unit": "kg", **text}
         else:
             self.scene["parameters"][name] = value
         return name

@@ -274,7 +274,8 @@ private:
 
     void quantity(const Math& math) {
         const UnitReading unit = read_unit(math.text);
-        if (!unit.meaning || !unit.doubts.empty()) refuse(math, say("the unit '{}' is not known", math.text));
+        if (!unit.meaning || (!unit.doubts.empty() && unit.doubts[0].mass.empty()))
+            refuse(math, say("the unit '{}' is not known", math.text));
         inside(*math.args[0], Bond::product);
         if (!unit.meaning->exact.empty()) out() += "*(" + unit.meaning->exact + ')';
     }

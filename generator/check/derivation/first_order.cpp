@@ -89,7 +89,7 @@ std::optional<Slip> slip_near(const LineClaim& line, const BaseState& base, cons
     std::vector<Diagnostic> mistakes;
     Claim claim;
     claim.equation = parse_equality(line.lhs + " = " + line.rhs, {}, mistakes);
-    if (!mistakes.empty()) return std::nullopt;
+    if (!claim.equation.lhs || !claim.equation.rhs) return std::nullopt;
     int left = most_changes;
     const EquationTerms terms = equation_terms(system.mechanism(), system.equations());
     const Judge judge{.is_right =

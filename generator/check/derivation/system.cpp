@@ -108,6 +108,7 @@ std::vector<CheckedClaim> DerivedSystem::check(const std::vector<LineClaim>& cla
         }
         scene.claims.push_back(std::move(claim));
     }
+    std::erase_if(mistakes, [](const Diagnostic& one) { return one.severity == Severity::warning; });
     if (!mistakes.empty()) throw SceneError(mistakes[0].message, mistakes);
     return alembert::check(scene, mechanism, derived_.sheets, by_).claims;
 }

@@ -9,7 +9,7 @@ namespace alembert {
 GiNaC::ex World::value(const std::string& text) {
     std::vector<Diagnostic> mistakes;
     const Expression expression = parse_expression(text, {}, mistakes);
-    if (!mistakes.empty()) throw NoMeaning{.reason = mistakes[0].message};
+    if (!expression) throw NoMeaning{.reason = mistakes.at(0).message};
     try {
         return m_.z->name(formulas_.value(expression));
     } catch (const SceneMistake& mistake) {

@@ -19,7 +19,7 @@ std::string marked(const Equality& equation, const std::optional<Slip>& likely) 
 std::string typeset_text(const std::string& text) {
     std::vector<Diagnostic> mistakes;
     const Equality equation = parse_equality(text, {}, mistakes, true);
-    return mistakes.empty() ? typeset_equality(equation, "") : "<code>" + html(text) + "</code>";
+    return equation.lhs && equation.rhs ? typeset_equality(equation, "") : "<code>" + html(text) + "</code>";
 }
 
 void add_claim(std::string& body, const Claim& claim, const CheckedClaim& c) {

@@ -15,7 +15,7 @@ namespace {
 Expression parsed(const std::string& text, const KnownNames* names = nullptr) {
     std::vector<Diagnostic> mistakes;
     Expression result = parse_expression(text, {}, mistakes, names);
-    if (!mistakes.empty()) throw ModelError(mistakes.front().message);
+    if (!result) throw ModelError(mistakes.empty() ? say("this is no expression") : mistakes.front().message);
     return result;
 }
 
