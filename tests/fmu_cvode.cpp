@@ -187,6 +187,9 @@ std::vector<Case> everyday() {
             {"a jump over a zero, and a zero", 0, 1, kick("sign(x - 5)*(x - 3)", "1")},
             {"a pulse", 0, 0, force("max(0, sign(t - 2))*max(0, sign(3 - t))")},
             {"a pulse in space", 0, 1, force("max(0, sign(x - 2))*max(0, sign(3 - x))")},
+            {"a train of pulses", 0, 0, force("max(0, sign(sin(2*pi*t) - 0.5))")},
+            {"trains of pulses", 0, 0,
+             "[parameters]\nA = 3\nw = 2\n" + force("sign(A*cos(w*t) + 1)*max(0, sign(2 - 3*sin(t + w)))")},
             {"a product of square waves", 0, 0, force("sign(sin(2*pi*t))*sign(cos(pi*t))")},
             {"kicks at zeros of a sine that rounding moves", 0, 1,
              "[parameters]\nT = 0.7\n" + kick("sin(2*pi*t/T)", "0.1", up)},
@@ -217,6 +220,38 @@ TEST_CASE("fmu: under CVODE's search for roots no event is lost, in either versi
             for (int n = 0; n < 11 && together.step(n * 0.9, 0.9); ++n) {
             }
             CHECK(difference(together, wanted) < 2e-6);
+        }
+    }
+}
+
+TEST_CASE("fmu: an event that only touches zero happens, and so does one whose function is flat there") {
+    const std::string up = "direction = \"up\"", down = "direction = \"down\"";
+    for (const Case& one : std::vector<Case>{
+             {"a square", 0, 1, kick("(x - 5)^2", "1")},
+             {"squares above zero", 0, 1, kick("3*(x - 5)^2", "1", down) + kick("(x - 7)^2", "1", up)},
+             {"squares below zero", 0, 1, kick("-(x - 5)^2", "1", up) + kick("-(x - 7)^2", "1", down)},
+             {"an absolute value", 0, 1, kick("abs(x - 5)", "1")},
+             {"a product of squares", 0, 1, kick("(x - 5)^2*(x + 1)^4", "1")},
+             {"a square of a negative rate", 0, -1, kick("(x + 5)^2", "-1", down)},
+             {"a square of time", 0, 1, kick("(t - 5)^2", "1")},
+             {"a square beside a pole", 0, 1, kick("(x - 5)^2/(x - 7)^2", "1")},
+             {"a cube", 0, 1, kick("(x - 5)^3", "1", up)},
+             {"a cube, the other way", 0, 1, kick("(x - 5)^3", "1", down) + kick("5 - x", "1", down)},
+             {"a negative power", 0, 1, kick("-2*(x - 5)^5", "1", down)}}) {
+        CAPTURE(std::string(one.about));
+        const std::string scene = scene_of(one.x, one.v, one.rest);
+        for (const int version : {2, 3}) {
+            CAPTURE(version);
+            const Unit unit = exported(scene, version);
+            Instance apart(unit, false, 1e-9), together(unit, true, 1e-9);
+            apart.begin();
+            follow(apart, 9.9, 0.5);
+            together.begin();
+            for (int n = 0; n < 11; ++n) together.step(n * 0.9, 0.9);
+            for (const Instance* it : {&apart, &together}) {
+                CHECK(it->get("x") == doctest::Approx(one.v * (5 + 2 * 4.9)).epsilon(1e-8));
+                CHECK(it->get("der(x)") == doctest::Approx(2 * one.v).epsilon(1e-12));
+            }
         }
     }
 }
@@ -280,6 +315,9 @@ TEST_CASE("fmu: jumps at known times are told in advance, and are no roots") {
     for (const Known& known :
          {Known{"t - 5", {5}}, Known{"2*(T - t)", {4.5}}, Known{"sin(pi*t)", {1, 2, 3, 4, 5, 6, 7, 8, 9}},
           Known{"(t - 2)*(t - 7)", {2, 7}},
+          Known{"1 - 2*cos(pi*t)", {1. / 3, 5. / 3, 7. / 3, 11. / 3, 13. / 3, 17. / 3, 19. / 3, 23. / 3, 25. / 3}},
+          Known{"T*sin(pi*t) - T/2",
+                {1. / 6, 5. / 6, 13. / 6, 17. / 6, 25. / 6, 29. / 6, 37. / 6, 41. / 6, 49. / 6, 53. / 6}},
           Known{"cos(2*t)*T", {pi / 4, 3 * pi / 4, 5 * pi / 4, 7 * pi / 4, 9 * pi / 4, 11 * pi / 4}}}) {
         CAPTURE(known.when);
         const std::string scene = scene_of(0, 1, "[parameters]\nT = 4.5\n" + kick(known.when, "-0.1*x'"));
