@@ -281,6 +281,29 @@ TEST_CASE("fmu: a ball that loses height bounces under any step of the importer"
     }
 }
 
+// A hop as small as the errors of the importer: behind the floor, although it moves up from it.
+TEST_CASE("fmu: impulses that follow each other without end are an error, and no way through a floor") {
+    for (const int version : {2, 3}) {
+        const Unit unit =
+            exported(scene_of(1, 0, force("-10") + kick("x", "-1.8*x'", "direction = \"down\"")), version);
+        Instance one(unit, false, 1e-9);
+        one.begin();
+        one.update();
+        one.at(0.4, {-1e-11, -1});
+        CHECK(one.wants_event());
+        one.update();
+        CHECK(one.state()[1] == doctest::Approx(0.8));
+        one.at(0.5, {-1e-11 - 1e-13, 0.1});
+        CHECK_FALSE(one.wants_event());
+        CHECK(one.indicators()[0] > 0);
+        one.at(0.6, {-1e-9, 0.1});
+        CHECK(one.wants_event());
+        one.ok(one.prefix() + "EnterEventMode");
+        bool over = false;
+        CHECK(one.status_in_event_mode(over) == failed);
+    }
+}
+
 TEST_CASE("fmu: an event at the very end of a run happens, in model exchange and in co-simulation") {
     struct Late {
         const char* when;
