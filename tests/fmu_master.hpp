@@ -169,20 +169,26 @@ public:
         return false;
     }
     bool in_event_mode() {
+        bool over = false;
+        if (status_in_event_mode(over) != 0) FAIL("the call failed: new discrete states");
+        return over;
+    }
+    int status_in_event_mode(bool& over) {
         if (unit_.version == 3) {
-            bool need = false, over = false, nominals = false, values = false, next = false;
+            bool need = false, nominals = false, values = false, next = false;
             double when = 0;
-            ok("fmi3UpdateDiscreteStates", &need, &over, &nominals, &values, &next, &when);
+            const int result = status("fmi3UpdateDiscreteStates", &need, &over, &nominals, &values, &next, &when);
             next_event_ = next ? when : HUGE_VAL;
-            return over;
+            return result;
         }
         struct {
             int need, over, nominals, values, next;
             double when;
         } info{};
-        ok("fmi2NewDiscreteStates", static_cast<void*>(&info));
+        const int result = status("fmi2NewDiscreteStates", static_cast<void*>(&info));
         next_event_ = info.next != 0 ? info.when : HUGE_VAL;
-        return info.over != 0;
+        over = info.over != 0;
+        return result;
     }
     /// The time of the next event that the unit has told; HUGE_VAL if it has told none.
     double next_event() const { return next_event_; }

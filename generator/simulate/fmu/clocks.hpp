@@ -7,7 +7,8 @@
 ///     par[2] … par[5]
 ///
 /// Each clock is an argument linear in time; what is watched changes its sign where the argument is zero, or its
-/// sine, or its cosine. The arguments become roots of Group::event, after those that are there.
+/// sine, or its cosine, or where it is a whole number of turns: sin a = c where a − asin c or a + asin c − π is.
+/// The arguments become roots of Group::event, after those that are there.
 
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@
 namespace alembert {
 
 struct TimedZero {
-    enum class Kind { zero, sine, cosine };
+    enum class Kind { zero, sine, cosine, turn };
     int watched;  ///< among the roots of Group::event
     Kind kind;
 };

@@ -9,6 +9,7 @@
 #include "program/switches.hpp"
 #include "program/tangent.hpp"
 #include "simulate/first_accelerations.hpp"
+#include "simulate/fmu/touching.hpp"
 #include "simulate/sides.hpp"
 
 namespace alembert {
@@ -48,6 +49,7 @@ void add_impulses(Program& program, const UnitModel& model) {
 
 /// The program with its signs held, its clocks, and its derivatives.
 void complete(UnitModel& model, Program program) {
+    watch_bases(program, model.mechanism.event_actions);
     if (const std::optional<Switched> held = switched(program)) {
         model.signs = static_cast<int>(held->frictions.size());
         program = held->program;

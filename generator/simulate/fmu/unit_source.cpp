@@ -50,7 +50,7 @@ std::vector<std::string> actions_of(const Mechanism& m) {
 
 /// The watched function of each clock, and in which way its argument tells a zero.
 std::vector<std::string> clocks_of(const UnitModel& model) {
-    constexpr const char* kinds[] = {"at_zero", "at_sine", "at_cosine"};
+    constexpr const char* kinds[] = {"at_zero", "at_sine", "at_cosine", "at_turn"};
     std::vector<std::string> rows;
     for (const TimedZero& clock : model.clocks)
         rows.push_back(fmt::format("{}, {}", clock.watched, kinds[static_cast<int>(clock.kind)]));
