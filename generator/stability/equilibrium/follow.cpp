@@ -104,11 +104,12 @@ private:
             long double middle = (low * f_high - high * f_low) / (f_high - f_low);  // false position, Illinois
             if (k % 3 == 2 || !(middle > low && middle < high)) middle = (low + high) / 2;
             auto point = tracer_.step(a, middle);
-            if (!point) {  // this is the point at which curves cross
-                middle = (low + 2 * high) / 3;
+            for (const long double part : {2.0L / 3, 1.0L / 3, 0.45L, 0.58L, 0.9L, 0.1L}) {
+                if (point) break;  // otherwise it is the point at which curves cross, or too near to it
+                middle = low + part * (high - low);
                 point = tracer_.step(a, middle);
-                if (!point) break;
             }
+            if (!point) break;
             const long double value = f(*point);
             if (!std::isfinite(value)) break;
             best = point;
