@@ -248,6 +248,15 @@ void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
 
 namespace {
 
+void settle_without_value(Comparison& now, std::size_t k, const Motions& motions, const Program& p, int root) {
+    CheckedClaim& c = now.verdicts[k];
+    if (has_long_numbers(p, {root}))  // a degree that is too high
+        if (const auto shown = counterexample(told(now), motions, p, root)) return refute(c, *shown);
+    c.reason = say(
+        "it could not be evaluated: it divides by something that is zero on every motion, or its degree is too "
+        "high");
+}
+
 void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
     CheckedClaim& c = now.verdicts[k];
     Program p;
@@ -267,14 +276,7 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
         sided.any() && sided.settle())
         return;
     const std::optional<bool> zero = vanishes_at(states, p, root, c.failure);
-    if (!zero) {
-        if (has_long_numbers(p, {root}))  // a degree that is too high
-            if (const auto shown = counterexample(told(now), states.motions, p, root)) return refute(c, *shown);
-        c.reason =
-            say("it could not be evaluated: it divides by something that is zero on every motion, or its degree "
-                "is too high");
-        return;
-    }
+    if (!zero) return settle_without_value(now, k, states.motions, p, root);
     if (now.on_own_branch != nullptr && !*zero && settle_by_branch(now, k, states, p, root)) return;
     if (!*zero && is_whole_turns(now, k, states.motions, states)) {
         c.verdict = Verdict::proved;

@@ -5,6 +5,7 @@
 
 #include "check/arithmetic_error.hpp"
 #include "check/diagnosis.hpp"
+#include "check/in_cells.hpp"
 #include "check/jump.hpp"
 #include "check/open_rows.hpp"
 #include "check/quantities.hpp"
@@ -64,12 +65,13 @@ Diagnosis diagnosis_of(Comparison& now, std::size_t claim, ExactStates& given) t
 
 /// Whether the corrected claim stands a look in numbers, where exact arithmetic may err: signs, jumps of what is
 /// called constant, multiples of the prime.
-bool stands(Comparison& now, std::size_t claim, const ClaimForm& repaired, const Motions& motions) {
+bool stands(Comparison& now, std::size_t claim, ClaimForm repaired, ExactStates& states) {
+    const Motions& motions = states.motions;
     if (!repaired.open.empty()) {
         std::vector<ClaimForm> forms = now.forms;
         forms[claim] = repaired;
         const OpenRows rows = open_rows(now.claims, forms, {claim});
-        const Jump jump = find_jump(told(now), motions, rows.program, rows.list[0].rest);
+        const FoundJump jump = find_jump(told(now), motions, rows.program, rows.list[0].rest);
         if (jump.shown || jump.is_unknown) return false;
         if (!depends_on_sides(rows.program, rows.roots()) && !motions.has_sides()) return true;
         constexpr unsigned tries = 40;
@@ -81,6 +83,11 @@ bool stands(Comparison& now, std::size_t claim, const ClaimForm& repaired, const
     const std::vector<int> root = now.claims.lower(p, {repaired.residual});
     if (now.at == Claim::At::rest) return in_numbers(told(now), motions, p, root[0]) != InNumbers::fails;
     if (has_long_numbers(p, root)) return in_numbers(told(now), motions, p, root[0]) == InNumbers::holds;
+    std::swap(now.forms[claim], repaired);
+    InCells sided(now, claim, states);
+    const bool fails_in_a_cell = sided.any() && sided.fails();
+    std::swap(now.forms[claim], repaired);
+    if (fails_in_a_cell) return false;
     const bool may_err = depends_on_sides(p, root) || now.on_own_branch != nullptr;
     return !may_err || in_numbers(told(now), motions, p, root[0]) != InNumbers::fails;
 }
@@ -91,7 +98,10 @@ void explain(Comparison& now, std::size_t claim, ExactStates& states) {
     const Diagnosis found = diagnosis_of(now, claim, states);
     CheckedClaim& c = now.verdicts[claim];
     if (!found.reason.empty()) c.reason = found.reason;
-    if (found.repaired && !stands(now, claim, *found.repaired, states.motions)) return;
+    // An acceleration means nothing at an impact; x'' stands for x'(-) there.
+    const bool is_beyond_impact = now.at == Claim::At::impact && found.nearest.find("''") != std::string::npos;
+    if (is_beyond_impact) return;
+    if (found.repaired && !stands(now, claim, *found.repaired, states)) return;
     c.nearest = found.nearest;
     c.difference = found.difference;
     c.likely = found.likely;

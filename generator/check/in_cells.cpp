@@ -198,6 +198,15 @@ bool InCells::refuse(const std::string& reason) {
     return states_.motions.rubbed().empty();
 }
 
+bool InCells::fails() {
+    if (cells_->sides().size() > most_sides)
+        return counterexample(told(now_), states_.motions, program_, root_).has_value();
+    visit();
+    for (const auto& [cell, exact] : visited_)
+        if (look(cell, exact) == Known::fails) return true;
+    return false;
+}
+
 bool InCells::settle() {
     CheckedClaim& c = now_.verdicts[claim_];
     if (cells_->sides().size() > most_sides) {

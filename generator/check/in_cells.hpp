@@ -24,6 +24,8 @@ public:
     bool any() const;
     /// False if nothing was decided, and another way may decide it.
     bool settle();
+    /// Whether a state was found in one of the cells at which the claim fails.
+    bool fails();
 
 private:
     /// What exact arithmetic says of a cell.

@@ -61,8 +61,8 @@ public:
           node_(node),
           cells_(program_, std::vector<int>{node}) {}
 
-    Jump find() {
-        Jump result;
+    FoundJump find() {
+        FoundJump result;
         for (const int pole : poles_below_bounded(program_, node_)) look_for(pole, false, result);
         if (!has_jumping_sides(program_, node_)) return result;
         for (const int side : cells_.sides()) look_for(side, true, result);
@@ -73,7 +73,7 @@ private:
     enum class Found { jumps, continuous, unknown };
 
     /// `must_know`: whether it is unknown what happens where the border is not reached.
-    void look_for(int side, bool must_know, Jump& result) {
+    void look_for(int side, bool must_know, FoundJump& result) {
         if (result.shown) return;
         const auto written = expression_of(program_, side, told_.mechanism, told_.equations.lambda);
         const Found found = look(side);
@@ -182,7 +182,7 @@ private:
 
 }  // namespace
 
-Jump find_jump(const Told& told, const Motions& motions, const Program& program, int node) {
+FoundJump find_jump(const Told& told, const Motions& motions, const Program& program, int node) {
     return Borders(told, motions, program, node).find();
 }
 

@@ -4,13 +4,14 @@
 /// A claim that something is constant, such as sign(x) = C, is not proved by a derivative that is zero wherever
 /// there is one: on the border of two cells it may jump.
 ///
-///     if (const Jump jump = find_jump(told, motions, program, node); jump.shown) …   // it jumps at this state
+///     if (const FoundJump jump = find_jump(told, motions, program, node); jump.shown) …   // it jumps at this
+///     state
 
 #include "check/counterexample.hpp"
 
 namespace alembert {
 
-struct Jump {
+struct FoundJump {
     /// A state on a border, with the height of the jump as its residual.
     std::optional<Counterexample> shown = {};
     std::string border = {};  ///< "x - 1", which is zero there; empty if it is long
@@ -18,6 +19,6 @@ struct Jump {
 };
 
 /// Of a node that holds coordinates, rates and the time.
-Jump find_jump(const Told& told, const Motions& motions, const Program& program, int node);
+FoundJump find_jump(const Told& told, const Motions& motions, const Program& program, int node);
 
 }  // namespace alembert

@@ -29,7 +29,7 @@ bool settle_jump(Comparison& now, std::size_t k, const OpenRows& rows, const Mot
     CheckedClaim& c = now.verdicts[k];
     const auto row = std::find_if(rows.list.begin(), rows.list.end(),
                                   [&](const OpenRows::Row& one) { return one.claim == k && !one.derived; });
-    const Jump jump = find_jump(told(now), motions, rows.program, row->rest);
+    const FoundJump jump = find_jump(told(now), motions, rows.program, row->rest);
     if (jump.shown) {
         refute(c, *jump.shown);
         c.reason = jump.border.empty() ? say("it is not constant: it jumps where a sign changes")

@@ -307,6 +307,15 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
     result.lyapunov = answer;
 }
 
+/// Where the equations have no Taylor series at the state.
+void judge_in_numbers(Stability& result, const std::string& lyapunov) {
+    result.eigenvalues = eigenvalues_of(blurred(result.A), false);
+    take(result, decide_first(result.eigenvalues));
+    if (result.verdict == StabilityVerdict::undecided) take(result, undecided(result.eigenvalues));
+    if (is_reached_fold(*result.near)) take(result, undecided_at_fold());
+    if (!lyapunov.empty()) judge_function(result, lyapunov, nullptr);
+}
+
 }  // namespace
 
 Stability stability(Scene scene, const StabilityOptions& wishes) {
@@ -343,11 +352,7 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
     } catch (const NotAnalytic&) {
     }
     if (!local) {
-        result.eigenvalues = eigenvalues_of(blurred(result.A), false);
-        take(result, decide_first(result.eigenvalues));
-        if (result.verdict == StabilityVerdict::undecided) take(result, undecided(result.eigenvalues));
-        if (is_reached_fold(near)) take(result, undecided_at_fold());
-        if (!options.lyapunov.empty()) judge_function(result, options.lyapunov, nullptr);
+        judge_in_numbers(result, options.lyapunov);
         return result;
     }
     result.states = local->states;
