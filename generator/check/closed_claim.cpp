@@ -248,6 +248,27 @@ void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
 
 namespace {
 
+/// Whether the claim is the scene's own equation as it stands, whatever sides its functions have.
+bool is_own_equation(Comparison& now, std::size_t k) {
+    Program p;
+    std::vector<GiNaC::ex> inertia;
+    for (int i = 0; i < now.law.size(); ++i)
+        for (int j = 0; j <= i; ++j) inertia.push_back(now.law.M(i, j));
+    return !depends_on_sides(p, now.claims.lower(p, inertia)) &&
+           is_multiple(now.forms[k].residual, now.m, now.law);
+}
+
+bool settle_in_cells(Comparison& now, std::size_t k, ExactStates& states) {
+    ExactStates* const own = now.on_own_branch;
+    InCells sided(now, k, own != nullptr && own->get(0) != nullptr ? *own : states);
+    if (!sided.any()) return false;
+    if (!is_own_equation(now, k)) return sided.settle();
+    CheckedClaim& c = now.verdicts[k];
+    c.verdict = Verdict::proved;
+    c.normal_form = true;
+    return true;
+}
+
 void settle_without_value(Comparison& now, std::size_t k, const Motions& motions, const Program& p, int root) {
     CheckedClaim& c = now.verdicts[k];
     if (has_long_numbers(p, {root}))  // a degree that is too high
@@ -271,10 +292,7 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
                                                  : say("it holds identically and says nothing of the motion");
         return;
     }
-    ExactStates* const own = now.on_own_branch;
-    if (InCells sided(now, k, own != nullptr && own->get(0) != nullptr ? *own : states);
-        sided.any() && sided.settle())
-        return;
+    if (settle_in_cells(now, k, states)) return;
     const std::optional<bool> zero = vanishes_at(states, p, root, c.failure);
     if (!zero) return settle_without_value(now, k, states.motions, p, root);
     if (now.on_own_branch != nullptr && !*zero && settle_by_branch(now, k, states, p, root)) return;

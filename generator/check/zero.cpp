@@ -43,6 +43,25 @@ ex in_independent_parameters(ex e, const Mechanism& m) {
     return e;
 }
 
+bool has_sides(const ex& e) {
+    if (GiNaC::is_a<GiNaC::function>(e)) {
+        const std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
+        if (name == "absolute" || name == "minimum" || name == "maximum" || name == "csgn") return true;
+    }
+    return std::any_of(e.begin(), e.end(), has_sides);
+}
+
+/// Times 10 or 100 or a tenth, and what may be negative with either sign.
+numeric moved_away(const numeric& value, int seed, std::size_t k, const SymbolInfo& info) {
+    const int way = seed + static_cast<int>(k) * (seed / 7 + 1);
+    const numeric scale = way % 4 == 0   ? numeric(1, 10)
+                          : way % 4 == 1 ? numeric(10)
+                          : way % 4 == 2 ? numeric(100)
+                                         : 1;
+    const bool is_negative = info.kind != SymbolInfo::Kind::time && (way / 4) % 2 == 1;
+    return is_negative ? -value * scale : value * scale;
+}
+
 /// The sum of |value| over the terms of the outermost sum.
 std::optional<numeric> size_of(const ex& e, const GiNaC::exmap& at) {
     numeric sum = 0;
@@ -68,16 +87,21 @@ ZeroTest zero_test(const ex& given, const Mechanism& m) {
     for (const GiNaC::symbol& s : m.symbols->all())
         if (found.contains(s)) symbols.push_back(s);
     const FiftyDigits digits;
-    for (int seed = 1; seed <= 6; ++seed) try {
+    // Beyond a threshold far away or of the other sign it may be otherwise.
+    const int tries = has_sides(e) ? 60 : 6;
+    for (int seed = 1; seed <= tries; ++seed) try {
             GiNaC::exmap at;
             ZeroTest result{.zero = false};
             for (std::size_t k = 0; k < symbols.size(); ++k) {
                 const int number = seed * 7 + static_cast<int>(k) * 5;
-                const numeric value = numeric(1 + number % 7, 1 + (number / 7 + static_cast<int>(k)) % 3);
-                at[symbols[k]] = value / 3;
+                numeric value = numeric(1 + number % 7, 1 + (number / 7 + static_cast<int>(k)) % 3) / 3;
+                const SymbolInfo& info = m.symbols->info(symbols[k]);
+                if (seed > 6 && info.kind != SymbolInfo::Kind::parameter) value = moved_away(value, seed, k, info);
+                at[symbols[k]] = value;
                 result.values.emplace_back(
-                    m.symbols->info(symbols[k]).text(),
-                    fmt::format("{}/{}", (value / 3).numer().to_int(), (value / 3).denom().to_int()));
+                    info.text(), value.denom().is_equal(1)
+                                     ? fmt::format("{}", value.numer().to_int())
+                                     : fmt::format("{}/{}", value.numer().to_int(), value.denom().to_int()));
             }
             const auto value = real_value(e.subs(at, GiNaC::subs_options::no_pattern));
             const auto size = size_of(e, at);

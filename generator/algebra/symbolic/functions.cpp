@@ -11,8 +11,31 @@ namespace alembert {
 
 using GiNaC::ex;
 
-REGISTER_FUNCTION(minimum, dummy())
-REGISTER_FUNCTION(maximum, dummy())
+namespace {
+
+/// Of two real numbers, whether the first is smaller.
+std::optional<bool> is_smaller(const ex& a, const ex& b) {
+    const auto is_real = [](const ex& x) {
+        return GiNaC::is_a<GiNaC::numeric>(x) && GiNaC::ex_to<GiNaC::numeric>(x).is_real();
+    };
+    if (!is_real(a) || !is_real(b)) return std::nullopt;
+    return GiNaC::ex_to<GiNaC::numeric>(a) < GiNaC::ex_to<GiNaC::numeric>(b);
+}
+
+ex minimum_eval(const ex& a, const ex& b) {
+    const std::optional<bool> is_first = is_smaller(a, b);
+    return is_first ? (*is_first ? a : b) : ex(minimum(a, b).hold());
+}
+
+ex maximum_eval(const ex& a, const ex& b) {
+    const std::optional<bool> is_second = is_smaller(a, b);
+    return is_second ? (*is_second ? b : a) : ex(maximum(a, b).hold());
+}
+
+}  // namespace
+
+REGISTER_FUNCTION(minimum, eval_func(minimum_eval).evalf_func(minimum_eval))
+REGISTER_FUNCTION(maximum, eval_func(maximum_eval).evalf_func(maximum_eval))
 
 namespace {
 ex absolute_eval(const ex& x) {

@@ -12,7 +12,7 @@
 
 namespace alembert {
 
-/// min and max, which GiNaC does not have, as functions without rewriting rules.
+/// min and max, which GiNaC does not have; of numbers they have values.
 DECLARE_FUNCTION_2P(minimum)
 DECLARE_FUNCTION_2P(maximum)
 

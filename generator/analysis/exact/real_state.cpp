@@ -160,11 +160,12 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
 
 bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
     if (!motions.loose().empty() && (!floats || !solve_loose(motions, state, seed))) return false;
-    // Each coordinate at rest has roots of its own, and all combinations are wanted.
-    const bool is_rest = motions.where() == Motions::At::rest;
+    // Each coordinate at rest has roots of its own, and all combinations are wanted, the simplest first.
+    constexpr unsigned simple = 12;
+    const bool mixes = motions.where() == Motions::At::rest && seed >= first_float_seed + simple;
     unsigned own_seed = seed;
     for (const SolvingStep& step : motions.steps()) {
-        if (is_rest) own_seed = (own_seed + 1) * 2654435761U >> 7U;
+        if (mixes) own_seed = (own_seed + 1) * 2654435761U >> 7U;
         if (step.second) {
             if (!floats || !solve_two(motions, state, step, seed)) return false;
             continue;
@@ -177,7 +178,7 @@ bool solve_positions(const Motions& motions, RealState& state, bool floats, unsi
             return cleared ? (*value)[0] * (1 + x * x) : (*value)[0];
         };
         const bool is_angle = state.angle.contains(key);
-        const auto root = root_of([&](const numeric& x) { return at(x, is_angle); }, floats, is_rest, own_seed);
+        const auto root = root_of([&](const numeric& x) { return at(x, is_angle); }, floats, mixes, own_seed);
         if (!root) return false;
         if (step.variable.kind == Variable::Kind::parameter && !root->is_positive()) return false;
         const auto rest = at(*root, false);
