@@ -97,4 +97,40 @@ TEST_CASE("stability: a kink that is differentiable does not hide where a root c
     CHECK(found["without_roots"] == 0);
 }
 
+TEST_CASE("equilibrium: a pitchfork is found once, where the stiffness of both branches vanishes") {
+    for (const char* force : {"(p - 0.5)*x - x^3", "p*x - x^3", "(p + 0.4)*x - x^3"})
+        for (const char* range : {"p=1.2:-0.9", "p=-0.9:1.2", "p=0.7:-1"}) {
+            CAPTURE(std::string(force));
+            CAPTURE(std::string(range));
+            const Json found = json_of({"equilibrium", pushed(force), "--vary", range, "--json"});
+            REQUIRE(found["points"].size() == 1);
+            CHECK(found["points"][0]["kind"] == "pitchfork");
+            const double at = std::string(force).find("0.5") != std::string::npos   ? 0.5
+                              : std::string(force).find("0.4") != std::string::npos ? -0.4
+                                                                                    : 0;
+            CHECK(std::abs(double(found["points"][0]["parameter"]) - at) < 1e-6);
+        }
+}
+
+// A shaft with internal friction that turns faster than it swings: whirl grows (a classical result on rotors).
+TEST_CASE("stability: dampers along turning axes may push, and the energy is no proof") {
+    const std::string shaft =
+        "[parameters]\nm = 1\nk = 1\nc = 0.2\nW = 3\n[coordinates]\nx = 0\ny = 0\n"
+        "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", \"y\"]\n"
+        "[energy]\npotential = \"k*(x^2 + y^2)/2\"\n"
+        "[[frame]]\nname = \"R\"\nrotate = [[\"z\", \"W*t\"]]\n";
+    const auto dampers = [](const std::string& damping) {
+        std::string text;
+        for (const char* axis : {"ex", "ey"})
+            text += fmt::format("[[damper]]\nalong = \"dot(pos(P), {}(R))\"\ndamping = \"{}\"\n", axis, damping);
+        return text;
+    };
+    const auto verdict = [&](const std::string& damping) {
+        const auto found = run({"stability", temporary("shaft.toml", shaft + dampers(damping)), "--json"});
+        return std::string(Json::parse(found.out)["verdict"]);
+    };
+    CHECK(verdict("c") == "unstable");
+    CHECK(verdict("c*(x^2 + y^2)") == "undecided");
+}
+
 }  // namespace commands_equilibria_meet

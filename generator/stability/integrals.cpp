@@ -57,15 +57,19 @@ bool is_nonpositive(const ex& ratio, const Local& local) {
     return std::all_of(sum.begin(), sum.end(), is_even);
 }
 
-/// Tests the loads one by one: each force must oppose its own velocity.
+/// Tests the loads one by one: each force must oppose its own velocity. One that moves by itself, as along axes
+/// that are turned, may push.
 bool each_brakes(const Local& local) {
     const Mechanism& m = local.mechanism;
+    GiNaC::exmap still;
+    for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
     for (const Load& load : m.loads)
         for (const Load::Pair& pair : load.pairs) {
             if (m.z->tree_size(pair.velocity) > short_enough || m.z->tree_size(pair.force) > short_enough)
                 return false;
             const ex force = m.z->expand(pair.force), velocity = m.z->expand(pair.velocity);
             if (force.is_zero() || velocity.is_zero()) continue;
+            if (!is_identically_zero(velocity.subs(still, GiNaC::subs_options::no_pattern), m)) return false;
             if (!is_nonpositive((force / velocity).normal(), local)) return false;
         }
     return true;

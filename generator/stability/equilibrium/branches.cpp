@@ -19,10 +19,10 @@ using Column = VectorOf<long double>;
 namespace {
 
 constexpr int most_branches = 60;
-constexpr int places = 7;                  // values of the parameter at which all equilibria are searched
-constexpr long double on_branch = 2e-3L;   // in y: how near a curve is to the points between which it was traced
-constexpr long double leave = 0.01L;       // first step away from a crossing
-constexpr long double same_point = 1e-5L;  // of y
+constexpr int places = 7;                 // values of the parameter at which all equilibria are searched
+constexpr long double on_branch = 2e-3L;  // in y: how near a curve is to the points between which it was traced
+constexpr long double leave = 0.01L;      // first step away from a crossing
+constexpr long double same_point = 1e-5L, same_crossing = 1e-3L;  // of y
 
 class BranchSearch {
 public:
@@ -142,11 +142,18 @@ private:
         return {at.q.begin(), at.q.end()};
     }
 
+    /// Folds are found to many digits; where curves cross, each of them finds the point to few.
+    static long double same_of(PointKind kind) {
+        const bool is_crossing =
+            kind == PointKind::pitchfork || kind == PointKind::transcritical || kind == PointKind::touching;
+        return is_crossing ? same_crossing : same_point;
+    }
+
     /// Crossing curves find the same point, which is reported once.
     bool is_told(const Tracer& tracer, const FollowedPoint& one) {
         const Column y = tracer.place(one.point.at, one.point.p);
         for (const auto& [kind, other] : told_)
-            if (kind == *one.kind && difference(y, other).cwiseAbs().maxCoeff() < same_point) return true;
+            if (kind == *one.kind && difference(y, other).cwiseAbs().maxCoeff() < same_of(kind)) return true;
         told_.emplace_back(*one.kind, y);
         return false;
     }

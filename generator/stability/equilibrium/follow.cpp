@@ -99,6 +99,7 @@ private:
                                        const std::function<long double(const TracedPoint&)>& f) const {
         long double low = 0, high = b.step, f_low = f(a), f_high = f(b);
         std::optional<TracedPoint> best;
+        long double least = HUGE_VALL;  // of |f| so far: a step may end on the other curve
         int side = 0;
         for (int k = 0; k < 90 && high - low > 1e-17L; ++k) {
             long double middle = (low * f_high - high * f_low) / (f_high - f_low);  // false position, Illinois
@@ -112,7 +113,7 @@ private:
             if (!point) break;
             const long double value = f(*point);
             if (!std::isfinite(value)) break;
-            best = point;
+            if (std::abs(value) < least) best = point, least = std::abs(value);
             if (value == 0) break;
             if ((value > 0) == (f_low > 0)) {
                 low = middle, f_low = value;
