@@ -66,6 +66,21 @@ m*x'^2 + (a + b*sign(5 - t))*x^2 = D
                    {refuted, refuted});
 }
 
+TEST_CASE("check: what no motion crosses is no jump, and an angle may jump on half of its border") {
+    check_verdicts(of(pushed_by("0"), "constants C D\nsign(x') = C\natan2(x', 2) = D\n"), {proved, proved});
+    check_verdicts(of(pushed_by("-k*x"), "constants C\natan2(x', sqrt(k/m)*x) + sqrt(k/m)*t = C\n"), {refuted});
+}
+
+TEST_CASE("check: claims that share a constant or a name are each wrong on their own side") {
+    check_verdicts(
+        of(pushed_by("-k*max(x, 0) - a*min(x, 0)"), "constants C\nm*x'^2 + k*x^2 = C\nm*x'^2 + a*x^2 = C\n"),
+        {refuted, refuted});
+    check_verdicts(of(pushed_by("-k*max(0, x - a)"), "unknowns R\nm*x'' = -R\nR = 0\nR = k*(x - a)\n"),
+                   {refuted, refuted, refuted});
+    check_verdicts(of(pushed_by("-k*max(0, x - a)"), "unknowns R\nm*x'' = -R\nR = k*max(0, x - a)\n"),
+                   {proved, proved});
+}
+
 TEST_CASE("check: an integral holds on all sides, and its constant has a value on each") {
     check_verdicts(of(pushed_by("-k*sign(x - 0.05)"), R"(
 constants C D E

@@ -52,6 +52,20 @@ TEST_CASE("equilibrium, stability: a saddle-node is called stable from neither s
         }
 }
 
+// The force is negative on both sides of x = √2, whatever digits are typed.
+TEST_CASE("stability: a root that is typed as such is known to the digits of a double") {
+    const std::string scene = pushed("-(x^2 - 2)^2 - x'");
+    for (const char* at : {"x=sqrt(2)", "x=-sqrt(2)", "x=1.4142135623730951", "x=1.4142135623730950"}) {
+        CAPTURE(std::string(at));
+        const Json found = Json::parse(run({"stability", scene, "--at", at, "--json"}).out);
+        CHECK(std::string(found["verdict"]).find("stable") != 0);
+        CHECK(std::string(found["verdict"]) != "asymptotically stable");
+    }
+    const Json exact =
+        Json::parse(run({"stability", pushed("(x - 0.3)^2 - x'/2"), "--at", "x=0.3", "--json"}).out);
+    CHECK(exact["verdict"] == "unstable");
+}
+
 TEST_CASE("equilibrium: a double or triple root is listed once") {
     for (const char* force : {"-(x - 0.2)^2*(x + 1.9)", "-x^3 - 1.5*x^2 + 0.72*x - 0.076",
                               "x^3 + 1.8*x^2 + 1.08*x + 0.216", "x^3 - 1.2*x^2 + 0.48*x - 0.064 - 0.5*x'"}) {

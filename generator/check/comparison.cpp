@@ -71,7 +71,8 @@ bool stands(Comparison& now, std::size_t claim, ClaimForm repaired, ExactStates&
         std::vector<ClaimForm> forms = now.forms;
         forms[claim] = repaired;
         const OpenRows rows = open_rows(now.claims, forms, {claim});
-        const FoundJump jump = find_jump(told(now), motions, rows.program, rows.list[0].rest);
+        const FoundJump jump =
+            find_jump(told(now), motions, rows.program, rows.list[0].rest, is_kept(now, states));
         if (jump.shown || jump.is_unknown) return false;
         if (!depends_on_sides(rows.program, rows.roots()) && !motions.has_sides()) return true;
         constexpr unsigned tries = 40;

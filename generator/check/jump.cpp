@@ -8,6 +8,7 @@
 #include "analysis/exact/expression_of.hpp"
 #include "analysis/exact/impossible.hpp"
 #include "check/in_print.hpp"
+#include "check/vanishing.hpp"
 #include "model/parameter_values.hpp"
 
 namespace alembert {
@@ -54,8 +55,9 @@ std::vector<int> poles_below_bounded(const Program& p, int node) {
 
 class Borders {
 public:
-    Borders(const Told& told, const Motions& motions, const Program& program, int node)
+    Borders(const Told& told, const Motions& motions, const Program& program, int node, const IsKept& is_kept)
         : told_(told),
+          is_kept_(is_kept),
           motions_(motions),
           program_(program),
           node_(node),
@@ -76,7 +78,8 @@ private:
     void look_for(int side, bool must_know, FoundJump& result) {
         if (result.shown) return;
         const auto written = expression_of(program_, side, told_.mechanism, told_.equations.lambda);
-        const Found found = look(side);
+        if (written && is_kept_(*written)) return;
+        const Found found = look(side, must_know);
         if (found == Found::jumps) {
             result.shown = shown_;
             if (written) result.border = in_print(*written, told_.mechanism);
@@ -140,9 +143,9 @@ private:
         return std::nullopt;
     }
 
-    Found look(int side) {
-        constexpr unsigned tries = 40;
-        constexpr int enough = 4;
+    Found look(int side, bool must_know) {
+        constexpr unsigned tries = 80;
+        const int enough = must_know ? 4 : 24;  // an angle jumps on one half of its border alone
         const FiftyDigits digits;
         const numeric apart = GiNaC::pow(numeric(10), numeric(-20)), small = GiNaC::pow(numeric(10), numeric(-7));
         int reached = 0;
@@ -173,6 +176,7 @@ private:
     }
 
     const Told& told_;
+    const IsKept& is_kept_;
     const Motions& motions_;
     Program program_;
     int node_;
@@ -182,8 +186,19 @@ private:
 
 }  // namespace
 
-FoundJump find_jump(const Told& told, const Motions& motions, const Program& program, int node) {
-    return Borders(told, motions, program, node).find();
+IsKept is_kept(Comparison& now, ExactStates& states) {
+    return [&](const ex& value) {
+        if (now.m.z->depends(value, now.m.qddot) || now.m.z->depends(value, now.e.lambda)) return false;
+        Program p;
+        const int root = now.claims.lower(p, {now.m.time_derivative({value})[0]})[0];
+        double failure = 0;
+        return p.is_zero(root) || vanishes_at(states, p, root, failure) == true;
+    };
+}
+
+FoundJump find_jump(const Told& told, const Motions& motions, const Program& program, int node,
+                    const IsKept& is_kept) {
+    return Borders(told, motions, program, node, is_kept).find();
 }
 
 }  // namespace alembert

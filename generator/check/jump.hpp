@@ -7,7 +7,10 @@
 ///     if (const FoundJump jump = find_jump(told, motions, program, node); jump.shown) …   // it jumps at this
 ///     state
 
-#include "check/counterexample.hpp"
+#include <functional>
+
+#include "analysis/exact/exact_states.hpp"
+#include "check/comparison.hpp"
 
 namespace alembert {
 
@@ -18,7 +21,12 @@ struct FoundJump {
     bool is_unknown = false;  ///< whether a border was not reached, at which there may be a jump
 };
 
+/// Whether an expression keeps its value on every motion, so that none crosses the border where it is zero.
+using IsKept = std::function<bool(const GiNaC::ex&)>;
+IsKept is_kept(Comparison& now, ExactStates& states);
+
 /// Of a node that holds coordinates, rates and the time.
-FoundJump find_jump(const Told& told, const Motions& motions, const Program& program, int node);
+FoundJump find_jump(const Told& told, const Motions& motions, const Program& program, int node,
+                    const IsKept& is_kept);
 
 }  // namespace alembert

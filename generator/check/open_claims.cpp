@@ -25,11 +25,12 @@ bool gives_constants(const Comparison& now, std::size_t k) {
 
 /// A claim that gives constants, and whose derivative is zero wherever it has one, is not proved if it jumps.
 /// Returns whether it may.
-bool settle_jump(Comparison& now, std::size_t k, const OpenRows& rows, const Motions& motions) {
+bool settle_jump(Comparison& now, std::size_t k, const OpenRows& rows, ExactStates& states) {
+    const Motions& motions = states.motions;
     CheckedClaim& c = now.verdicts[k];
     const auto row = std::find_if(rows.list.begin(), rows.list.end(),
                                   [&](const OpenRows::Row& one) { return one.claim == k && !one.derived; });
-    const FoundJump jump = find_jump(told(now), motions, rows.program, row->rest);
+    const FoundJump jump = find_jump(told(now), motions, rows.program, row->rest, is_kept(now, states));
     if (jump.shown) {
         refute(c, *jump.shown);
         c.reason = jump.border.empty() ? say("it is not constant: it jumps where a sign changes")
@@ -69,13 +70,15 @@ void settle_group(Comparison& now, const std::vector<std::size_t>& group, ExactS
             if (shown->of_derivative)
                 c.reason = say("it is not constant: the residual is that of its time derivative");
             explain(now, k, states);
+        } else if (!judged->is_complete) {
+            c.reason = say("it could not be evaluated at enough states");
         } else if (pins(rows, judged->first, wrong, k)) {
             const bool constant = gives_constants(now, k);
             c.verdict = constant ? Verdict::undecided : Verdict::vacuous;
             c.reason = constant ? say("a further time derivative would be needed to tell whether what it leaves "
                                       "open is constant")
                                 : say("what it leaves open can take up whatever it says: no other claim fixes it");
-        } else if (!gives_constants(now, k) || !settle_jump(now, k, rows, states.motions)) {
+        } else if (!gives_constants(now, k) || !settle_jump(now, k, rows, states)) {
             c.verdict = Verdict::proved;
         }
     }

@@ -146,16 +146,33 @@ std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const
     return found.empty() ? std::set<std::size_t>(group.begin(), group.end()) : found;
 }
 
+namespace {
+
+/// Without the rows of these claims. The program is not needed any more.
+std::pair<OpenRows, OpenMatrix> without(const OpenRows& rows, const OpenMatrix& at,
+                                        const std::set<std::size_t>& wrong) {
+    std::pair<OpenRows, OpenMatrix> result{{}, {.rows = {}, .chance = at.chance}};
+    for (std::size_t r = 0; r < rows.list.size(); ++r)
+        if (!wrong.contains(rows.list[r].claim)) {
+            result.first.list.push_back(rows.list[r]);
+            result.second.rows.push_back(at.rows[r]);
+        }
+    return result;
+}
+
+}  // namespace
+
 std::optional<OpenJudgement> judge(const OpenRows& rows, const std::vector<std::size_t>& group,
                                    ExactStates& states) {
     double failure = 0, missed = 0;
     int usable = 0;
     const int least = states_needed(rows.program, rows.roots(), states);
     std::optional<OpenMatrix> first;
+    std::set<std::size_t> wrong;
     const auto is_enough = [&] {
         return failure <= wanted_failure && missed <= wanted_failure && usable >= least;
     };
-    for (std::size_t s = 0; s < most_states && !is_enough(); ++s) {
+    for (std::size_t s = 0; s < most_states && !is_enough() && wrong.size() < group.size(); ++s) {
         auto at = open_matrix(rows, states, s);
         if (!at) {
             if (states.get(s) == nullptr) break;
@@ -165,11 +182,21 @@ std::optional<OpenJudgement> judge(const OpenRows& rows, const std::vector<std::
         missed += chance_of_another_branch(*states.get(s));
         if (!first) first = *at;
         ++usable;
-        if (!consistent(at->rows))
-            return OpenJudgement{.wrong = culprits(rows, *at, group), .failure = failure, .first = *first};
+        // What is left when a claim is wrong has to hold at all states as well: another claim may fail on another
+        // side.
+        const auto [part, here] = without(rows, *at, wrong);
+        if (consistent(here.rows)) continue;
+        std::vector<std::size_t> left = group;
+        std::erase_if(left, [&](std::size_t k) { return wrong.contains(k); });
+        wrong.merge(culprits(part, here, left));
+        failure = missed = 0;
+        usable = 0;
     }
-    if (!first || !is_enough()) return std::nullopt;
-    return OpenJudgement{.wrong = {}, .failure = failure, .first = *first};
+    if (!first || (!is_enough() && wrong.empty())) return std::nullopt;
+    return OpenJudgement{.wrong = wrong,
+                         .failure = failure,
+                         .first = *first,
+                         .is_complete = is_enough() || wrong.size() == group.size()};
 }
 
 }  // namespace alembert

@@ -61,8 +61,9 @@ std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const
 /// Which claims of the group are wrong: at some state, no choice of what they leave open satisfies them together.
 struct OpenJudgement {
     std::set<std::size_t> wrong;
-    double failure = 0;  ///< log₂ of the chance that those not in `wrong` are wrong
-    OpenMatrix first;    ///< at one of the states
+    double failure = 0;       ///< log₂ of the chance that those not in `wrong` are wrong
+    OpenMatrix first;         ///< at one of the states
+    bool is_complete = true;  ///< false if too few states were found for what is not in `wrong`
 };
 /// Nothing where it could not be evaluated at enough states.
 std::optional<OpenJudgement> judge(const OpenRows& rows, const std::vector<std::size_t>& group,

@@ -248,19 +248,27 @@ void check_steady(const LinearizedScene& near) {
                         input.derivative[0].get_name()));
 }
 
-/// Whether the state is one that Newton's method has found in numbers, and a double root or nearly so.
-bool is_reached_fold(const LinearizedScene& near) {
-    if (near.reached.empty()) return false;
+/// Whether the state is a double root or nearly so, and not known exactly: found by Newton's method, or typed with
+/// so many digits that no eigenvalue is exactly zero.
+bool is_inexact_fold(const LinearizedScene& near, const std::vector<RootOf>& roots) try {
+    const bool is_exact =
+        std::any_of(roots.begin(), roots.end(), [](const RootOf& root) { return root.value == 0.0; });
+    if (near.reached.empty() && is_exact) return false;
     const SteadyProblem problem(near.mechanism, near.equations, near.start);
     return meeting_at(problem, problem.start()) == Meeting::open;
+} catch (const ModelError&) {
+    return false;
+} catch (const IntegrationError&) {
+    return false;
 }
 
 Decision undecided_at_fold() {
-    return {
-        StabilityVerdict::undecided, StabilityTheorem::none,
-        say("equilibria meet here, or nearly so: Newton's method knows the state to so few digits that the first "
-            "approximation and terms of higher degree are those of its roundings. Give the state exactly by "
-            "--at")};
+    return {StabilityVerdict::undecided, StabilityTheorem::none,
+            say("equilibria meet here, or nearly so, and the state is known to so few digits that the first "
+                "approximation "
+                "and terms of higher degree are those of its roundings. Give it as a fraction or decimal by --at, "
+                "or as "
+                "the initial value in the scene")};
 }
 
 Stability stability_of_periodic(const Derived& d, const StabilityOptions& options) {
@@ -312,7 +320,7 @@ void judge_in_numbers(Stability& result, const std::string& lyapunov) {
     result.eigenvalues = eigenvalues_of(blurred(result.A), false);
     take(result, decide_first(result.eigenvalues));
     if (result.verdict == StabilityVerdict::undecided) take(result, undecided(result.eigenvalues));
-    if (is_reached_fold(*result.near)) take(result, undecided_at_fold());
+    if (is_inexact_fold(*result.near, result.eigenvalues)) take(result, undecided_at_fold());
     if (!lyapunov.empty()) judge_function(result, lyapunov, nullptr);
 }
 
@@ -386,7 +394,7 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
             say("; the momenta of the cyclic coordinates keep their disturbed values, and the motion tends to "
                 "the steady motion that has these");
     }
-    if (is_reached_fold(near)) {
+    if (is_inexact_fold(near, result.eigenvalues)) {
         decision = undecided_at_fold();
         result.certain = false;
     }

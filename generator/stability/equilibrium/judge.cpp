@@ -121,6 +121,7 @@ std::optional<Sides> sides_at(const SteadyProblem& problem, Instant<long double>
     long double size = 0;
     for (const auto& value : *found) size = std::max(size, std::abs(value));
     const Index n = static_cast<Index>(r.e.size());
+    if (n == 0 || r.A.rows() < 2 * n) return std::nullopt;
     const LongSingularValues values = singular_values(r.A.bottomLeftCorner(r.A.rows() - n, n));
     return Sides{.stiffness = values.values.size() == 0 ? 0 : values.values[values.values.size() - 1],
                  .grows = std::any_of(found->begin(), found->end(),
@@ -138,7 +139,7 @@ Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at)
     if (!t.speed_rates_by.allFinite()) return Meeting::none;
     const Reduced r = reduced(problem, here.split, t);
     const Index n = static_cast<Index>(r.e.size());
-    if (n == 0) return Meeting::none;
+    if (n == 0 || r.A.rows() < 2 * n) return Meeting::none;
     const LongSingularValues values = singular_values(r.A.bottomLeftCorner(r.A.rows() - n, n));
     if (values.values.size() < n) return Meeting::none;
     const long double least = values.values[n - 1];
