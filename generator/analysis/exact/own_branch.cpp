@@ -155,6 +155,35 @@ bool may_have_crossed(const Program& program, const std::vector<int>& conditions
            (sign_before != 0 && std::abs(after - before) > most_changed * static_cast<double>(solved.size()));
 }
 
+/// Whether the solved variables have gone another way than their slopes at the place tell: where two branches meet
+/// nearby, the state may be on the other one.
+bool has_left_tangent(const Program& program, const std::vector<int>& conditions, const std::vector<Key>& solved,
+                      const State<double>& place, const RealState& state) {
+    constexpr double most = 0.5;  // of the change that the slopes tell, or of that of the free variables
+    const auto n = static_cast<Eigen::Index>(solved.size());
+    if (conditions.size() != solved.size()) return false;
+    Eigen::MatrixXd by_solved(n, n);
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(n), actual(n);
+    double largest = 0;
+    for (const auto& [key, value] : state.value) {
+        const double change = value.to_double() - value_at(place, key);
+        const auto column = slopes_in(program, place, key, conditions);
+        if (!column) continue;
+        const Eigen::VectorXd slope = Eigen::Map<const Eigen::VectorXd>(column->data(), n);
+        const auto found = std::find(solved.begin(), solved.end(), key);
+        if (found == solved.end()) {
+            moved += change * slope;
+            largest = std::max(largest, std::abs(change));
+        } else {
+            by_solved.col(found - solved.begin()) = slope;
+            actual[found - solved.begin()] = change;
+        }
+    }
+    const Eigen::VectorXd told = -by_solved.fullPivLu().solve(moved);
+    if (!told.allFinite()) return true;
+    return (actual - told).cwiseAbs().maxCoeff() > most * std::max(largest, told.cwiseAbs().maxCoeff());
+}
+
 }  // namespace
 
 std::optional<RealState> state_beside(const Program& program, const std::vector<int>& conditions,
@@ -184,7 +213,9 @@ std::optional<RealState> state_beside(const Program& program, const std::vector<
             return std::nullopt;
         state.value[solved[i]] = (*found)[i];
     }
-    if (may_have_crossed(program, conditions, solved, place, state)) return std::nullopt;
+    if (may_have_crossed(program, conditions, solved, place, state) ||
+        has_left_tangent(program, conditions, solved, place, state))
+        return std::nullopt;
     state.exact = false;
     return state;
 }
