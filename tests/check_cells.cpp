@@ -12,14 +12,9 @@ namespace check_cells {
 using namespace alembert;
 using GiNaC::symbol;
 using test::check_verdicts;
+using test::checked_on_sheets;
 
 namespace {
-
-Checked of(const std::string& scene, const std::string& claims) {
-    const Scene read = with_claims(parse_scene(scene, "scene.toml"), claims, "claims.txt");
-    const Prepared made = prepared(read, {}, true);
-    return check(made.scene, made.mechanism, made.sheets);
-}
 
 /// A mass on a line with this force.
 std::string pushed_by(const std::string& force, const std::string& start = "{ initial = 0.02, rate = 0.1 }") {
@@ -50,26 +45,27 @@ TEST_CASE("check: a stop beside the start or far from it belongs to the equation
     for (const std::string stop : {"max(0, -x - 0.05)", "max(0, x - 20)", "max(0, x - b)", "max(0, x - 0.021)",
                                    "(abs(x + 3) - x - 3)/2", "-min(0, 4 - x)"}) {
         CAPTURE(stop);
-        const Checked checked = of(pushed_by("-k*x + h*" + stop), fmt::format(R"(
+        const Checked checked = checked_on_sheets(pushed_by("-k*x + h*" + stop), fmt::format(R"(
 m*x'' + k*x = 0
 m*x'' + k*x - h*{0} = 0
 m*x'' + k*x + h*{0} = 0
 )",
-                                                                              stop));
+                                                                                             stop));
         check_verdicts(checked, {refuted, proved, refuted});
         CHECK(checked.claims[0].holds_where.size() == 1);
     }
 }
 
 TEST_CASE("check: a refuted claim tells on which side it holds") {
-    const Checked checked = of(pushed_by("-k*x + h*max(0, -x - 0.05)"), "m*x'' + k*x = 0\nabs(x - 20) = 20 - x\n");
+    const Checked checked =
+        checked_on_sheets(pushed_by("-k*x + h*max(0, -x - 0.05)"), "m*x'' + k*x = 0\nabs(x - 20) = 20 - x\n");
     check_verdicts(checked, {refuted, refuted});
     CHECK(checked.claims[0].holds_where == std::vector<std::string>{"x > -0.05"});
     CHECK(checked.claims[1].holds_where == std::vector<std::string>{"x < 20"});
 }
 
 TEST_CASE("check: sides of free coordinates and rates are not those of the start") {
-    check_verdicts(of(pushed_by("-k*x"), R"(
+    check_verdicts(checked_on_sheets(pushed_by("-k*x"), R"(
 abs(x - 20) = 20 - x
 abs(x + 2) = x + 2
 sign(x' + 4) = 1
@@ -85,7 +81,7 @@ abs(x + b) = x + b
 }
 
 TEST_CASE("check: cells without states do not count") {
-    check_verdicts(of(pushed_by("-k*x"), R"(
+    check_verdicts(checked_on_sheets(pushed_by("-k*x"), R"(
 abs(x^2 + 1) = x^2 + 1
 abs(k + m) = k + m
 abs(2 + sin(x)) = 2 + sin(x)
@@ -111,7 +107,7 @@ position = [0, "y"]
 [forces]
 y = "-c*norm(vel(P))*y'"
 )toml";
-    check_verdicts(of(thrown, R"(
+    check_verdicts(checked_on_sheets(thrown, R"(
 m*y'' + m*g = -c*y'^2
 m*y'' + m*g = -c*y'*abs(y')
 m*y'' + m*g = -c*y'*sqrt(y'^2)
@@ -139,7 +135,8 @@ mass = "m"
 position = ["s*cos(alpha)", "-s*sin(alpha)"]
 )toml",
                                               value);
-        const Checked checked = of(slope, "s'' = g*sin(alpha)\ns'' = g*cos(alpha)\ns'' = g*sin(beta)\n");
+        const Checked checked =
+            checked_on_sheets(slope, "s'' = g*sin(alpha)\ns'' = g*cos(alpha)\ns'' = g*sin(beta)\n");
         check_verdicts(checked, {proved, refuted, refuted});
         CHECK(checked.claims[2].reason.find("scene's values") != std::string::npos);
     }

@@ -12,14 +12,9 @@ namespace check_jumps {
 
 using namespace alembert;
 using test::check_verdicts;
+using test::checked_on_sheets;
 
 namespace {
-
-Checked of(const std::string& scene, const std::string& claims) {
-    const Scene read = with_claims(parse_scene(scene, "scene.toml"), claims, "claims.txt");
-    const Prepared made = prepared(read, {}, true);
-    return check(made.scene, made.mechanism, made.sheets);
-}
 
 /// A mass with this force; the parameters are those of all tests here.
 std::string pushed_by(const std::string& force, const std::string& start = "{ initial = 0.5, rate = -1.2 }") {
@@ -46,7 +41,7 @@ const auto proved = Verdict::proved, refuted = Verdict::refuted;
 }  // namespace
 
 TEST_CASE("check: a constant of the motion does not jump") {
-    const Checked spring = of(pushed_by("-k*x"), R"(
+    const Checked spring = checked_on_sheets(pushed_by("-k*x"), R"(
 constants C D E F G H
 sign(x') = C
 x/abs(x) = D
@@ -58,7 +53,7 @@ sign(2 + sin(x)) = H
     check_verdicts(spring, {refuted, refuted, proved, proved, refuted, proved});
     CHECK(spring.claims[0].reason.find("x' = 0") != std::string::npos);
     CHECK(spring.claims[0].residual_value == doctest::Approx(2));
-    check_verdicts(of(pushed_by("-(a + b*sign(5 - t))*x"), R"(
+    check_verdicts(checked_on_sheets(pushed_by("-(a + b*sign(5 - t))*x"), R"(
 constants C D
 sign(5 - t) = C
 m*x'^2 + (a + b*sign(5 - t))*x^2 = D
@@ -67,22 +62,26 @@ m*x'^2 + (a + b*sign(5 - t))*x^2 = D
 }
 
 TEST_CASE("check: what no motion crosses is no jump, and an angle may jump on half of its border") {
-    check_verdicts(of(pushed_by("0"), "constants C D\nsign(x') = C\natan2(x', 2) = D\n"), {proved, proved});
-    check_verdicts(of(pushed_by("-k*x"), "constants C\natan2(x', sqrt(k/m)*x) + sqrt(k/m)*t = C\n"), {refuted});
+    check_verdicts(checked_on_sheets(pushed_by("0"), "constants C D\nsign(x') = C\natan2(x', 2) = D\n"),
+                   {proved, proved});
+    check_verdicts(checked_on_sheets(pushed_by("-k*x"), "constants C\natan2(x', sqrt(k/m)*x) + sqrt(k/m)*t = C\n"),
+                   {refuted});
 }
 
 TEST_CASE("check: claims that share a constant or a name are each wrong on their own side") {
+    check_verdicts(checked_on_sheets(pushed_by("-k*max(x, 0) - a*min(x, 0)"),
+                                     "constants C\nm*x'^2 + k*x^2 = C\nm*x'^2 + a*x^2 = C\n"),
+                   {refuted, refuted});
     check_verdicts(
-        of(pushed_by("-k*max(x, 0) - a*min(x, 0)"), "constants C\nm*x'^2 + k*x^2 = C\nm*x'^2 + a*x^2 = C\n"),
-        {refuted, refuted});
-    check_verdicts(of(pushed_by("-k*max(0, x - a)"), "unknowns R\nm*x'' = -R\nR = 0\nR = k*(x - a)\n"),
-                   {refuted, refuted, refuted});
-    check_verdicts(of(pushed_by("-k*max(0, x - a)"), "unknowns R\nm*x'' = -R\nR = k*max(0, x - a)\n"),
-                   {proved, proved});
+        checked_on_sheets(pushed_by("-k*max(0, x - a)"), "unknowns R\nm*x'' = -R\nR = 0\nR = k*(x - a)\n"),
+        {refuted, refuted, refuted});
+    check_verdicts(
+        checked_on_sheets(pushed_by("-k*max(0, x - a)"), "unknowns R\nm*x'' = -R\nR = k*max(0, x - a)\n"),
+        {proved, proved});
 }
 
 TEST_CASE("check: an integral holds on all sides, and its constant has a value on each") {
-    check_verdicts(of(pushed_by("-k*sign(x - 0.05)"), R"(
+    check_verdicts(checked_on_sheets(pushed_by("-k*sign(x - 0.05)"), R"(
 constants C D E
 m*x'^2/2 + k*(x - 0.05) = C
 m*x'^2/2 + k*abs(x - 0.05) = D
@@ -92,7 +91,7 @@ max(x, 30) = E
 }
 
 TEST_CASE("check: coefficients near the prime of exact arithmetic are compared in numbers") {
-    const Checked big = of(pushed_by("-k*x"), R"(
+    const Checked big = checked_on_sheets(pushed_by("-k*x"), R"(
 m*x'' + 2305843009213693952*k*x = 0
 2305843009213693952*x'' = x''
 m*x'' + k*x + 2305843009213693951*x^3 = 0
@@ -124,7 +123,7 @@ kinetic = "J*phi'^2/2"
 name = "blade"
 nonholonomic = "x'*sin(phi) - y'*cos(phi)"
 )toml";
-    check_verdicts(of(blade, R"(
+    check_verdicts(checked_on_sheets(blade, R"(
 sqrt(x'^2 + y'^2) = x'*cos(phi) + y'*sin(phi)
 x'^2 + y'^2 = (x'*cos(phi) + y'*sin(phi))^2
 )"),
@@ -146,14 +145,15 @@ position = ["x", "y"]
 x = "6*x - x^3"
 y = "(y^2 - 2)*y"
 )toml";
-    check_verdicts(of(wells, "rest\nx*(y^2 - 2) = 0\nx^3 = 6*x\ny^3 = 2*y\nx = 0\n"),
+    check_verdicts(checked_on_sheets(wells, "rest\nx*(y^2 - 2) = 0\nx^3 = 6*x\ny^3 = 2*y\nx = 0\n"),
                    {refuted, proved, proved, refuted});
-    check_verdicts(of(pushed_by("-a*sin(6*x) - 0.1*x'", "\"pi/2\""), "rest\nsin(x)*cos(x) = 0\nsin(6*x) = 0\n"),
+    check_verdicts(checked_on_sheets(pushed_by("-a*sin(6*x) - 0.1*x'", "\"pi/2\""),
+                                     "rest\nsin(x)*cos(x) = 0\nsin(6*x) = 0\n"),
                    {refuted, proved});
 }
 
 TEST_CASE("check: sines of inverse functions, on all sides") {
-    check_verdicts(of(pushed_by("-k*x"), R"(
+    check_verdicts(checked_on_sheets(pushed_by("-k*x"), R"(
 sin(asin(x)) = x
 cos(atan(x))*sqrt(1 + x^2) = 1
 tan(atan(x)) = x
@@ -172,7 +172,7 @@ x = A*cos(5*t)
 x = A*cos(sqrt(k/m)*t)
 x = B*sin(sqrt(k/m)*t)
 )";
-    check_verdicts(of(pushed_by("-k*x"), two), {refuted, proved, proved});
+    check_verdicts(checked_on_sheets(pushed_by("-k*x"), two), {refuted, proved, proved});
 }
 
 TEST_CASE("check: where an impact is, angles that constraints relate have no other values") {
@@ -198,7 +198,8 @@ a = "S"
 name = "tie"
 holonomic = "sin(a) - sin(b)"
 )toml";
-    check_verdicts(of(tied, "impact\na' = -b'\na' - a'(-) = S/(3*m*l^2)\na' = b'\n"), {proved, proved, refuted});
+    check_verdicts(checked_on_sheets(tied, "impact\na' = -b'\na' - a'(-) = S/(3*m*l^2)\na' = b'\n"),
+                   {proved, proved, refuted});
 }
 
 TEST_CASE("constraints whose rates stand in absolute values, roots, larger and smaller values are refused") {

@@ -26,6 +26,14 @@ inline Checked checked(const std::string& name, const std::string& claims) {
         with_claims(read_scene(source_path("scenes/textbook/" + name + ".toml")), claims, "claims.txt"));
 }
 
+/// Claims about a scene that is written down, on the sheets of roots on which it starts, as the command judges
+/// them.
+inline Checked checked_on_sheets(const std::string& scene, const std::string& claims) {
+    const Scene read = with_claims(parse_scene(scene, "scene.toml"), claims, "claims.txt");
+    const Prepared made = prepared(read, {}, true);
+    return check(made.scene, made.mechanism, made.sheets);
+}
+
 inline void check_verdicts(const Checked& result, const std::vector<Verdict>& expected) {
     REQUIRE(result.claims.size() == expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {

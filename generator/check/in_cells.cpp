@@ -111,11 +111,7 @@ bool InCells::is_empty(Cell cell) const {
     for (ex& e : positive) e = now_.m.z->expand(e);
     for (std::size_t k = 0; k < sides_.size(); ++k)
         if (sides_[k]) positive.push_back((cell >> k & 1U) != 0 ? *sides_[k] : ex(-*sides_[k]));
-    std::vector<GiNaC::symbol> above_zero;
-    const ParameterValues values(now_.m);
-    for (const Mechanism::Parameter& p : now_.m.parameters)
-        if (p.independent && values.number(p.symbol) > 0) above_zero.push_back(p.symbol);
-    return is_impossible(positive, above_zero);
+    return is_impossible(positive, positive_parameters(now_.m));
 }
 
 InCells::Known InCells::look(Cell cell, const Exact& exact) {

@@ -88,10 +88,7 @@ private:
     }
 
     bool has_one_sign(const ex& side) const {
-        std::vector<GiNaC::symbol> above_zero;
-        const ParameterValues values(told_.mechanism);
-        for (const Mechanism::Parameter& p : told_.mechanism.parameters)
-            if (p.independent && values.number(p.symbol) > 0) above_zero.push_back(p.symbol);
+        const std::vector<GiNaC::symbol> above_zero = positive_parameters(told_.mechanism);
         return is_impossible({side}, above_zero) || is_impossible({-side}, above_zero);
     }
 

@@ -99,4 +99,13 @@ private:
     GiNaC::exmap known_;
 };
 
+/// The independent ones whose values in the scene are positive.
+inline std::vector<GiNaC::symbol> positive_parameters(const Mechanism& mechanism) {
+    const ParameterValues values(mechanism);
+    std::vector<GiNaC::symbol> result;
+    for (const Mechanism::Parameter& p : mechanism.parameters)
+        if (p.independent && values.number(p.symbol) > 0) result.push_back(p.symbol);
+    return result;
+}
+
 }  // namespace alembert

@@ -159,20 +159,16 @@ bool has_solution(std::vector<std::vector<Fraction>> A, std::vector<Fraction> b)
     return true;
 }
 
-void gather(const ex& e, GiNaC::exset& symbols) {
-    if (GiNaC::is_a<GiNaC::symbol>(e)) symbols.insert(e);
-    for (const ex& part : e) gather(part, symbols);
-}
-
 /// (x + b/2a)² for a x² + b x with numbers a, b.
 void add_squares(const ex& given, Generators& generators) {
     const ex e = given.expand();
-    GiNaC::exset symbols;
-    gather(e, symbols);
-    for (const ex& x : symbols) {
-        if (!e.is_polynomial(x) || e.degree(x) != 2) continue;
-        const ex a = e.coeff(x, 2), b = e.coeff(x, 1);
-        if (GiNaC::is_a<GiNaC::numeric>(a) && GiNaC::is_a<GiNaC::numeric>(b))
+    const auto terms = monomial_terms(e);
+    if (!terms) return;
+    for (const auto& term : *terms) {
+        const ex& square = term.first;
+        if (!GiNaC::is_a<GiNaC::power>(square) || !square.op(1).is_equal(2)) continue;
+        const ex x = square.op(0), a = e.coeff(x, 2), b = e.coeff(x, 1);
+        if (GiNaC::is_a<GiNaC::symbol>(x) && GiNaC::is_a<GiNaC::numeric>(a) && GiNaC::is_a<GiNaC::numeric>(b))
             generators.keep(GiNaC::pow(x + b / (2 * a), 2).expand(), false);
     }
 }

@@ -103,63 +103,70 @@ bool zeros_are_rates(const SteadyProblem& problem, const Reduced& r, const Stead
     return true;
 }
 
-/// How a state is judged: whether some eigenvalue grows.
-struct Sides {
-    long double stiffness = 0;  ///< the least singular value of the accelerations by the coordinates
-    bool grows = false;
-};
-
-std::optional<Sides> sides_at(const SteadyProblem& problem, Instant<long double> at) {
-    if (!problem.settle_at(at)) return std::nullopt;
+/// Nothing where inertia is singular.
+std::optional<Reduced> reduced_at(const SteadyProblem& problem, const Instant<long double>& at) {
     const SteadySystem here = problem.linearized_at(at, at.u);
     const Tangent<long double> t =
         tangent(problem.residuals(), here.split, at, is_at_kink(problem.residuals(), at));
     if (!t.speed_rates_by.allFinite()) return std::nullopt;
-    const Reduced r = reduced(problem, here.split, t);
-    const auto found = eigenvalues(r.A);
-    if (!found) return std::nullopt;
-    long double size = 0;
-    for (const auto& value : *found) size = std::max(size, std::abs(value));
+    return reduced(problem, here.split, t);
+}
+
+/// The accelerations by the coordinates; nothing where there are fewer speeds than coordinates.
+std::optional<LongSingularValues> stiffness(const Reduced& r) {
     const Index n = static_cast<Index>(r.e.size());
     if (n == 0 || r.A.rows() < 2 * n) return std::nullopt;
-    const LongSingularValues values = singular_values(r.A.bottomLeftCorner(r.A.rows() - n, n));
-    return Sides{.stiffness = values.values.size() == 0 ? 0 : values.values[values.values.size() - 1],
-                 .grows = std::any_of(found->begin(), found->end(),
-                                      [&](const auto& value) { return value.real() > on_axis * size; })};
+    return singular_values(r.A.bottomLeftCorner(r.A.rows() - n, n));
+}
+
+/// At a state beside another one.
+struct Beside {
+    long double least = 0;  ///< singular value of the stiffness
+    bool grows = false;     ///< whether some eigenvalue does
+};
+
+std::optional<Beside> beside(const SteadyProblem& problem, Instant<long double> at) {
+    if (!problem.settle_at(at)) return std::nullopt;
+    const std::optional<Reduced> r = reduced_at(problem, at);
+    const auto values = r ? stiffness(*r) : std::nullopt;
+    const auto found = r ? eigenvalues(r->A) : std::nullopt;
+    if (!values || !found) return std::nullopt;
+    long double size = 0;
+    for (const auto& value : *found) size = std::max(size, std::abs(value));
+    return Beside{.least = values->values[values->values.size() - 1],
+                  .grows = std::any_of(found->begin(), found->end(),
+                                       [&](const auto& value) { return value.real() > on_axis * size; })};
 }
 
 }  // namespace
 
 Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at) {
+    // Newton's method knows a double root to the square root of its last digits, and a triple root to less.
     constexpr long double known_to = 2e-5L, much = 0.5L, nothing = 1e-17L;
     if (problem.residuals().n == 0 || !problem.has_first_approximation(at)) return Meeting::none;
-    const SteadySystem here = problem.linearized_at(at, at.u);
-    const Tangent<long double> t =
-        tangent(problem.residuals(), here.split, at, is_at_kink(problem.residuals(), at));
-    if (!t.speed_rates_by.allFinite()) return Meeting::none;
-    const Reduced r = reduced(problem, here.split, t);
-    const Index n = static_cast<Index>(r.e.size());
-    if (n == 0 || r.A.rows() < 2 * n) return Meeting::none;
-    const LongSingularValues values = singular_values(r.A.bottomLeftCorner(r.A.rows() - n, n));
-    if (values.values.size() < n) return Meeting::none;
-    const long double least = values.values[n - 1];
-    const VectorOf<long double> softest = values.right.col(n - 1);
-    std::vector<Sides> beside;
+    const std::optional<Reduced> r = reduced_at(problem, at);
+    const auto values = r ? stiffness(*r) : std::nullopt;
+    if (!values) return Meeting::none;
+    const Index n = static_cast<Index>(r->e.size());
+    const long double least = values->values[n - 1];
+    const VectorOf<long double> softest = values->right.col(n - 1);
+    const Split split = problem.linearized_at(at, at.u).split;
+    long double most = 0, change = 0;
+    int growing = 0;
     for (const long double sign : {1.0L, -1.0L}) {
         Instant<long double> other = at;
         for (Index j = 0; j < n; ++j) {
-            const auto q = static_cast<std::size_t>(here.split.q[static_cast<std::size_t>(r.e[j])]);
+            const auto q = static_cast<std::size_t>(split.q[static_cast<std::size_t>(r->e[j])]);
             other.q[q] += sign * known_to * problem.scales()[q] * softest[j];
         }
-        const auto found = sides_at(problem, std::move(other));
-        if (!found) return Meeting::none;
-        beside.push_back(*found);
+        const auto there = beside(problem, std::move(other));
+        if (!there) return Meeting::none;
+        most = std::max(most, there->least);
+        change = std::max(change, std::abs(there->least - least));
+        growing += there->grows ? 1 : 0;
     }
-    const long double most = std::max(beside[0].stiffness, beside[1].stiffness),
-                      change =
-                          std::max(std::abs(beside[0].stiffness - least), std::abs(beside[1].stiffness - least));
-    if (most <= nothing * values.values[0] || change <= much * least) return Meeting::none;
-    return beside[0].grows && beside[1].grows ? Meeting::grows : Meeting::open;
+    if (most <= nothing * values->values[0] || change <= much * least) return Meeting::none;
+    return growing == 2 ? Meeting::grows : Meeting::open;
 }
 
 namespace {
@@ -200,11 +207,8 @@ bool is_conservative(const Mechanism& m, const Residuals& residuals) {
 
 MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Instant<long double>& at) {
     if (!problem.has_first_approximation(at)) return {};
-    const SteadySystem here = problem.linearized_at(at, at.u);
-    const Tangent<long double> t =
-        tangent(problem.residuals(), here.split, at, is_at_kink(problem.residuals(), at));
-    if (!t.speed_rates_by.allFinite()) return {};
-    return reduced(problem, here.split, t).A;
+    const std::optional<Reduced> r = reduced_at(problem, at);
+    return r ? r->A : MatrixOf<long double>();
 }
 
 StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 
+#include "analysis/exact/cells.hpp"
 #include "stability/linear/dense_long.hpp"
 
 namespace alembert {
@@ -18,12 +19,13 @@ namespace {
 constexpr long double nothing = 1e-9L;  // relative to the largest element; smaller derivatives count as zero
 constexpr int random_states = 3;
 
-/// On whose sign a signum, an absolute value, a larger or a smaller value depends.
-std::vector<int> compared(const Program& p, const std::vector<int>& roots) {
-    std::vector<int> result;
-    for (const int id : p.needed(roots))
-        if (p[id].op == Op::sign || p[id].op == Op::abs || p[id].op == Op::min || p[id].op == Op::max)
-            result.insert(result.end(), p[id].args.begin(), p[id].args.end());
+/// The variables on which it depends on what side of a sign, an absolute value, a larger or a smaller value nodes
+/// are.
+std::vector<Variable> deciding(Program program, const std::vector<int>& roots) {
+    const Cells cells(program, roots);
+    std::vector<Variable> result;
+    for (const int id : program.needed(cells.sides()))
+        if (program[id].op == Op::variable) result.push_back(program[id].variable);
     return result;
 }
 
@@ -36,9 +38,7 @@ void add_sides(const Residuals& r, const Split& split, Dependences& depends) {
     for (Index i = 0; i < p + nr; ++i) {
         std::vector<int> roots = i < p ? shared : std::vector<int>();
         roots.push_back(i < p ? r.forcing[split.u[i]] : r.rate[split.q[i - p]]);
-        for (const int id : r.program.needed(compared(r.program, roots))) {
-            if (r.program[id].op != Op::variable) continue;
-            const Variable& v = r.program[id].variable;
+        for (const Variable& v : deciding(r.program, roots)) {
             if (v.kind == Variable::Kind::time) depends(i, nr + p) = true;
             const auto q = v.kind == Variable::Kind::coordinate
                                ? std::find(split.q.begin(), split.q.end(), v.index)
@@ -49,6 +49,11 @@ void add_sides(const Residuals& r, const Split& split, Dependences& depends) {
 }
 
 }  // namespace
+
+bool switches_in_time(const Program& program, int node) {
+    const std::vector<Variable> all = deciding(program, {node});
+    return std::any_of(all.begin(), all.end(), [](const Variable& v) { return v.kind == Variable::Kind::time; });
+}
 
 Dependences dependences(const Residuals& residuals, const Split& split, const Instant<long double>& at) {
     const Index p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size()),

@@ -7,14 +7,19 @@
 ///     const std::vector<bool> essential = essential_coordinates(depends, residuals, split, instant);
 ///
 /// They are found at random states near the given one, not from the form of the equations. So a coordinate that
-/// cancels is cyclic too, also if constraints have been eliminated.
+/// cancels is cyclic too, also if constraints have been eliminated. What decides on a side of a sign, an absolute
+/// value, a larger or a smaller value counts by the form of the equations: the border may be far from the state.
 
 #include "stability/linear/tangent.hpp"
 
 namespace alembert {
 
-/// Rows: w', r'; columns: r, w, t. True where the derivative is not zero at one of a few states.
+/// Rows: w', r'; columns: r, w, t. True where the derivative is not zero at one of a few states, or beyond a
+/// border.
 using Dependences = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// Whether a node has a sign, an absolute value, a larger or a smaller value that t decides.
+bool switches_in_time(const Program& program, int node);
 
 Dependences dependences(const Residuals& residuals, const Split& split, const Instant<long double>& at);
 
