@@ -85,8 +85,13 @@ class Browser:
         return self._do("POST", "execute/sync", {"script": script, "args": list(arguments)})
 
     def run_until_told(self, script, *arguments):
-        """What a script gives to the function that is its last argument."""
-        return self._do("POST", "execute/async", {"script": script, "args": list(arguments)})
+        """What a script gives to the function that is its last argument: never null, which Chromium 150 answers where a
+        dialog opens meanwhile."""
+        for _ in range(20):
+            told = self._do("POST", "execute/async", {"script": script, "args": list(arguments)})
+            if told is not None:
+                return told
+        raise Refused("a script of the page tells nothing")
 
     def click(self, selector):
         found = self._do("POST", "element", {"using": "css selector", "value": selector})
