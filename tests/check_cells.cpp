@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "analysis/exact/impossible.hpp"
+#include "algebra/symbolic/impossible.hpp"
 #include "checked.hpp"
 
 namespace check_cells {
@@ -139,6 +139,61 @@ position = ["s*cos(alpha)", "-s*sin(alpha)"]
             checked_on_sheets(slope, "s'' = g*sin(alpha)\ns'' = g*cos(alpha)\ns'' = g*sin(beta)\n");
         check_verdicts(checked, {proved, refuted, refuted});
         CHECK(checked.claims[2].reason.find("scene's values") != std::string::npos);
+    }
+}
+
+TEST_CASE("check: what is assumed of the sign of parameters is told, unless positive parameters imply it") {
+    using Words = std::vector<std::string>;
+    const Checked checked = checked_on_sheets(R"toml(
+[parameters]
+m = 1
+a = 3
+b = 1
+F = -2
+alpha = 1
+[coordinates]
+x = 1
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", 0]
+[forces]
+x = "-a*x + b*x + F*cos(alpha)"
+)toml",
+                                              R"(
+m*x'' + abs(a - b)*x = F*cos(alpha)
+m*x'' + (max(a, b) - min(a, b))*x = F*cos(alpha)
+m*x'' + (a - b)*x + abs(F)*cos(alpha) = 0
+m*x'' + (a - b)*x = F*abs(cos(alpha))
+m*x'' + (a - b)*x = F*abs(m*cos(alpha))/m*sign(a^2 + b)
+m*x'' + (a - b)*x = F*abs(a*m/b)*b/(a*m)*cos(alpha)
+m*abs(x'')*sign(F) = abs((a - b)*x - F*cos(alpha))
+m*x'' + sign(b - a)*x = F*cos(alpha)
+)");
+    check_verdicts(checked, {proved, proved, proved, proved, proved, proved, refuted, refuted});
+    const std::vector<Words> where{{"a - b > 0"},      {"a - b > 0"},      {"F < 0"},
+                                   {"cos(alpha) > 0"}, {"cos(alpha) > 0"}, {},
+                                   {"F < 0"},          {"a - b > 0"}};
+    for (std::size_t k = 0; k < where.size(); ++k) {
+        CAPTURE(k);
+        CHECK(checked.claims[k].where == where[k]);
+    }
+}
+
+TEST_CASE("check: absolute values within absolute values cut the states into cells") {
+    for (const std::string zone : {"sign(x)*max(0, abs(x) - b)", "max(0, x - b) + min(0, x + b)",
+                                   "max(0, x - b) - max(0, -x - b)", "x - max(-b, min(b, x))"}) {
+        CAPTURE(zone);
+        const std::string claims = fmt::format(R"(
+m*x'' + k*({0}) = 0
+m*x'' + k*sign(x)*max(0, abs(x) - b) = 0
+m*x'' + k*(x - max(-b, min(b, x))) = 0
+m*x'' + k*max(0, x - b) = 0
+m*x'' + k*sign(x)*abs(abs(x) - b) = 0
+)",
+                                               zone);
+        check_verdicts(checked_on_sheets(pushed_by("-k*sign(x)*max(0, abs(x) - b)"), claims),
+                       {proved, proved, proved, refuted, refuted});
     }
 }
 

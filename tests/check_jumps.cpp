@@ -152,6 +152,51 @@ y = "(y^2 - 2)*y"
                    {refuted, proved});
 }
 
+TEST_CASE("check: an equation of rest that is solved for a parameter has its other factors too") {
+    const std::string across = R"toml(
+[parameters]
+m = 1
+k = 10
+l = 0.5
+h = 0.4
+[coordinates]
+x = 0.8
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", 0]
+[[point]]
+name = "H"
+offset = [0, "h"]
+[[spring]]
+between = ["H", "P"]
+stiffness = "k"
+length = "l"
+)toml";
+    const std::vector<std::string> claims{"abs(x) = sqrt(l^2 - h^2)", "x*(abs(x) - sqrt(l^2 - h^2)) = 0",
+                                          "x = sqrt(l^2 - h^2)", "x^2 = l^2 - h^2", "x = 0"};
+    const std::vector<Verdict> right{refuted, proved, refuted, refuted, refuted};
+    std::string all = "rest\n";
+    for (std::size_t k = 0; k < claims.size(); ++k) {
+        check_verdicts(checked_on_sheets(across, "rest\n" + claims[k] + "\n"), {right[k]});
+        all += claims[k] + "\n";
+    }
+    check_verdicts(checked_on_sheets(across, all), right);
+}
+
+TEST_CASE("check: motions in closed form are differentiated on all sides") {
+    check_verdicts(checked_on_sheets(pushed_by("-k*max(x, 0)"), "constants A\nsolution\nx = A*cos(sqrt(k/m)*t)\n"),
+                   {refuted});
+    check_verdicts(checked_on_sheets(pushed_by("k*abs(t - 1)"), R"(
+constants A B
+solution
+x = k*abs(t - 1)^3/(6*m) + A
+x = -k*abs(t - 1)^3/(6*m)
+x = k*(t - 1)^3/(6*m) + B
+)"),
+                   {proved, refuted, refuted});
+}
+
 TEST_CASE("check: sines of inverse functions, on all sides") {
     check_verdicts(checked_on_sheets(pushed_by("-k*x"), R"(
 sin(asin(x)) = x

@@ -63,7 +63,7 @@ TEST_CASE("check: signs, quotients and functions of a formula are where its text
     for (const Phrase& phrase : {negative(product({x, y})), product({half, x, quotient(y, product({x, x}))}),
                                  sum({negative(quotient(x, y)), negative(sum({x, y})), negative(power(x, 2))}),
                                  product({negative(x), y}), power(sum({x, y}), Rational(-3) / 2),
-                                 quotient(sum({x, y}), half), call("csgn", {negative(product({half, x}))}),
+                                 quotient(sum({x, y}), half), call("signum", {negative(product({half, x}))}),
                                  call("maximum", {x, sum({y, number(Rational(981) / 100, true)})}),
                                  power(quotient(x, y), 3), quotient(quotient(x, y), quotient(y, x))})
         check_tree(phrase);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The cells that have states modulo the prime are an affine space over GF(2), since Legendre's symbol multiplies,
 // and its states are shared out evenly among them: 60 states more than its dimension span it but for a chance of
-// 2⁻⁶⁰.
+// 2⁻⁶⁰. Where |·| stands within |·| they are several such spaces together; of k sides each cell that has states
+// has a share of about 2⁻ᵏ of them at least, and so many states are looked at that none of this share is missed.
 #include "check/in_cells.hpp"
 
 #include <fmt/format.h>
@@ -11,8 +12,9 @@
 #include <bit>
 #include <cmath>
 
+#include "algebra/symbolic/impossible.hpp"
+#include "algebra/symbolic/on_sides.hpp"
 #include "analysis/exact/expression_of.hpp"
-#include "analysis/exact/impossible.hpp"
 #include "base/language/say.hpp"
 #include "check/in_print.hpp"
 #include "check/vanishing.hpp"
@@ -97,7 +99,10 @@ bool InCells::visit() {
         ++count[*cell];
         ++usable;
         const int dimensions = dimension(count);
-        if (usable < beyond_dimension + dimensions || visited_.size() < (std::size_t{1} << dimensions)) continue;
+        const bool is_spanned =
+            usable >= beyond_dimension + dimensions && visited_.size() >= (std::size_t{1} << dimensions);
+        const double missed = usable * std::log2(1 - std::ldexp(1.0, -static_cast<int>(cells_->sides().size())));
+        if (!is_spanned && missed > wanted_failure) continue;
         if (std::all_of(visited_.begin(), visited_.end(), [](const auto& one) {
                 return !one.second.is_zero || one.second.failure <= wanted_failure;
             }))
@@ -111,7 +116,9 @@ bool InCells::is_empty(Cell cell) const {
     for (ex& e : positive) e = now_.m.z->expand(e);
     for (std::size_t k = 0; k < sides_.size(); ++k)
         if (sides_[k]) positive.push_back((cell >> k & 1U) != 0 ? *sides_[k] : ex(-*sides_[k]));
-    return is_impossible(positive, positive_parameters(now_.m));
+    std::vector<ex> in_cell;
+    for (const ex& e : positive) in_cell.push_back(where_positive(e, positive));
+    return is_impossible(in_cell, positive_parameters(now_.m));
 }
 
 InCells::Known InCells::look(Cell cell, const Exact& exact) {

@@ -8,12 +8,16 @@
 
 namespace alembert {
 
-std::string in_print(const GiNaC::ex& e, const Mechanism& mechanism) {
+using GiNaC::ex;
+
+std::string in_print(const ex& e, const Mechanism& mechanism) {
     const auto f = fourier(e, *mechanism.symbols);
     return f ? text(readable(*f)) : std::string();
 }
 
-std::string inequality(const GiNaC::ex& positive, const Mechanism& mechanism) {
+std::string inequality(const ex& positive, const Mechanism& mechanism) {
+    if (const ex opposite = -positive; GiNaC::is_a<GiNaC::symbol>(opposite))
+        return in_print(opposite, mechanism) + " < 0";
     const std::string written = in_print(positive, mechanism);
     return (written.empty() ? say("a root of the claim") : written) + " > 0";
 }

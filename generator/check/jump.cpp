@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "algebra/symbolic/impossible.hpp"
 #include "analysis/exact/cells.hpp"
 #include "analysis/exact/expression_of.hpp"
-#include "analysis/exact/impossible.hpp"
 #include "check/in_print.hpp"
 #include "check/vanishing.hpp"
 #include "model/parameter_values.hpp"

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "algebra/symbolic/fifty_digits.hpp"
+#include "algebra/symbolic/on_sides.hpp"
 #include "base/language/say.hpp"
 #include "check/verdict.hpp"
 #include "model/energy.hpp"
@@ -43,12 +44,19 @@ ex in_independent_parameters(ex e, const Mechanism& m) {
     return e;
 }
 
-bool has_sides(const ex& e) {
-    if (GiNaC::is_a<GiNaC::function>(e)) {
-        const std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
-        if (name == "absolute" || name == "minimum" || name == "maximum" || name == "csgn") return true;
+/// Whether it is zero on all sides of its absolute values, signs, smaller and larger values.
+bool is_zero_on_all_sides(const ex& e, const Mechanism& m, const std::vector<ex>& chosen = {}) {
+    constexpr std::size_t most_sides = 6;
+    const std::vector<ex> sides = sides_of(e);
+    if (sides.empty()) return is_identically_zero(e, m);
+    if (chosen.size() == most_sides) return false;
+    // The innermost is the first. On one side of it the others may be other sides.
+    for (const ex& positive : {sides[0], ex(-sides[0])}) {
+        std::vector<ex> list = chosen;
+        list.push_back(positive);
+        if (!is_zero_on_all_sides(where_positive(e, list).expand(), m, list)) return false;
     }
-    return std::any_of(e.begin(), e.end(), has_sides);
+    return true;
 }
 
 /// Times 10 or 100 or a tenth, and what may be negative with either sign.
@@ -80,7 +88,7 @@ std::optional<numeric> size_of(const ex& e, const GiNaC::exmap& at) {
 
 ZeroTest zero_test(const ex& given, const Mechanism& m) {
     const ex e = in_independent_parameters(given, m).expand();
-    if (e.is_zero() || is_identically_zero(e, m)) return {.zero = true};
+    if (e.is_zero() || is_zero_on_all_sides(e, m)) return {.zero = true};
     GiNaC::exset found;
     gather(e, found);
     std::vector<GiNaC::symbol> symbols;
@@ -88,7 +96,7 @@ ZeroTest zero_test(const ex& given, const Mechanism& m) {
         if (found.contains(s)) symbols.push_back(s);
     const FiftyDigits digits;
     // Beyond a threshold far away or of the other sign it may be otherwise.
-    const int tries = has_sides(e) ? 60 : 6;
+    const int tries = sides_of(e).empty() ? 6 : 60;
     for (int seed = 1; seed <= tries; ++seed) try {
             GiNaC::exmap at;
             ZeroTest result{.zero = false};

@@ -8,6 +8,7 @@
 #include "algebra/notation/readable.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "algebra/symbolic/functions.hpp"
+#include "algebra/symbolic/impossible.hpp"
 #include "model/parameter_values.hpp"
 
 namespace alembert {
@@ -18,6 +19,7 @@ using GiNaC::numeric;
 namespace {
 
 constexpr double largest_square = 3000;  // the most nodes with all intermediate symbols substituted
+constexpr double almost_zero = 1e-9;     // at the start, of what may be positive or negative
 
 std::optional<ex> root_of_number(const ex& e) {
     const ex root = sqrt(e);
@@ -70,7 +72,8 @@ std::optional<ex> root_of_polynomial(const Polynomial& square) {
 
 }  // namespace
 
-RootSheets::RootSheets(const Mechanism& m) : symbols_(m.symbols), moving_(m.moving()) {
+RootSheets::RootSheets(const Mechanism& m)
+    : symbols_(m.symbols), moving_(m.moving()), above_zero_(positive_parameters(m)) {
     const ParameterValues values(m);
     for (const Mechanism::Parameter& p : m.parameters) start_[p.symbol] = values.number(p.symbol);
     for (int i = 0; i < m.size(); ++i) {
@@ -121,52 +124,78 @@ std::optional<ex> RootSheets::root(const ex& square, Intermediates& z, Of of) {
     else
         sort(*found);
     const double size = at_start(length);
-    if (!std::isfinite(size) || std::abs(size) < 1e-9) return std::nullopt;
+    if (!std::isfinite(size) || std::abs(size) < almost_zero) return std::nullopt;
     const ex e = size > 0 ? length : ex(-length);
-    const bool positive_by_itself =
-        GiNaC::is_a<numeric>(e) || (GiNaC::is_a<GiNaC::symbol>(e) && !z.depends(e, moving_));
-    const auto add_to = [&](std::vector<ex>& list) {
-        if (std::none_of(list.begin(), list.end(),
-                         [&](const ex& known) { return (known - e).expand().is_zero(); }))
-            list.push_back(e);
-    };
-    if (!positive_by_itself) {
-        add_to(positive_);
-        add_to(needed_);
-    }
+    assume(e);
     return rest.is_equal(1) ? z.name(e) : z.name(e * *apply_function("abs", {z.name(rest)}));
 }
 
-/// Nothing if the expression has no factor of numbers and parameters, or that factor is zero.
-std::optional<RootSheets::Split> RootSheets::split(const ex& e, const Intermediates& z) const {
+bool RootSheets::is_known_positive(const ex& e) const {
+    return GiNaC::is_a<numeric>(e) ? e.info(GiNaC::info_flags::positive) : is_impossible({-e}, above_zero_);
+}
+
+void RootSheets::assume(const ex& e) {
+    if (is_known_positive(e)) return;
+    for (std::vector<ex>* list : {&positive_, &needed_})
+        if (std::none_of(list->begin(), list->end(),
+                         [&](const ex& known) { return (known - e).expand().is_zero(); }))
+            list->push_back(e);
+}
+
+/// Nothing if the expression has no factor of numbers and parameters whose sign is known.
+std::optional<RootSheets::Split> RootSheets::split(const ex& e, const Intermediates& z) {
     if (z.tree_size(e) > largest_square) return std::nullopt;
     const auto f = fourier(z.expand(e), *symbols_);
     if (!f || f->polynomial().is_zero()) return std::nullopt;
     const Factorization factors = Factorizer()(f->polynomial());
-    Split result{.constant = expression(factors.unit), .rest = 1};
-    for (const Factor& factor : factors.monomial)
-        (factor.atom->steady ? result.constant : result.rest) *=
-            expression(Polynomial(factor.atom, factor.exponent));
-    for (const auto& [sum, exponent] : factors.sums) {
-        const ex value = expression(sum);
-        (is_steady(sum) ? result.constant : result.rest) *= pow(value, exponent);
+    Split result{.constant = 1, .rest = 1};
+    const auto take = [&](const ex& base, const ex& power, bool is_odd) {
+        const double size = is_known_positive(base) ? 1 : at_start(base);
+        if (!std::isfinite(size) || std::abs(size) < almost_zero) {
+            result.rest *= power;
+            return;
+        }
+        const ex sign = size < 0 && is_odd ? -1 : 1;
+        result.constant *= sign * power;
+        result.rest *= sign;
+        if (is_odd) assume(size < 0 ? ex(-base) : base);
+    };
+    take(expression(factors.unit), expression(factors.unit), true);
+    for (const Factor& factor : factors.monomial) {
+        const ex base = expression(Polynomial(factor.atom, 1)),
+                 power = expression(Polynomial(factor.atom, factor.exponent));
+        if (factor.atom->steady)
+            take(base, power, !is_integer(factor.exponent / 2));
+        else
+            result.rest *= power;
     }
-    const double size = at_start(result.constant);
-    if (result.constant.is_equal(1) || !std::isfinite(size) || size == 0) return std::nullopt;
-    if (size < 0) result = {.constant = -result.constant, .rest = -result.rest};
-    return result;
+    for (const auto& [sum, exponent] : factors.sums) {
+        const ex base = expression(sum), power = pow(base, exponent);
+        if (is_steady(sum))
+            take(base, power, exponent % 2 != 0);
+        else
+            result.rest *= power;
+    }
+    return result.constant.is_equal(1) ? std::nullopt : std::optional(result);
 }
 
-std::optional<ex> RootSheets::magnitude(const ex& e, Intermediates& z) const {
+std::optional<ex> RootSheets::magnitude(const ex& e, Intermediates& z) {
     const auto parts = split(e, z);
     if (!parts) return std::nullopt;
     return z.name(parts->constant * *apply_function("abs", {z.name(parts->rest)}));
 }
 
-std::optional<ex> RootSheets::sign(const ex& e, Intermediates& z) const {
+std::optional<ex> RootSheets::sign(const ex& e, Intermediates& z) {
     const auto parts = split(e, z);
     if (!parts) return std::nullopt;
     return z.name(*apply_function("sign", {z.name(parts->rest)}));
+}
+
+std::optional<bool> RootSheets::is_larger(const ex& a, const ex& b, const Intermediates& z) {
+    if (z.depends(a - b, moving_)) return std::nullopt;
+    const auto parts = split(a - b, z);
+    if (!parts || !GiNaC::is_a<numeric>(parts->rest)) return std::nullopt;
+    return parts->rest.info(GiNaC::info_flags::positive);
 }
 
 }  // namespace alembert

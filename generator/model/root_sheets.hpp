@@ -10,9 +10,10 @@
 ///     if (const auto e = sheets.root(r*r, *mechanism.z)) …  // r
 ///     sheets.positive();                      // r
 ///
-/// Nothing is assumed if e vanishes at the initial state or if a square is not recognized. |e| and sign e are kept
-/// but for factors that consist of parameters only, because a coordinate may pass zero: |r θ'| is r |θ'|.
-/// Simulations keep their roots.
+/// Nothing is assumed if e vanishes at the initial state or if a square is not recognized. |e|, sign e, min and
+/// max are kept but for what consists of parameters only, because a coordinate may pass zero: |r θ'| is r |θ'|,
+/// and |a - b| is a - b for the values of the scene. What is assumed of parameters is told like lengths, unless it
+/// follows from the positive ones being positive. Simulations keep their roots.
 
 #include <memory>
 #include <optional>
@@ -34,8 +35,10 @@ public:
     /// gets those of the root.
     std::optional<GiNaC::ex> root(const GiNaC::ex& square, Intermediates& z, Of of = Of::formula);
     /// |e| and sign e, with the factors of numbers and parameters outside; nothing if there are none.
-    std::optional<GiNaC::ex> magnitude(const GiNaC::ex& e, Intermediates& z) const;
-    std::optional<GiNaC::ex> sign(const GiNaC::ex& e, Intermediates& z) const;
+    std::optional<GiNaC::ex> magnitude(const GiNaC::ex& e, Intermediates& z);
+    std::optional<GiNaC::ex> sign(const GiNaC::ex& e, Intermediates& z);
+    /// Whether a > b; nothing if their difference does not consist of numbers and parameters.
+    std::optional<bool> is_larger(const GiNaC::ex& a, const GiNaC::ex& b, const Intermediates& z);
 
     /// The expressions that are positive on the sheet and could be negative elsewhere, each once. They depend on
     /// coordinates or are differences of parameters.
@@ -44,11 +47,14 @@ public:
     std::vector<GiNaC::ex> take_needed() { return std::exchange(needed_, {}); }
 
 private:
-    /// `constant` is positive at the scene's values.
+    /// `constant` is positive, by what is assumed.
     struct Split {
         GiNaC::ex constant, rest;
     };
-    std::optional<Split> split(const GiNaC::ex& e, const Intermediates& z) const;
+    std::optional<Split> split(const GiNaC::ex& e, const Intermediates& z);
+    /// Keeps that e is positive, unless it is so for all positive parameters.
+    void assume(const GiNaC::ex& e);
+    bool is_known_positive(const GiNaC::ex& e) const;
     double at_start(const GiNaC::ex& e) const;
     bool is_of_positions(const GiNaC::ex& e) const;
     std::optional<GiNaC::ex> square_root(const GiNaC::ex& square, const Intermediates& z) const;
@@ -56,6 +62,7 @@ private:
     std::shared_ptr<Symbols> symbols_;
     GiNaC::exmap start_;  ///< coordinates, rates, t and parameters → numbers
     std::vector<GiNaC::symbol> moving_;
+    std::vector<GiNaC::symbol> above_zero_;  ///< parameters
     std::vector<GiNaC::ex> positive_, needed_;
 };
 

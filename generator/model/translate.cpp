@@ -198,6 +198,9 @@ std::optional<ex> Translator::applied(const std::string& function, const std::ve
     if (sheets_ && function == "sqrt") on_sheet = sheets_->root(args[0], z);
     if (sheets_ && function == "abs") on_sheet = sheets_->magnitude(args[0], z);
     if (sheets_ && function == "sign") on_sheet = sheets_->sign(args[0], z);
+    if (sheets_ && (function == "min" || function == "max") && args.size() == 2)
+        if (const auto first_is_larger = sheets_->is_larger(args[0], args[1], z))
+            on_sheet = args[*first_is_larger == (function == "max") ? 0 : 1];
     return on_sheet ? on_sheet : apply_function(function, args);
 }
 

@@ -106,7 +106,7 @@ std::string function_latex(const std::string& name) {
                                                           {"acos", "\\arccos"},
                                                           {"atan", "\\arctan"},
                                                           {"log", "\\ln"},
-                                                          {"csgn", "\\operatorname{sgn}"},
+                                                          {"signum", "\\operatorname{sgn}"},
                                                           {"minimum", "\\min"},
                                                           {"maximum", "\\max"}};
     for (const char* own : {"sin", "cos", "tan", "sinh", "cosh", "tanh"})

@@ -115,7 +115,7 @@ std::string write_quotient(const Phrase& phrase) {
 std::string function_name_mathml(const std::string& name) {
     static const std::map<std::string, std::string> names{
         {"asin", "arcsin"}, {"acos", "arccos"}, {"atan", "arctan"}, {"log", "ln"},
-        {"csgn", "sgn"},    {"minimum", "min"}, {"maximum", "max"}};
+        {"signum", "sgn"},  {"minimum", "min"}, {"maximum", "max"}};
     const auto found = names.find(name);
     return identifier(found == names.end() ? name : found->second);
 }

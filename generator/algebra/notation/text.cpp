@@ -119,7 +119,10 @@ std::string write(const Phrase& phrase) {
 }  // namespace
 
 std::string language_name(const std::string& function) {
-    return function == "csgn" ? "sign" : function == "minimum" ? "min" : function == "maximum" ? "max" : function;
+    return function == "signum"    ? "sign"
+           : function == "minimum" ? "min"
+           : function == "maximum" ? "max"
+                                   : function;
 }
 
 std::string text(const Phrase& phrase) {

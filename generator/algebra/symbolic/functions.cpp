@@ -32,18 +32,49 @@ ex maximum_eval(const ex& a, const ex& b) {
     return is_second ? (*is_second ? b : a) : ex(maximum(a, b).hold());
 }
 
-}  // namespace
+ex derivative_of_minimum(const ex& a, const ex& b, unsigned k) {
+    return function_derivative(minimum(a, b), static_cast<int>(k));
+}
+ex derivative_of_maximum(const ex& a, const ex& b, unsigned k) {
+    return function_derivative(maximum(a, b), static_cast<int>(k));
+}
 
-REGISTER_FUNCTION(minimum, eval_func(minimum_eval).evalf_func(minimum_eval))
-REGISTER_FUNCTION(maximum, eval_func(maximum_eval).evalf_func(maximum_eval))
-
-namespace {
 ex absolute_eval(const ex& x) {
     if (GiNaC::is_a<GiNaC::numeric>(x)) return GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(x));
     return absolute(x).hold();
 }
+ex derivative_of_absolute(const ex& x, unsigned) {
+    return signum(x);
+}
+
+ex signum_eval(const ex& x) {
+    if (GiNaC::is_a<GiNaC::numeric>(x)) return GiNaC::ex_to<GiNaC::numeric>(x).csgn();
+    if (GiNaC::is_a<GiNaC::mul>(x))
+        if (const ex factor = x.op(x.nops() - 1); GiNaC::is_a<GiNaC::numeric>(factor))
+            return factor.info(GiNaC::info_flags::positive) ? ex(signum(x / factor)) : ex(-signum(x / factor));
+    return signum(x).hold();
+}
+ex signum_evalf(const ex& x) {
+    return signum_eval(x);
+}
+ex derivative_of_signum(const ex&, unsigned) {
+    return 0;
+}
+/// sign³ is sign.
+ex signum_power(const ex& x, const ex& exponent) {
+    const bool is_whole = exponent.info(GiNaC::info_flags::posint);
+    if (is_whole && exponent.info(GiNaC::info_flags::odd)) return signum(x).hold();
+    return GiNaC::power(signum(x), is_whole ? ex(2) : exponent).hold();
+}
+
 }  // namespace
-REGISTER_FUNCTION(absolute, eval_func(absolute_eval))
+
+REGISTER_FUNCTION(minimum, eval_func(minimum_eval).evalf_func(minimum_eval).derivative_func(derivative_of_minimum))
+REGISTER_FUNCTION(maximum, eval_func(maximum_eval).evalf_func(maximum_eval).derivative_func(derivative_of_maximum))
+REGISTER_FUNCTION(absolute, eval_func(absolute_eval).derivative_func(derivative_of_absolute))
+REGISTER_FUNCTION(
+    signum,
+    eval_func(signum_eval).evalf_func(signum_evalf).derivative_func(derivative_of_signum).power_func(signum_power))
 
 namespace {
 
@@ -74,7 +105,6 @@ struct Unary {
     ex (*derivative)(const ex& x, const ex& call);
 };
 
-// GiNaC's own derivatives of csgn are those of complex functions; everything here is real.
 const std::array<Unary, 13> unary{{
     {"sin", "sin", exact_sine, [](const ex& x, const ex&) -> ex { return exact_cosine(x); }},
     {"cos", "cos", exact_cosine, [](const ex& x, const ex&) -> ex { return -exact_sine(x); }},
@@ -95,8 +125,8 @@ const std::array<Unary, 13> unary{{
     {"exp", "exp", [](const ex& x) -> ex { return exp(x); }, [](const ex&, const ex& y) -> ex { return y; }},
     {"log", "log", [](const ex& x) -> ex { return log(x); }, [](const ex& x, const ex&) -> ex { return 1 / x; }},
     {"abs", "absolute", [](const ex& x) -> ex { return absolute(x); },
-     [](const ex& x, const ex&) -> ex { return csgn(x); }},
-    {"sign", "csgn", [](const ex& x) -> ex { return csgn(x); }, [](const ex&, const ex&) -> ex { return 0; }},
+     [](const ex& x, const ex&) -> ex { return signum(x); }},
+    {"sign", "signum", [](const ex& x) -> ex { return signum(x); }, [](const ex&, const ex&) -> ex { return 0; }},
 }};
 
 const Unary& find_unary(const std::string& ginac_name) {
@@ -143,7 +173,7 @@ ex function_derivative(const ex& call, int k) {
     }
     if (name == "minimum" || name == "maximum") {  // 1 where this argument is the one chosen, else 0
         const ex difference = name == "minimum" ? call.op(1) - call.op(0) : call.op(0) - call.op(1);
-        const ex chosen = (1 + csgn(difference)) / 2;
+        const ex chosen = (1 + signum(difference)) / 2;
         return k == 0 ? chosen : 1 - chosen;
     }
     return find_unary(name).derivative(call.op(0), call);

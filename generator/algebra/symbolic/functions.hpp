@@ -19,6 +19,9 @@ DECLARE_FUNCTION_2P(maximum)
 /// |x| of a real x: GiNaC's abs makes x times its conjugate of a square.
 DECLARE_FUNCTION_1P(absolute)
 
+/// The sign of a real x, which does not change but where x is zero: GiNaC's csgn has no derivative.
+DECLARE_FUNCTION_1P(signum)
+
 /// `name(args)` as a GiNaC expression; empty if the language has no such function.
 std::optional<GiNaC::ex> apply_function(const std::string& name, const std::vector<GiNaC::ex>& args);
 

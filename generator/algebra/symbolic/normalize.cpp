@@ -122,7 +122,7 @@ private:
         if (name == "conjugate" || name == "real_part") return first;
         if (name == "imag_part") return {};
         const bool negative = !args[0].is_zero() && args[0].terms()[0].coefficient < 0;
-        for (const char* odd : {"tan", "asin", "atan", "sinh", "tanh", "asinh", "atanh", "csgn", "sign"})
+        for (const char* odd : {"tan", "asin", "atan", "sinh", "tanh", "asinh", "atanh", "signum", "sign"})
             if (name == odd && args.size() == 1 && negative)
                 return Rational(-1) * Fourier(compound_atom(Kind::function, {-args[0]}, name));
         for (const char* even : {"cosh", "abs"})

@@ -14,6 +14,7 @@
 #include "base/language/say.hpp"
 #include "model/formalism/rest.hpp"
 #include "model/held_functions.hpp"
+#include "model/parameter_values.hpp"
 #include "program/lower/lower.hpp"
 
 namespace alembert {
@@ -79,8 +80,9 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
     const Mechanism m = in_terms_of(e, mechanism);
     rubbed_ = rubbed_rows(m, e);
     if (!rubbed_.empty()) need_determined_reactions(m);
-    positive_ = static_cast<int>(
-        std::count_if(m.parameters.begin(), m.parameters.end(), [](const auto& p) { return p.independent; }));
+    const ParameterValues values(m);
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (p.independent) is_negative_.push_back(values.number(p.symbol) < 0);
     std::vector<ex> list;
     for (int i = 0; i < n_; ++i)
         for (int j = 0; j < n_; ++j) list.push_back(e.M(i, j));
@@ -165,6 +167,7 @@ void Motions::order(const std::vector<int>& conditions) {
 
 void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex>& balance, const Mechanism& m,
                          const std::vector<std::pair<GiNaC::symbol, int>>& given) {
+    std::map<int, ex> sum_of;  // of a condition
     const auto ordered = [&](const std::vector<ex>& sums) {
         std::vector<int> conditions = positions;
         std::set<int> irreducible;
@@ -172,6 +175,7 @@ void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex
         for (std::size_t i = 0; i < sums.size(); ++i) {
             if (program_.is_zero(nodes[i])) continue;
             conditions.push_back(nodes[i]);
+            sum_of[nodes[i]] = sums[i];
             if (!holds_parameters_alone(program_, nodes[i])) continue;
             const TrigonometricProduct product = product_of(sums[i].expand(), m);
             if (product.bases.size() != 1) continue;
@@ -193,7 +197,40 @@ void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex
     }
     steps_ = std::move(found.steps);
     loose_ = std::move(found.left);
-    if (!loose_.empty()) obstacle_ = say("the equations of rest cannot be solved one after the other");
+    if (!loose_.empty() || !find_other_factors(sum_of, m, given))
+        obstacle_ = say("the equations of rest cannot be solved one after the other");
+}
+
+bool Motions::find_other_factors(const std::map<int, ex>& sums, const Mechanism& m,
+                                 const std::vector<std::pair<GiNaC::symbol, int>>& given) {
+    const auto is_solved = [&](int id) {
+        const Variable& v = program_[id].variable;
+        return program_[id].op == Op::variable && std::any_of(steps_.begin(), steps_.end(), [&](const auto& step) {
+                   return step.variable.kind == v.kind && step.variable.index == v.index;
+               });
+    };
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+        const auto sum = sums.find(steps_[k].node);
+        if (steps_[k].variable.kind != Variable::Kind::parameter || sum == sums.end()) continue;
+        const TrigonometricProduct product = product_of(sum->second.expand(), m);
+        if (product.bases.size() < 2) continue;
+        for (const ex& base : product.bases) {
+            const ex factor = base.subs(product.functions, GiNaC::subs_options::no_pattern);
+            const int node = lower_expressions(program_, m, {factor}, given)[0];
+            const std::vector<int> needed = program_.needed(std::vector{node});
+            const bool is_own = std::any_of(needed.begin(), needed.end(), [&](int id) {
+                return program_[id].op == Op::variable && program_[id].variable.kind == steps_[k].variable.kind &&
+                       program_[id].variable.index == steps_[k].variable.index;
+            });
+            if (is_own) continue;
+            SolvingOrder other = solving_order(program_, {node});
+            if (!other.left.empty() || std::any_of(needed.begin(), needed.end(), is_solved)) return false;
+            for (std::size_t i = 0; i < steps_.size(); ++i)
+                if (i != k) other.steps.push_back(steps_[i]);
+            other_steps_.push_back(std::move(other.steps));
+        }
+    }
+    return true;
 }
 
 void Motions::find_branches() {
@@ -257,14 +294,15 @@ Motions::Outcome Motions::solve_steps(ExactState& state, const OwnPoint* own, st
         forget();
         return Outcome::dependent_rows;
     }
-    if (step == steps_.size()) return Outcome::solved;
-    const int most_draws = 8 * static_cast<int>(steps_.size()) + 8;
+    const std::vector<SolvingStep>& list = steps(state.point.seed);
+    if (step == list.size()) return Outcome::solved;
+    const int most_draws = 8 * static_cast<int>(list.size()) + 8;
     const OwnRoot* const root = own == nullptr ? nullptr : &own->roots[step];
     for (std::size_t after = 0;; ++after) {
         ExactState next = state;
-        const Solved outcome = solve_condition(program_, steps_[step], next, root, after);
+        const Solved outcome = solve_condition(program_, list[step], next, root, after);
         if (!outcome.found) return Outcome::no_root;
-        if (root == nullptr && !irreducible_[step])
+        if (root == nullptr && (&list != &steps_ || !irreducible_[step]))
             next.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
         const Outcome rest = solve_steps(next, own, step + 1, known);
         if (rest == Outcome::solved) state = std::move(next);
@@ -280,9 +318,10 @@ std::optional<ExactState> Motions::solved(ExactState state, const OwnPoint* own,
         for (int i = 0; i < n_; ++i)
             for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration})
                 state.point.given[{kind, i}] = 0;
-    for (int i = 0; i < positive_; ++i) {
-        const Prime root = state.point.random(901, static_cast<std::uint64_t>(i));
-        state.point.given.try_emplace({Variable::Kind::parameter, i}, root * root);
+    for (std::size_t i = 0; i < is_negative_.size(); ++i) {
+        const Prime root = state.point.random(901, i), square = root * root;
+        state.point.given.try_emplace({Variable::Kind::parameter, static_cast<int>(i)},
+                                      is_negative_[i] ? -square : square);
     }
     auto point = usable_->at(std::move(state.point));
     if (!point) return std::nullopt;

@@ -27,7 +27,8 @@
 /// Dry friction on a constraint has the normal force |λ|, so that the equations are linear in q'' and λ once the
 /// sign of each such λ is known. All signs are tried, from a random one on, and the first solution that has the
 /// signs with which it was found is taken; a sign is Legendre's symbol here, as in every evaluation
-/// (program/modular.hpp). Parameters are squares: they count as positive.
+/// (program/modular.hpp). Parameters are squares: they count as positive; those that are negative in the scene are
+/// squares times -1, which is none.
 ///
 /// Constraints may have several branches (x² = l²: x = l and x = −l), and a statement that holds on one branch
 /// need not hold on the others. One of the roots of a polynomial of degree d is drawn at random, so that each
@@ -50,9 +51,11 @@
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
 /// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met. An
 /// equation of rest in parameters alone, g·(m₂ sin β − m₁ sin α) = 0, is solved for one of them if it has one
-/// factor besides parameters, which do not vanish. Equations that cannot be solved one after the other as they are
-/// may become so when they are combined (analysis/exact/reduced_sums.hpp).
+/// factor besides parameters, which do not vanish. An equation x·(l − √(x² + h²)) = 0 that is solved for the
+/// parameter l vanishes with its other factor too: some seeds take x = 0. Equations that cannot be solved one
+/// after the other as they are may become so when they are combined (analysis/exact/reduced_sums.hpp).
 
+#include <map>
 #include <set>
 
 #include "analysis/exact/exact_state.hpp"
@@ -112,6 +115,11 @@ public:
 
     /// The steps in the order of solving.
     const std::vector<SolvingStep>& steps() const { return steps_; }
+    /// Those that this seed takes.
+    const std::vector<SolvingStep>& steps(std::uint64_t seed) const {
+        const std::size_t choice = seed % (other_steps_.size() + 1);
+        return choice == 0 ? steps_ : other_steps_[choice - 1];
+    }
 
     /// The entries of the system as nodes, which can also be evaluated in other arithmetic.
     struct System {
@@ -126,6 +134,11 @@ public:
     int size() const { return n_; }
     int halves() const { return halves_; }
     int constraints() const { return m_; }
+    /// Whether an independent parameter is negative in the scene, and so in all states.
+    bool is_negative(int parameter) const {
+        return parameter < static_cast<int>(is_negative_.size()) &&
+               is_negative_[static_cast<std::size_t>(parameter)];
+    }
     /// The rows on which friction acts, in ascending order: `f` contains the absolute values of their multipliers,
     /// linearly, and no other multiplier of the equations.
     const std::vector<int>& rubbed() const { return rubbed_; }
@@ -142,6 +155,9 @@ private:
     /// Orders the conditions of rest: constraints, and sums that vanish.
     void order_rest(const std::vector<int>& positions, const std::vector<GiNaC::ex>& balance, const Mechanism& m,
                     const std::vector<std::pair<GiNaC::symbol, int>>& given);
+    /// The other factors of equations of rest that are solved for a parameter; false if one is found in no state.
+    bool find_other_factors(const std::map<int, GiNaC::ex>& sums, const Mechanism& m,
+                            const std::vector<std::pair<GiNaC::symbol, int>>& given);
     /// Where the roots exist that these nodes and the conditions need.
     void find_usable_points(std::vector<int> nodes, int halvings);
     void find_branches();
@@ -170,6 +186,7 @@ private:
     Program program_;
     System system_;
     std::vector<SolvingStep> steps_;
+    std::vector<std::vector<SolvingStep>> other_steps_;  ///< at rest, with which other factors are zero
     std::vector<int> loose_, implied_, rubbed_;
     std::vector<bool> irreducible_;  ///< for each step
     std::vector<std::size_t> open_unknowns_;
@@ -180,7 +197,7 @@ private:
     std::string obstacle_;
     At at_;
     int n_ = 0, m_ = 0, gaps_ = 0, halves_ = 0, finer_ = 0;
-    int positive_ = 0;                    ///< how many parameters are squares
+    std::vector<bool> is_negative_;       ///< for each independent parameter
     std::optional<SquarePoints> usable_;  ///< refers to program_
 };
 

@@ -2,6 +2,7 @@
 #include "analysis/exact/real_state.hpp"
 
 #include <cln/dfloat.h>
+#include <cln/float.h>
 #include <cln/rational.h>
 
 #include <algorithm>
@@ -164,7 +165,7 @@ bool solve_positions(const Motions& motions, RealState& state, bool floats, unsi
     constexpr unsigned simple = 12;
     const bool mixes = motions.where() == Motions::At::rest && seed >= first_float_seed + simple;
     unsigned own_seed = seed;
-    for (const SolvingStep& step : motions.steps()) {
+    for (const SolvingStep& step : motions.steps(seed)) {
         if (mixes) own_seed = (own_seed + 1) * 2654435761U >> 7U;
         if (step.second) {
             if (!floats || !solve_two(motions, state, step, seed)) return false;
@@ -180,7 +181,9 @@ bool solve_positions(const Motions& motions, RealState& state, bool floats, unsi
         const bool is_angle = state.angle.contains(key);
         const auto root = root_of([&](const numeric& x) { return at(x, is_angle); }, floats, mixes, own_seed);
         if (!root) return false;
-        if (step.variable.kind == Variable::Kind::parameter && !root->is_positive()) return false;
+        if (step.variable.kind == Variable::Kind::parameter &&
+            root->csgn() != (motions.is_negative(step.variable.index) ? -1 : 1))
+            return false;
         const auto rest = at(*root, false);
         if (!rest) return false;
         if (!is_almost_zero(*rest)) return false;
@@ -424,8 +427,8 @@ private:
 
     static void put_near(RealState& state, const Key& key, const numeric& x, const numeric& step) {
         const numeric moved = decimal((x + step).to_double(), 4);
-        const bool must_be_positive = key.first == Variable::Kind::parameter || key.first == Variable::Kind::time;
-        if (!must_be_positive || moved.is_positive()) put(state, key, moved);
+        const bool keeps_sign = key.first == Variable::Kind::parameter || key.first == Variable::Kind::time;
+        if (!keeps_sign || moved.csgn() == at(state, key).csgn()) put(state, key, moved);
     }
 
     const Program& program_;
@@ -445,9 +448,10 @@ std::optional<RealState> drawn(const Motions& motions, const Program& claims, co
     for (const Key& key : variables.all) {
         if (variables.is_angle(key))
             put_angle(state, key, {numbers.tangent()});
-        else if (key.first == Variable::Kind::parameter || key.first == Variable::Kind::time)
-            state.value[key] = numbers.positive();
-        else
+        else if (key.first == Variable::Kind::parameter || key.first == Variable::Kind::time) {
+            const bool is_negative = key.first == Variable::Kind::parameter && motions.is_negative(key.second);
+            state.value[key] = is_negative ? -numbers.positive() : numbers.positive();
+        } else
             state.value[key] =
                 seed % 2 == 1 && key.first == Variable::Kind::coordinate ? numbers.small() : numbers.any();
     }
@@ -458,7 +462,11 @@ std::optional<RealState> drawn(const Motions& motions, const Program& claims, co
         for (int k = 0; k < motions.constraints(); ++k) state.value[{Variable::Kind::unknown, k}] = numbers.any();
     }
     if (steering != nullptr) steering->steer(state, numbers);
-    if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
+    try {
+        if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
+    } catch (const cln::floating_point_exception&) {  // the search for a root has left all numbers
+        return std::nullopt;
+    }
     return moving(motions, std::move(state), numbers, steering != nullptr ? Rates::kept : Rates::drawn);
 }
 

@@ -92,7 +92,7 @@ void leave_out_cancelling(Occurrences& held, const Program& p, int condition) {
 }
 
 /// Whether the condition, as a polynomial in the parameter, has a root that is the same for other values of the
-/// coordinates.
+/// coordinates; also where that is not known.
 bool has_common_root(const Program& p, const SolvedUnknown& unknown) {
     if (unknown.turned) return true;
     const std::pair key{unknown.variable.kind, unknown.variable.index};
@@ -102,7 +102,8 @@ bool has_common_root(const Program& p, const SolvedUnknown& unknown) {
             if (const Node& node = p[id];
                 node.op == Op::variable && node.variable.kind != Variable::Kind::parameter)
                 point.given[{node.variable.kind, node.variable.index}] =
-                    point.random(951 + seed, static_cast<std::uint64_t>(id));
+                    point.random(951 + seed, 100 * static_cast<std::uint64_t>(node.variable.kind) +
+                                                 static_cast<std::uint64_t>(node.variable.index));
         constexpr std::size_t highest = 8;
         std::vector<Prime> x, y;
         for (std::size_t k = 0; k < highest + 3; ++k) {
@@ -115,8 +116,14 @@ bool has_common_root(const Program& p, const SolvedUnknown& unknown) {
         PrimePolynomial f = interpolate(x, y);
         return f.size() <= highest + 1 ? std::optional(std::move(f)) : std::nullopt;
     };
-    const auto here = polynomial(1), there = polynomial(2);
-    return here && there && prime_polynomial::divisor(*here, *there).size() > 1;
+    constexpr std::uint64_t most_seeds = 40;  // a root may have no value at some
+    std::optional<PrimePolynomial> here;
+    for (std::uint64_t seed = 1; seed <= most_seeds; ++seed) {
+        auto there = polynomial(seed);
+        if (here && there) return prime_polynomial::divisor(*here, *there).size() > 1;
+        if (there) here = std::move(there);
+    }
+    return true;
 }
 
 /// Two conditions, each with two variables that no other condition contains.

@@ -18,16 +18,23 @@ using GiNaC::ex;
 
 namespace {
 
+/// Functions and roots become symbols.
 ex name_functions(const ex& e, Symbols& symbols, GiNaC::exmap& letters, GiNaC::exmap& functions) {
-    if (GiNaC::is_a<GiNaC::function>(e)) {
-        if (const auto found = letters.find(e); found != letters.end()) return found->second;
+    const auto letter = [&](const ex& call) {
+        if (const auto found = letters.find(call); found != letters.end()) return found->second;
         // GiNaC's factor orders by symbol, so the name does not matter.
         const GiNaC::symbol s = symbols.declare("f" + std::to_string(letters.size()), SymbolInfo::Kind::other);
-        letters[e] = s;
-        functions[s] = e;
-        return s;
-    }
+        letters[call] = s;
+        functions[s] = call;
+        return ex(s);
+    };
+    if (GiNaC::is_a<GiNaC::function>(e)) return letter(e);
     if (e.nops() == 0) return e;
+    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::rational) &&
+        !e.op(1).info(GiNaC::info_flags::integer)) {
+        const GiNaC::numeric exponent = GiNaC::ex_to<GiNaC::numeric>(e.op(1));
+        return pow(letter(pow(e.op(0), 1 / ex(exponent.denom()))), exponent.numer());
+    }
     GiNaC::exvector parts;
     for (const ex& part : e) parts.push_back(name_functions(part, symbols, letters, functions));
     if (GiNaC::is_a<GiNaC::add>(e)) return GiNaC::add(std::move(parts));
@@ -42,7 +49,12 @@ TrigonometricProduct product_of(const ex& e, const Mechanism& m) {
     GiNaC::exmap letters;
     const ex plain = name_functions(e, *m.symbols, letters, result.functions);
     result.vanishes = plain.is_zero();
-    const ex product = factored(plain);
+    ex product = factored(plain);
+    if (GiNaC::is_a<GiNaC::add>(product)) {
+        const ex parts = plain.numer_denom();
+        result.has_poles = !GiNaC::is_a<GiNaC::numeric>(parts.op(1));
+        if (result.has_poles) product = factored(parts.op(0).expand());
+    }
     std::vector<ex> factors;
     if (GiNaC::is_a<GiNaC::mul>(product))
         factors.assign(product.begin(), product.end());
@@ -113,7 +125,7 @@ private:
         const ex q = m.q[0];
         const auto normal = [&](const ex& e) { return fourier(e.subs(functions), *m.symbols); };
         for (const auto& [s, call] : functions) {
-            if (!base.has(s) || base.degree(s) != 1) continue;
+            if (!GiNaC::is_a<GiNaC::function>(call) || !base.has(s) || base.degree(s) != 1) continue;
             const ex slope = base.coeff(s, 1), rest = base.coeff(s, 0);
             if (slope.subs(functions).has(q) || rest.subs(functions).has(q)) continue;
             const std::string name = GiNaC::ex_to<GiNaC::function>(call).get_name();

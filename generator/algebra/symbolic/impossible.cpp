@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/exact/impossible.hpp"
+#include "algebra/symbolic/impossible.hpp"
 
 #include <cln/rational.h>
 
