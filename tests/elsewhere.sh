@@ -41,7 +41,7 @@ if [ "${ALEMBERT_ELSEWHERE-}" = '' ] && [ "$(id -u)" -eq 0 ]; then
     ALEMBERT_ELSEWHERE=inside exec unshare --mount -- "$0" "$@"
 fi
 work=$(mktemp -d)
-trap 'umount "$work"/*/dev/pts "$work"/*/dev/shm "$work"/*/proc "$work"/*/dev 2>/dev/null; rm -rf --one-file-system "$work"' EXIT
+trap 'umount "$work"/*/dev/pts "$work"/*/dev/shm "$work"/*/proc "$work"/*/dev 2>/dev/null || true; rm -rf --one-file-system "$work"' EXIT
 for where in "$@"; do
     printf '== %s\n' "$where"
     case $where in

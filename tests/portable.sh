@@ -12,7 +12,7 @@ program=build/release/generator/alembert
 cmake --build build/release --target alembert portable >/dev/null
 archive=$(echo build/release/alembert-*-linux-x86_64.tar.xz)
 work=$(mktemp -d)
-trap 'umount "$work"/*/proc 2>/dev/null; rm -rf --one-file-system "$work"' EXIT
+trap 'umount "$work"/*/proc 2>/dev/null || true; rm -rf --one-file-system "$work"' EXIT
 mkdir "$work/here"
 tar xJf "$archive" -C "$work/here" --strip-components=1
 portable=$work/here/bin/alembert

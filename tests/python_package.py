@@ -9,6 +9,7 @@ import inspect
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -246,6 +247,9 @@ class Wheel(unittest.TestCase):
             site = os.path.join(folder, "site")
             with zipfile.ZipFile(os.path.join(folder, wheel)) as archive:
                 archive.extractall(site)
+                libraries = os.path.join(os.path.dirname(os.path.dirname(alembert.__file__)), "alembert.libs")
+                if os.path.isdir(libraries):  # a wheel with all libraries has put them beside the package
+                    shutil.copytree(libraries, os.path.join(site, "alembert.libs"))
                 names = archive.namelist()
                 (info,) = {name.split("/")[0] for name in names} - {"alembert"}
                 record = [line.split(",")[0] for line in archive.read(f"{info}/RECORD").decode().splitlines()]
@@ -255,6 +259,7 @@ class Wheel(unittest.TestCase):
                     self.assertEqual(file.read(), archive.read(f"{info}/METADATA").decode())
             told = subprocess.run([sys.executable, "-B", "-c", code], cwd=folder, capture_output=True, text=True,
                                   env={**os.environ, "PYTHONPATH": site})  # yapf: disable
+            self.assertEqual(told.returncode, 0, told.stderr)
             where, x, acceleration = told.stdout.split()
             self.assertTrue(where.startswith(site), told.stderr)
             self.assertAlmostEqual(float(x), math.cos(1), places=8)

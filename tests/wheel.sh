@@ -11,7 +11,7 @@ root=$PWD
 python/wheel.sh
 wheel=$(echo "$root"/build/wheel/alembert-*.whl)
 work=$(mktemp -d)
-trap 'umount "$work/system/proc" 2>/dev/null; rm -rf --one-file-system "$work"' EXIT
+trap 'umount "$work/system/proc" 2>/dev/null || true; rm -rf --one-file-system "$work"' EXIT
 cp scenes/textbook/double_pendulum.toml "$work/scene.toml"
 cat >"$work/use.py" <<'EOF'
 import pathlib, re

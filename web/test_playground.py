@@ -245,11 +245,12 @@ def test_link(reader):
     reader.browser.click("#share")
     link = reader.wait("return location.hash.startsWith('#1.') && location.href")
     expect("a link holds the texts", bool(link))
-    texts = "return JSON.stringify([document.getElementById('scene').value, document.getElementById('derivation').value])"
-    before = reader.browser.run(texts)
+    texts = "JSON.stringify([document.getElementById('scene').value, document.getElementById('derivation').value])"
+    before = reader.browser.run("return " + texts)
     browser = reader.browser
     first = reader.window(link)
-    expect("another window shows them", reader.settled() == "ready" and browser.run(texts) == before)
+    same = reader.wait(f"return document.body.dataset.state === 'ready' && {texts} === arguments[0]", before)
+    expect("another window shows them", same, browser.run("return " + texts))
     expect("and the tab that was shared, with its verdicts", reader.shown("marked", "right") and browser.run("return document.body.dataset.tab") == "derivation")
     browser.open(link[:-9] + "AAAAAAAAA")
     reader.wait("return !document.getElementById('problem').hidden")

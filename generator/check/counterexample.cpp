@@ -81,6 +81,15 @@ void add_unspecified(const Told& told, const Motions& motions, const Program& p,
         add_unspecified(told, motions.program(), *entries, state, result);
 }
 
+/// The scene's own speeds and their rates.
+void add_speeds(const Told& told, const RealState& state, Counterexample& result) {
+    const Mechanism& m = told.mechanism;
+    for (const Mechanism::Speed& speed : m.speeds) {
+        add_value(told, speed.u.get_name(), speed.form, state, result);
+        add_value(told, speed.u.get_name() + "'", m.time_derivative({speed.form})[0], state, result);
+    }
+}
+
 }  // namespace
 
 Counterexample described(const Told& told, const RealState& state, const numeric& residual,
@@ -106,6 +115,7 @@ Counterexample described(const Told& told, const RealState& state, const numeric
         else
             add_value(told, m.q[i].get_name() + "'", m.qdot[i] + driven->second, state, result);
     for (int i = 0; i < m.size(); ++i) add(m.q[i].get_name() + "''", {Kind::acceleration, i});
+    add_speeds(told, state, result);
     const auto& lambda = told.equations.lambda;
     for (std::size_t k = 0; k < lambda.size(); ++k)
         if (!m.constraints[k].balance) add(lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});

@@ -100,6 +100,10 @@ private:
     }
 
     bool is_right(const Claim& repaired) {
+        // What speaks of rates says nothing at rest.
+        const bool is_at_rest = !asked_.in_motion && !asked_.at_impact;
+        if (is_at_rest && (has_primes(*repaired.equation.lhs.tree) || has_primes(*repaired.equation.rhs.tree)))
+            return false;
         try {
             return holds_quickly(claims_.read(repaired), asked_.at_impact || speaks_of_scene(repaired, m_));
         } catch (const SceneMistake&) {

@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "present/report/check.hpp"
 
-#include <cln/rational.h>
-#include <cln/rational_io.h>
 #include <fmt/format.h>
 
 #include <array>
 
 #include "base/language/say.hpp"
+#include "present/report/state_text.hpp"
 #include "scene/claim_mode.hpp"
 
 namespace alembert {
-
-namespace {
-
-/// Six digits of a fraction of whole numbers, however long they are; nothing if it is none.
-std::string decimal(const std::string& value) {
-    if (value.find_first_not_of("-0123456789/") != std::string::npos) return "";
-    return fmt::format("{:.6g}", cln::double_approx(cln::cl_RA(value.c_str())));
-}
-
-}  // namespace
 
 const char* name_of(Verdict verdict) {
     return std::array{to_say("proved"), to_say("refuted"), to_say("undecided"),
@@ -34,16 +23,6 @@ std::string words_of_completeness(const Checked& checked) {
     if (all == 1) return say("The equation of motion is still missing.");
     return missing == 1 ? say("1 of {} equations of motion is still missing.", all)
                         : say("{} of {} equations of motion are still missing.", missing, all);
-}
-
-std::string text_of_state(const std::vector<std::pair<std::string, std::string>>& values) {
-    constexpr std::size_t readable = 60;
-    std::string text;
-    for (const auto& [name, value] : values) {
-        const std::string short_value = value.size() > readable ? decimal(value) : "";
-        text += (text.empty() ? "" : ", ") + name + (short_value.empty() ? " = " + value : " ≈ " + short_value);
-    }
-    return text;
 }
 
 bool is_missing_term(const CheckedClaim& claim) {
@@ -122,7 +101,7 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     if (!c.nearest.empty()) line(say("correct equation: "), c.nearest);
     if (!c.counterexample.empty()) {
         line(say("it fails at "), text_of_state(c.counterexample));
-        line(say("where left - right = "), c.residual);
+        line("", say("where {}", as_written(say("left - right"), c.residual)));
     }
     for (const std::string& sides : c.holds_where) line(say("it holds where "), sides);
     return page;

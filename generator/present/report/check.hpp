@@ -18,8 +18,6 @@ std::string as_text(const CheckedScene& checked, const Ink& ink = {});
 std::string words_of_completeness(const Checked& checked);
 /// Whether the difference from the correct equation is just the term that the slip names.
 bool is_missing_term(const CheckedClaim& claim);
-/// "m = 3, theta = 2*atan(2/3)"; fractions of more than 60 characters as six digits, "q1'' ≈ 12.52".
-std::string text_of_state(const std::vector<std::pair<std::string, std::string>>& values);
 /// The verdict as a word: "proved" …
 const char* name_of(Verdict verdict);
 

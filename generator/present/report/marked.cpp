@@ -6,6 +6,7 @@
 #include "base/language/say.hpp"
 #include "present/report/check.hpp"
 #include "present/report/page.hpp"
+#include "present/report/state_text.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -104,7 +105,7 @@ std::string details_of(const MarkedLine& line, const std::string& indent) {
         add(say("wrong term: "), line.term);
     add(say("correct line: "), line.right);
     add(say("it fails at "), text_of_state(c.counterexample));
-    if (!c.counterexample.empty()) add(say("where left - right = "), c.residual);
+    if (!c.counterexample.empty()) add("", say("where {}", as_written(say("left - right"), c.residual)));
     return page;
 }
 

@@ -83,11 +83,7 @@ void add_facts(std::string& page, const MarkedLine& line) {
         put(page, "<p>{}<code>{}</code></p>\n", html(say("wrong term: ")), html(line.term));
     if (!line.right.empty() || !line.right_latex.empty())
         put(page, "<div class=\"repair\">{}{}</div>\n", html(say("correct line: ")), right_line(line));
-    if (c.counterexample.empty()) return;
-    put(page, "<details><summary>{}</summary><dl class=\"state\">", html(say("A state at which it fails")));
-    for (const auto& [name, value] : c.counterexample)
-        put(page, "<div><dt>{}</dt><dd>{}</dd></div>", html(name), html(value));
-    put(page, "</dl><p>{}</p></details>\n", html(say("There left − right = {}", c.residual)));
+    add_failing_state(page, c);
 }
 
 void add_row(std::string& page, const Marked& marked, const MarkedLine& line, const std::string& content) {

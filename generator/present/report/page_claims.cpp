@@ -38,12 +38,7 @@ void add_claim(std::string& body, const Claim& claim, const CheckedClaim& c) {
             put(body, "<div class=\"repair\">{}{}</div>\n", say("Correct equation: "), typeset_text(c.nearest));
         if (!c.difference.empty() && !is_missing_term(c))
             put(body, "<p>{}<code>{}</code></p>\n", say("Extra in your equation: "), html(c.difference));
-        if (!c.counterexample.empty()) {
-            put(body, "<details><summary>{}</summary><dl class=\"state\">", say("A state at which it fails"));
-            for (const auto& [name, value] : c.counterexample)
-                put(body, "<div><dt>{}</dt><dd>{}</dd></div>", html(name), html(value));
-            put(body, "</dl><p>{}</p></details>\n", html(say("There left − right = {}", c.residual)));
-        }
+        add_failing_state(body, c);
     }
     put(body, "</li>\n");
 }

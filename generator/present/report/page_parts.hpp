@@ -34,6 +34,9 @@ private:
 void add_table(std::string& body, const std::string& caption, const std::vector<std::string>& columns,
                const std::vector<std::vector<std::string>>& rows);
 
+/// A fold with the state at which a claim fails.
+void add_failing_state(std::string& body, const CheckedClaim& claim);
+
 /// Begins a table, whose rows follow, with a heading for each column.
 void begin_table(std::string& body, const std::string& caption, const std::vector<std::string>& columns);
 

@@ -7,6 +7,7 @@
 #include "present/report/page_files.hpp"
 #include "present/report/page_parts.hpp"
 #include "present/report/sha256.hpp"
+#include "present/report/state_text.hpp"
 
 namespace alembert {
 
@@ -38,6 +39,18 @@ std::string unit_text(std::string unit) {
         for (std::size_t at = unit.find(typed); at != std::string::npos; at = unit.find(typed))
             unit.replace(at, std::string(typed).size(), print);
     return unit;
+}
+
+void add_failing_state(std::string& body, const CheckedClaim& claim) {
+    if (claim.counterexample.empty()) return;
+    put(body, "<details><summary>{}</summary><dl class=\"state\">", say("A state at which it fails"));
+    for (const auto& [name, value] : claim.counterexample) {
+        const WrittenNumber number = written_number(name, value);
+        put(body, "<div><dt>{}</dt><dd>{}{}</dd></div>", html(name), number.is_exact ? "" : "≈ ",
+            html(number.text));
+    }
+    put(body, "</dl><p>{}</p></details>\n",
+        html(say("There {}", as_written(say("left − right"), claim.residual))));
 }
 
 void begin_table(std::string& body, const std::string& caption, const std::vector<std::string>& columns) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "present/report/state_text.hpp"
+
+#include <cln/rational.h>
+#include <cln/rational_io.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+namespace alembert {
+
+namespace {
+
+bool is_number(std::string_view value) {
+    return !value.empty() && value.find_first_not_of("-+0123456789/.e") == std::string_view::npos;
+}
+
+bool is_fraction(const std::string& value) {
+    return value.find_first_of(".e") == std::string::npos;
+}
+
+double number_of(const std::string& value) {
+    return is_fraction(value) ? cln::double_approx(cln::cl_RA(value.c_str())) : std::stod(value);
+}
+
+/// "1.05" of 21/20.
+WrittenNumber four_digits(const std::string& value) {
+    const bool is_whole = value.find_first_of("./e") == std::string::npos;
+    const std::size_t short_enough = is_whole ? 12 : 7;
+    if (value.size() <= short_enough && value.find('/') == std::string::npos) return {value};
+    const std::string text = fmt::format("{:.4g}", number_of(value));
+    if (!is_fraction(value) || !is_fraction(text.substr(text.find('.') + 1))) return {text, false};
+    const std::size_t point = text.find('.');
+    const std::size_t decimals = point == std::string::npos ? 0 : text.size() - point - 1;
+    std::string digits = text;
+    if (point != std::string::npos) digits.erase(point, 1);
+    const cln::cl_I whole = digits.c_str();
+    return {text, cln::cl_RA(value.c_str()) == whole / cln::expt(cln::cl_RA(10), static_cast<long>(decimals))};
+}
+
+}  // namespace
+
+WrittenNumber written_number(const std::string& name, const std::string& value) {
+    constexpr std::string_view angle = "2*atan(";
+    if (is_number(value)) return four_digits(value);
+    if (!value.starts_with(angle) || !value.ends_with(')')) return {value};
+    const std::string tangent = value.substr(angle.size(), value.size() - angle.size() - 1);
+    if (!is_number(tangent)) return {value};
+    const double half = std::atan(number_of(tangent));
+    if (name == "t") return {fmt::format("{:.4g}", 2 * half), false};
+    const double degrees = half * 360 / std::numbers::pi;
+    return {fmt::format("{:.4g}°", degrees), tangent == "1" || tangent == "-1"};
+}
+
+std::string as_written(const std::string& name, const std::string& value) {
+    const WrittenNumber number = written_number(name, value);
+    return fmt::format("{} {} {}", name, number.is_exact ? "=" : "≈", number.text);
+}
+
+std::string text_of_state(const std::vector<std::pair<std::string, std::string>>& values) {
+    std::string text;
+    for (const auto& [name, value] : values) text += (text.empty() ? "" : ", ") + as_written(name, value);
+    return text;
+}
+
+}  // namespace alembert

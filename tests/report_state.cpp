@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// States as people write them.
+#include <doctest/doctest.h>
+
+#include "present/report/state_text.hpp"
+
+namespace report_state {
+
+using alembert::as_written;
+
+TEST_CASE("report: numbers of a state have four digits, and angles are in degrees") {
+    CHECK(as_written("m", "3") == "m = 3");
+    CHECK(as_written("x", "-21/20") == "x = -1.05");
+    CHECK(as_written("x", "-1/3") == "x ≈ -0.3333");
+    CHECK(as_written("x''", "123456789/1000") == "x'' ≈ 1.235e+05");
+    CHECK(as_written("x", "100000000") == "x = 100000000");
+    CHECK(as_written("x", "2.8284271247461903") == "x ≈ 2.828");
+    CHECK(as_written("theta", "2*atan(2/3)") == "theta ≈ 67.38°");
+    CHECK(as_written("theta", "2*atan(-1)") == "theta = -90°");
+    CHECK(as_written("theta", "2*atan(0.41421356237309503)") == "theta ≈ 45°");
+    CHECK(as_written("t", "2*atan(1/2)") == "t ≈ 0.9273");
+    CHECK(as_written("phi", "pi") == "phi = pi");
+    // A fraction of many digits.
+    const std::string many(400, '7');
+    CHECK(as_written("x", many + "/" + many + "1") == "x ≈ 0.1");
+    CHECK(as_written("x", "1" + std::string(30, '0') + "1/7") == "x ≈ 1.429e+30");
+}
+
+}  // namespace report_state
