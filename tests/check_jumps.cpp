@@ -147,6 +147,9 @@ y = "(y^2 - 2)*y"
 )toml";
     check_verdicts(checked_on_sheets(wells, "rest\nx*(y^2 - 2) = 0\nx^3 = 6*x\ny^3 = 2*y\nx = 0\n"),
                    {refuted, proved, proved, refuted});
+    check_verdicts(checked_on_sheets(pushed_by("(x^2 - 3)*(x^2 - 2)*x", "\"sqrt(2)\""),
+                                     "rest\nx = 0\nx*(x^4 - 5*x^2 + 6) = 0\nx^3 = 3*x\n"),
+                   {refuted, proved, refuted});
     check_verdicts(checked_on_sheets(pushed_by("-a*sin(6*x) - 0.1*x'", "\"pi/2\""),
                                      "rest\nsin(x)*cos(x) = 0\nsin(6*x) = 0\n"),
                    {refuted, proved});

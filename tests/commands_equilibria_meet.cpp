@@ -92,6 +92,20 @@ TEST_CASE("stability, equilibrium: what switches at a time is no constant") {
     }
 }
 
+TEST_CASE("equilibrium, stability: a force that is too flat to be seen nearby is there all the same") {
+    for (const char* force : {"x^25", "-x^25", "k*x^31 - 0.1*x'", "x^21*exp(x)"}) {
+        CAPTURE(std::string(force));
+        const std::string scene = pushed(force);
+        const Json found = json_of({"equilibrium", scene, "--json"});
+        CHECK(found["cyclic"].empty());
+        if (force[0] == '-') continue;  // at rest there it is stable
+        for (const Json& one : found["equilibria"]) CHECK(one["stable"] != "yes");
+        const Json judged = Json::parse(run({"stability", scene, "--json"}).out);
+        CHECK(judged["verdict"] != "stable");
+        CHECK(judged["verdict"] != "asymptotically stable");
+    }
+}
+
 TEST_CASE("equilibrium: beyond a clearance is where a weight rests") {
     const Json found =
         json_of({"equilibrium", pushed("-9.81 - 100*max(0, x - 1) + 100*max(0, -x - 1)"), "--json"});

@@ -20,6 +20,9 @@ TEST_CASE("report: numbers of a state have four digits, and angles are in degree
     CHECK(as_written("theta", "2*atan(0.41421356237309503)") == "theta ≈ 45°");
     CHECK(as_written("t", "2*atan(1/2)") == "t ≈ 0.9273");
     CHECK(as_written("phi", "pi") == "phi = pi");
+    CHECK(as_written("phi", "3.1415926535897931") == "phi = pi");
+    CHECK(as_written("phi", "-2.0943951023931953") == "phi = -2*pi/3");
+    CHECK(as_written("phi", "3.1415926535897") == "phi ≈ 3.142");
     // A fraction of many digits.
     const std::string many(400, '7');
     CHECK(as_written("x", many + "/" + many + "1") == "x ≈ 0.1");

@@ -206,7 +206,8 @@ bool has_family(const Local& local, const Eigen::MatrixXd& V) {
 }
 
 /// The same in numbers: Newton's method finds steady motions a small distance along some random null vectors,
-/// which are combinations of the last columns of V.
+/// which are combinations of the last columns of V, and a larger one, since a force such as x³¹ is nothing nearby.
+/// Where nothing at all acts nearby, as in a dead zone, that is a family however short it is.
 bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
     const int n = local.A.rows, p = static_cast<int>(local.split.u.size());
     const std::size_t ne = local.essential.size();
@@ -240,8 +241,11 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
     const Eigen::MatrixXd across = V.leftCols(n - zeros);
     std::mt19937_64 random(15);
     NormalReal normal;
+    bool acts_nearby = false;
     for (int k = 0; k < (zeros == 1 ? 1 : 2 * zeros); ++k)
-        for (const double step : {0.05, -0.03}) {
+        for (const double step : {0.05, -0.03, 0.5, -0.4}) {
+            const bool is_near = std::abs(step) < 0.1;
+            if (!is_near && !acts_nearby) continue;
             Eigen::VectorXd direction(zeros);
             for (double& one : direction) one = normal(random);
             CertainPoint at = moved(local.point, step * V.rightCols(zeros) * direction.normalized());
@@ -249,6 +253,7 @@ bool finds_family(const Local& local, const Eigen::MatrixXd& V, int zeros) {
             for (int round = 0; round < 60 && residual > 1e-31; ++round) {
                 const Eigen::VectorXd F = rate(local.tangent_at(at));
                 residual = F.norm();
+                acts_nearby = acts_nearby || (is_near && residual != 0);
                 if (zeros == n) break;
                 const Eigen::VectorXd y = least_norm(numbers(local.A) * across, -F).x;
                 at = moved(at, across * y);

@@ -74,8 +74,8 @@ numeric first_guess(unsigned seed, bool both_ways) {
     return seed % 2 == 0 ? size : -size;
 }
 
-/// A root of the polynomial through the values at −1, 0, 1 (and at 2, to check that its degree is not higher), a
-/// fraction if there is one. `seed` chooses among several.
+/// A root of the polynomial through the values at −1, 0, 1 (and at 2 and 17/5, to check that its degree is not
+/// higher), a fraction if there is one. `seed` chooses among several.
 std::optional<numeric> root_of(const std::function<std::optional<numeric>(const numeric&)>& f, bool floats,
                                bool both_ways, unsigned seed) {
     std::array<numeric, 4> y;
@@ -86,9 +86,16 @@ std::optional<numeric> root_of(const std::function<std::optional<numeric>(const 
     }
     if (y[1].is_zero() && seed % 2 == 0) return numeric(0);
     const numeric c = y[1], b = (y[2] - y[0]) / 2, a = (y[2] + y[0]) / 2 - c;
-    const numeric beyond = y[3] - (4 * a + 2 * b + c);
-    const bool quadratic =
-        beyond.is_rational() ? beyond.is_zero() : GiNaC::abs(beyond) < numeric(1, 1000000) * numeric(1, 1000000);
+    const auto is_on_it = [&](const numeric& x, const numeric& value) {
+        const numeric beyond = value - ((a * x + b) * x + c);
+        return beyond.is_rational() ? beyond.is_zero()
+                                    : GiNaC::abs(beyond) < numeric(1, 1000000) * numeric(1, 1000000);
+    };
+    bool quadratic = is_on_it(2, y[3]);
+    if (const numeric far(17, 5); quadratic) {
+        const auto value = f(far);
+        quadratic = !value || is_on_it(far, *value);
+    }
     if (quadratic && a.is_zero())
         return b.is_zero() ? (c.is_zero() ? std::optional(numeric(1)) : std::nullopt) : std::optional(-c / b);
     if (quadratic) {

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string_view>
 
 namespace alembert {
@@ -40,11 +41,27 @@ WrittenNumber four_digits(const std::string& value) {
     return {text, cln::cl_RA(value.c_str()) == whole / cln::expt(cln::cl_RA(10), static_cast<long>(decimals))};
 }
 
+/// "2*pi/3" of a float that is such a multiple to all its digits; empty if it is none.
+std::string multiple_of_pi(const std::string& value) {
+    if (is_fraction(value)) return "";
+    constexpr int parts = 12;  // of a half turn
+    const double ratio = number_of(value) * parts / std::numbers::pi;
+    if (std::abs(ratio) > 100 * parts || std::abs(ratio - std::round(ratio)) > 1e-14 * std::abs(ratio)) return "";
+    const int count = static_cast<int>(std::lround(ratio)), shared = std::gcd(count, parts);
+    if (count == 0) return "";
+    const int above = count / shared, below = parts / shared;
+    const std::string times = above == 1 ? "" : above == -1 ? "-" : fmt::format("{}*", above);
+    return fmt::format("{}pi{}", times, below == 1 ? "" : fmt::format("/{}", below));
+}
+
 }  // namespace
 
 WrittenNumber written_number(const std::string& name, const std::string& value) {
     constexpr std::string_view angle = "2*atan(";
-    if (is_number(value)) return four_digits(value);
+    if (is_number(value)) {
+        const std::string turns = multiple_of_pi(value);
+        return turns.empty() ? four_digits(value) : WrittenNumber{turns};
+    }
     if (!value.starts_with(angle) || !value.ends_with(')')) return {value};
     const std::string tangent = value.substr(angle.size(), value.size() - angle.size() - 1);
     if (!is_number(tangent)) return {value};

@@ -75,14 +75,16 @@ Dependences dependences(const Residuals& residuals, const Split& split, const In
         const long double unit = static_cast<long double>(random() >> 11) / 4503599627370496.0L - 1;
         return x + size * std::max(1.0L, std::abs(x)) * unit;
     };
-    for (int found = 0, tries = 0; found < random_states && tries < 8 * random_states; ++tries) {
-        const long double size = 0.3L / (1 + tries);
-        Instant<long double> other = at;
-        for (const int i : split.q) other.q[i] = about(at.q[i], size);
-        for (const int i : split.u) other.u[i] = about(at.u[i], size);
-        other.t = about(at.t, size);
-        if (settle(residuals, split, other) && note(tangent(residuals, split, other))) ++found;
-    }
+    // Far away too: what has the slope of x²⁵ is nothing nearby.
+    for (const long double reach : {0.3L, 3.0L})
+        for (int found = 0, tries = 0; found < random_states && tries < 8 * random_states; ++tries) {
+            const long double size = reach / (1 + tries);
+            Instant<long double> other = at;
+            for (const int i : split.q) other.q[i] = about(at.q[i], size);
+            for (const int i : split.u) other.u[i] = about(at.u[i], size);
+            other.t = about(at.t, size);
+            if (settle(residuals, split, other) && note(tangent(residuals, split, other))) ++found;
+        }
     add_sides(residuals, split, result);
     return result;
 }
