@@ -150,6 +150,7 @@ m = 1
 a = 3
 b = 1
 F = -2
+z = 0
 alpha = 1
 [coordinates]
 x = 1
@@ -158,19 +159,21 @@ name = "P"
 mass = "m"
 position = ["x", 0]
 [forces]
-x = "-a*x + b*x + F*cos(alpha)"
+x = "-a*x + b*x + F*cos(alpha) + z"
 )toml",
                                               R"(
-m*x'' + abs(a - b)*x = F*cos(alpha)
-m*x'' + (max(a, b) - min(a, b))*x = F*cos(alpha)
-m*x'' + (a - b)*x + abs(F)*cos(alpha) = 0
-m*x'' + (a - b)*x = F*abs(cos(alpha))
-m*x'' + (a - b)*x = F*abs(m*cos(alpha))/m*sign(a^2 + b)
-m*x'' + (a - b)*x = F*abs(a*m/b)*b/(a*m)*cos(alpha)
-m*abs(x'')*sign(F) = abs((a - b)*x - F*cos(alpha))
-m*x'' + sign(b - a)*x = F*cos(alpha)
+m*x'' + abs(a - b)*x = F*cos(alpha) + z
+m*x'' + (max(a, b) - min(a, b))*x = F*cos(alpha) + z
+m*x'' + (a - b)*x + abs(F)*cos(alpha) = z
+m*x'' + (a - b)*x = F*abs(cos(alpha)) + z
+m*x'' + (a - b)*x = F*abs(m*cos(alpha))/m*sign(a^2 + b) + z
+m*x'' + (a - b)*x = F*abs(a*m/b)*b/(a*m)*cos(alpha) + z
+m*abs(x'')*sign(F) = abs((a - b)*x - F*cos(alpha) - z)
+m*x'' + sign(b - a)*x = F*cos(alpha) + z
+m*x'' + (a - b)*x = F*cos(alpha) + abs(z)
+m*x'' + (max(F, a, b) - max(b, F))*x = F*cos(alpha) + z
 )");
-    check_verdicts(checked, {proved, proved, proved, proved, proved, proved, refuted, refuted});
+    check_verdicts(checked, {proved, proved, proved, proved, proved, proved, refuted, refuted, refuted, proved});
     const std::vector<Words> where{{"a - b > 0"},      {"a - b > 0"},      {"F < 0"},
                                    {"cos(alpha) > 0"}, {"cos(alpha) > 0"}, {},
                                    {"F < 0"},          {"a - b > 0"}};

@@ -187,6 +187,79 @@ length = "l"
     check_verdicts(checked_on_sheets(across, all), right);
 }
 
+// Each factor of each equation is zero in some state of rest.
+TEST_CASE("check: rest has all combinations of the factors of its equations") {
+    const std::string two = R"toml(
+[parameters]
+m = 1
+a = 0.5
+b = 2
+[coordinates]
+x = 0.5
+y = 1
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+[forces]
+x = "x*(a - sqrt(x^2 + b^2))"
+y = "y*(b - sqrt(y^2 + a^2))"
+)toml";
+    const std::string x = "x*(a - sqrt(x^2 + b^2))", y = "y*(b - sqrt(y^2 + a^2))";
+    check_verdicts(checked_on_sheets(two, "rest\n" + x + " = 0\n" + y +
+                                              " = 0\nx = 0\ny = 0\nx*y = 0\n"
+                                              "y^2 = b^2 - a^2\n(x^2 + b^2 - a^2)*(y^2 + a^2 - b^2) = 0\n"),
+                   {proved, proved, refuted, refuted, proved, refuted, refuted});
+    check_verdicts(
+        checked_on_sheets(pushed_by("x*(k - x)*(x + a)"), "rest\nx*(k - x) = 0\nx*(k - x)*(x + a) = 0\n"),
+        {refuted, proved});
+}
+
+TEST_CASE("check: rest at the scene's own values, where parameters are zero or equal, is rest too") {
+    const auto plane = [](const char* parameters, const char* x, const char* y, const char* start) {
+        return fmt::format(R"toml(
+[parameters]
+{}
+[coordinates]
+{}
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", "y"]
+[forces]
+x = "{}"
+y = "{}"
+)toml",
+                           parameters, start, x, y);
+    };
+    for (const char* start : {"x = 1\ny = 0.5", "x = 0\ny = 0.5"})
+        check_verdicts(checked_on_sheets(plane("k = 1\np = 2\nq = 0", "-k*x*(y - p)", "-k*y*(x - q)", start),
+                                         "rest\ny*(y - p) = 0\ny*(y - p)*(y + 3) = 0\nx*(y - p) = 0\n"),
+                       {refuted, refuted, proved});
+    for (const char* values : {"a = 1\nb = 2\nc = 2", "a = 1\nb = 1\nc = 2"})
+        check_verdicts(checked_on_sheets(plane(values, "-(x - a)*(y - b)", "-(x - b)*(y - c)", "x = 1\ny = 0.5"),
+                                         "rest\n(x - a)*(x - b) = 0\n(x - a)*(y - b) = 0\n"),
+                       {refuted, proved});
+}
+
+TEST_CASE("check: a state is looked for in numbers that are near") {
+    const std::string hoop = R"toml(
+gravity = [0, 0, "-g"]
+[parameters]
+m = 1
+R = 0.5
+O = 6
+g = 9.81
+[coordinates]
+a = 0.3
+[[particle]]
+name = "P"
+mass = "m"
+position = ["R*sin(a)*cos(O*t)", "R*sin(a)*sin(O*t)", "-R*cos(a)"]
+)toml";
+    check_verdicts(checked_on_sheets(hoop, "abs(R*a'') = abs(sin(a))*abs(R*O^2*cos(a) - g)\n"), {proved});
+}
+
 TEST_CASE("check: motions in closed form are differentiated on all sides") {
     check_verdicts(checked_on_sheets(pushed_by("-k*max(x, 0)"), "constants A\nsolution\nx = A*cos(sqrt(k/m)*t)\n"),
                    {refuted});

@@ -38,6 +38,8 @@ public:
         claim_ = equations_.front();
         equations_.erase(equations_.begin());
         std::erase_if(equations_, [&](int node) { return p_.is_zero(node); });
+        for (const Mechanism::Parameter& p : m_.parameters)
+            if (p.independent) is_zero_.push_back(p.number().is_zero());
         find_factors();
     }
 
@@ -74,8 +76,8 @@ private:
         for (const int id : p_.needed(all)) {
             const Op op = p_[id].op;
             if (op == Op::variable && p_[id].variable.kind == Variable::Kind::parameter) {
-                parameters_.push_back(id);
                 factors_.push_back(id);
+                if (!is_zero_[static_cast<std::size_t>(p_[id].variable.index)]) parameters_.push_back(id);
             }
             const bool is_coordinate = op == Op::variable && p_[id].variable.kind == Variable::Kind::coordinate;
             if ((is_coordinate && is_plain(id, all)) || op == Op::sin || op == Op::cos || op == Op::tan ||
@@ -177,7 +179,9 @@ private:
     const Mechanism& m_;
     Program p_;
     int claim_ = 0;
-    std::vector<int> equations_, factors_, parameters_, denominators_;
+    std::vector<bool> is_zero_;  ///< for each independent parameter, in the scene
+    std::vector<int> equations_, factors_;
+    std::vector<int> parameters_, denominators_;  ///< by which the claim may be multiplied, of those that are not zero
 };
 
 }  // namespace

@@ -198,9 +198,15 @@ std::optional<ex> Translator::applied(const std::string& function, const std::ve
     if (sheets_ && function == "sqrt") on_sheet = sheets_->root(args[0], z);
     if (sheets_ && function == "abs") on_sheet = sheets_->magnitude(args[0], z);
     if (sheets_ && function == "sign") on_sheet = sheets_->sign(args[0], z);
-    if (sheets_ && (function == "min" || function == "max") && args.size() == 2)
-        if (const auto first_is_larger = sheets_->is_larger(args[0], args[1], z))
-            on_sheet = args[*first_is_larger == (function == "max") ? 0 : 1];
+    if (sheets_ && (function == "min" || function == "max")) {
+        ex value = args.at(0);
+        for (std::size_t k = 1; k < args.size(); ++k)
+            if (const auto first_is_larger = sheets_->is_larger(value, args[k], z))
+                value = *first_is_larger == (function == "max") ? value : args[k];
+            else
+                value = z.name(*apply_function(function, {value, args[k]}));
+        on_sheet = value;
+    }
     return on_sheet ? on_sheet : apply_function(function, args);
 }
 

@@ -54,9 +54,6 @@ ex signum_eval(const ex& x) {
             return factor.info(GiNaC::info_flags::positive) ? ex(signum(x / factor)) : ex(-signum(x / factor));
     return signum(x).hold();
 }
-ex signum_evalf(const ex& x) {
-    return signum_eval(x);
-}
 ex derivative_of_signum(const ex&, unsigned) {
     return 0;
 }
@@ -74,7 +71,7 @@ REGISTER_FUNCTION(maximum, eval_func(maximum_eval).evalf_func(maximum_eval).deri
 REGISTER_FUNCTION(absolute, eval_func(absolute_eval).derivative_func(derivative_of_absolute))
 REGISTER_FUNCTION(
     signum,
-    eval_func(signum_eval).evalf_func(signum_evalf).derivative_func(derivative_of_signum).power_func(signum_power))
+    eval_func(signum_eval).evalf_func(signum_eval).derivative_func(derivative_of_signum).power_func(signum_power))
 
 namespace {
 

@@ -14,7 +14,6 @@
 #include "base/language/say.hpp"
 #include "model/formalism/rest.hpp"
 #include "model/held_functions.hpp"
-#include "model/parameter_values.hpp"
 #include "program/lower/lower.hpp"
 
 namespace alembert {
@@ -80,9 +79,8 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, Sampling sampli
     const Mechanism m = in_terms_of(e, mechanism);
     rubbed_ = rubbed_rows(m, e);
     if (!rubbed_.empty()) need_determined_reactions(m);
-    const ParameterValues values(m);
     for (const Mechanism::Parameter& p : m.parameters)
-        if (p.independent) is_negative_.push_back(values.number(p.symbol) < 0);
+        if (p.independent) own_values_.push_back(p.number());
     std::vector<ex> list;
     for (int i = 0; i < n_; ++i)
         for (int j = 0; j < n_; ++j) list.push_back(e.M(i, j));
@@ -203,34 +201,69 @@ void Motions::order_rest(const std::vector<int>& positions, const std::vector<ex
 
 bool Motions::find_other_factors(const std::map<int, ex>& sums, const Mechanism& m,
                                  const std::vector<std::pair<GiNaC::symbol, int>>& given) {
-    const auto is_solved = [&](int id) {
-        const Variable& v = program_[id].variable;
-        return program_[id].op == Op::variable && std::any_of(steps_.begin(), steps_.end(), [&](const auto& step) {
-                   return step.variable.kind == v.kind && step.variable.index == v.index;
-               });
+    constexpr std::size_t most_choices = 32;
+    const auto holds = [&](int node, const SolvedUnknown& unknown) {
+        const std::vector<int> needed = program_.needed(std::vector{node});
+        return std::any_of(needed.begin(), needed.end(), [&](int id) {
+            const Variable& v = program_[id].variable;
+            return program_[id].op == Op::variable && v.kind == unknown.variable.kind &&
+                   v.index == unknown.variable.index;
+        });
     };
-    for (std::size_t k = 0; k < steps_.size(); ++k) {
-        const auto sum = sums.find(steps_[k].node);
-        if (steps_[k].variable.kind != Variable::Kind::parameter || sum == sums.end()) continue;
-        const TrigonometricProduct product = product_of(sum->second.expand(), m);
-        if (product.bases.size() < 2) continue;
-        for (const ex& base : product.bases) {
-            const ex factor = base.subs(product.functions, GiNaC::subs_options::no_pattern);
-            const int node = lower_expressions(program_, m, {factor}, given)[0];
-            const std::vector<int> needed = program_.needed(std::vector{node});
-            const bool is_own = std::any_of(needed.begin(), needed.end(), [&](int id) {
-                return program_[id].op == Op::variable && program_[id].variable.kind == steps_[k].variable.kind &&
-                       program_[id].variable.index == steps_[k].variable.index;
-            });
-            if (is_own) continue;
-            SolvingOrder other = solving_order(program_, {node});
-            if (!other.left.empty() || std::any_of(needed.begin(), needed.end(), is_solved)) return false;
-            for (std::size_t i = 0; i < steps_.size(); ++i)
-                if (i != k) other.steps.push_back(steps_[i]);
-            other_steps_.push_back(std::move(other.steps));
+    bool loses = false;
+    std::vector<std::vector<int>> choices{{}};  // of one factor for each condition
+    const auto add = [&](const SolvedUnknown& unknown) {
+        std::vector<int> factors;
+        if (const auto sum = sums.find(unknown.node); sum != sums.end()) {
+            const TrigonometricProduct product = product_of(sum->second.expand(), m);
+            for (const ex& base : product.bases) {
+                const ex factor = base.subs(product.functions, GiNaC::subs_options::no_pattern);
+                const int node = lower_expressions(program_, m, {factor}, given)[0];
+                if (!holds_parameters_alone(program_, node)) factors.push_back(node);
+            }
         }
+        if (factors.size() < 2) factors = {unknown.node};
+        loses = loses ||
+                !std::all_of(factors.begin(), factors.end(), [&](int factor) { return holds(factor, unknown); });
+        std::vector<std::vector<int>> longer;
+        for (const std::vector<int>& before : choices)
+            for (const int factor : factors) {
+                longer.push_back(before);
+                longer.back().push_back(factor);
+            }
+        choices = std::move(longer);
+    };
+    for (const SolvingStep& step : steps_) {
+        add(step);
+        if (step.second) add(*step.second);
+        if (choices.size() > most_choices) return false;
+    }
+    if (!loses) return true;
+    for (const std::vector<int>& choice : choices) {
+        SolvingOrder other = solving_order(program_, choice);
+        if (!other.left.empty() && !contradict(other)) return false;
+        (other.left.empty() ? other_orders_ : contradicted_).push_back(std::move(other));
     }
     return true;
+}
+
+bool Motions::contradict(const SolvingOrder& order) const {
+    constexpr std::uint64_t most_seeds = 40, other_seeds = 2000000;
+    constexpr int enough = 3;
+    int found = 0;
+    for (std::uint64_t seed = 1; seed <= most_seeds && found < enough; ++seed) {
+        ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_, .finer = finer_}};
+        const bool is_solved = std::all_of(order.steps.begin(), order.steps.end(), [&](const SolvingStep& step) {
+            return solve_condition(program_, step, state).found;
+        });
+        const auto at = is_solved ? evaluate_mod(program_, state.point, order.left) : std::nullopt;
+        if (!at) continue;
+        if (std::all_of(order.left.begin(), order.left.end(),
+                        [&](int node) { return at->value[static_cast<std::size_t>(node)].is_zero(); }))
+            return false;
+        ++found;
+    }
+    return found == enough;
 }
 
 void Motions::find_branches() {
@@ -318,10 +351,12 @@ std::optional<ExactState> Motions::solved(ExactState state, const OwnPoint* own,
         for (int i = 0; i < n_; ++i)
             for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration})
                 state.point.given[{kind, i}] = 0;
-    for (std::size_t i = 0; i < is_negative_.size(); ++i) {
-        const Prime root = state.point.random(901, i), square = root * root;
-        state.point.given.try_emplace({Variable::Kind::parameter, static_cast<int>(i)},
-                                      is_negative_[i] ? -square : square);
+    for (std::size_t i = 0; i < own_values_.size(); ++i) {
+        const Prime drawn = state.point.random(901, i), square = drawn * drawn;
+        const int parameter = static_cast<int>(i), sign = sign_of_parameter(parameter);
+        state.point.given.try_emplace({Variable::Kind::parameter, parameter}, sign == 0  ? drawn
+                                                                              : sign < 0 ? -square
+                                                                                         : square);
     }
     auto point = usable_->at(std::move(state.point));
     if (!point) return std::nullopt;

@@ -27,8 +27,8 @@
 /// Dry friction on a constraint has the normal force |λ|, so that the equations are linear in q'' and λ once the
 /// sign of each such λ is known. All signs are tried, from a random one on, and the first solution that has the
 /// signs with which it was found is taken; a sign is Legendre's symbol here, as in every evaluation
-/// (program/modular.hpp). Parameters are squares: they count as positive; those that are negative in the scene are
-/// squares times -1, which is none.
+/// (program/modular.hpp). Parameters are squares, and count as positive; those that are negative in the scene are
+/// squares times -1, which is none, and those that are zero are of either kind.
 ///
 /// Constraints may have several branches (x² = l²: x = l and x = −l), and a statement that holds on one branch
 /// need not hold on the others. One of the roots of a polynomial of degree d is drawn at random, so that each
@@ -51,9 +51,10 @@
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
 /// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met. An
 /// equation of rest in parameters alone, g·(m₂ sin β − m₁ sin α) = 0, is solved for one of them if it has one
-/// factor besides parameters, which do not vanish. An equation x·(l − √(x² + h²)) = 0 that is solved for the
-/// parameter l vanishes with its other factor too: some seeds take x = 0. Equations that cannot be solved one
-/// after the other as they are may become so when they are combined (analysis/exact/reduced_sums.hpp).
+/// factor besides parameters, which do not vanish. An equation x·(l − √(x² + h²)) = 0 that is solved for l
+/// vanishes with its other factor too: some seeds take x = 0, and so all choices of factors are met. Equations
+/// that cannot be solved one after the other as they are may become so when they are combined
+/// (analysis/exact/reduced_sums.hpp).
 
 #include <map>
 #include <set>
@@ -117,9 +118,12 @@ public:
     const std::vector<SolvingStep>& steps() const { return steps_; }
     /// Those that this seed takes.
     const std::vector<SolvingStep>& steps(std::uint64_t seed) const {
-        const std::size_t choice = seed % (other_steps_.size() + 1);
-        return choice == 0 ? steps_ : other_steps_[choice - 1];
+        const std::size_t choice = seed % (other_orders_.size() + 1);
+        return choice == 0 ? steps_ : other_orders_[choice - 1].steps;
     }
+    /// At rest, orders whose conditions that are left contradict the others, but for some values of parameters that
+    /// are zero or equal.
+    const std::vector<SolvingOrder>& contradicted() const { return contradicted_; }
 
     /// The entries of the system as nodes, which can also be evaluated in other arithmetic.
     struct System {
@@ -134,10 +138,11 @@ public:
     int size() const { return n_; }
     int halves() const { return halves_; }
     int constraints() const { return m_; }
-    /// Whether an independent parameter is negative in the scene, and so in all states.
-    bool is_negative(int parameter) const {
-        return parameter < static_cast<int>(is_negative_.size()) &&
-               is_negative_[static_cast<std::size_t>(parameter)];
+    /// The sign that an independent parameter has in the scene, and so in all states; 0 for any.
+    int sign_of_parameter(int parameter) const { return own_value(parameter).csgn(); }
+    /// The value of an independent parameter in the scene.
+    const GiNaC::numeric& own_value(int parameter) const {
+        return own_values_[static_cast<std::size_t>(parameter)];
     }
     /// The rows on which friction acts, in ascending order: `f` contains the absolute values of their multipliers,
     /// linearly, and no other multiplier of the equations.
@@ -155,9 +160,12 @@ private:
     /// Orders the conditions of rest: constraints, and sums that vanish.
     void order_rest(const std::vector<int>& positions, const std::vector<GiNaC::ex>& balance, const Mechanism& m,
                     const std::vector<std::pair<GiNaC::symbol, int>>& given);
-    /// The other factors of equations of rest that are solved for a parameter; false if one is found in no state.
+    /// Where an equation of rest has a factor without the variable for which it is solved: all choices of one
+    /// factor of each equation. False if one of them cannot be solved.
     bool find_other_factors(const std::map<int, GiNaC::ex>& sums, const Mechanism& m,
                             const std::vector<std::pair<GiNaC::symbol, int>>& given);
+    /// Whether conditions that are left are not zero where the steps are taken.
+    bool contradict(const SolvingOrder& order) const;
     /// Where the roots exist that these nodes and the conditions need.
     void find_usable_points(std::vector<int> nodes, int halvings);
     void find_branches();
@@ -186,7 +194,7 @@ private:
     Program program_;
     System system_;
     std::vector<SolvingStep> steps_;
-    std::vector<std::vector<SolvingStep>> other_steps_;  ///< at rest, with which other factors are zero
+    std::vector<SolvingOrder> other_orders_, contradicted_;  ///< at rest, of other factors
     std::vector<int> loose_, implied_, rubbed_;
     std::vector<bool> irreducible_;  ///< for each step
     std::vector<std::size_t> open_unknowns_;
@@ -197,8 +205,8 @@ private:
     std::string obstacle_;
     At at_;
     int n_ = 0, m_ = 0, gaps_ = 0, halves_ = 0, finer_ = 0;
-    std::vector<bool> is_negative_;       ///< for each independent parameter
-    std::optional<SquarePoints> usable_;  ///< refers to program_
+    std::vector<GiNaC::numeric> own_values_;  ///< of each independent parameter
+    std::optional<SquarePoints> usable_;      ///< refers to program_
 };
 
 }  // namespace alembert

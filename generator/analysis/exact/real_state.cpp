@@ -2,7 +2,6 @@
 #include "analysis/exact/real_state.hpp"
 
 #include <cln/dfloat.h>
-#include <cln/float.h>
 #include <cln/rational.h>
 
 #include <algorithm>
@@ -166,13 +165,27 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
     return solve_for(motions, state, motions.loose(), keys, std::move(x));
 }
 
+/// Whether a state of rest has the scene's own values of the parameters: where some are zero or equal, there can be
+/// more states of rest.
+bool has_own_values(const Motions& motions, unsigned seed) {
+    return motions.where() == Motions::At::rest && seed % 4 == 3;
+}
+
+/// The order that this seed takes, one after the other.
+SolvingOrder order_for(const Motions& motions, unsigned seed) {
+    if (const auto& more = motions.contradicted(); !more.empty() && has_own_values(motions, seed) && seed % 8 == 3)
+        return more[seed / 8 % more.size()];
+    return {.steps = motions.steps(has_own_values(motions, seed) ? seed / 4 : seed - (seed + 1) / 4), .left = {}};
+}
+
 bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
     if (!motions.loose().empty() && (!floats || !solve_loose(motions, state, seed))) return false;
     // Each coordinate at rest has roots of its own, and all combinations are wanted, the simplest first.
     constexpr unsigned simple = 12;
     const bool mixes = motions.where() == Motions::At::rest && seed >= first_float_seed + simple;
     unsigned own_seed = seed;
-    for (const SolvingStep& step : motions.steps(seed)) {
+    const SolvingOrder order = order_for(motions, seed);
+    for (const SolvingStep& step : order.steps) {
         if (mixes) own_seed = (own_seed + 1) * 2654435761U >> 7U;
         if (step.second) {
             if (!floats || !solve_two(motions, state, step, seed)) return false;
@@ -188,15 +201,18 @@ bool solve_positions(const Motions& motions, RealState& state, bool floats, unsi
         const bool is_angle = state.angle.contains(key);
         const auto root = root_of([&](const numeric& x) { return at(x, is_angle); }, floats, mixes, own_seed);
         if (!root) return false;
-        if (step.variable.kind == Variable::Kind::parameter &&
-            root->csgn() != (motions.is_negative(step.variable.index) ? -1 : 1))
-            return false;
+        if (step.variable.kind == Variable::Kind::parameter) {
+            const int sign = motions.sign_of_parameter(step.variable.index);
+            if (sign != 0 && root->csgn() != sign) return false;
+        }
         const auto rest = at(*root, false);
         if (!rest) return false;
         if (!is_almost_zero(*rest)) return false;
     }
-    const auto implied = evaluate(motions.program(), state, motions.implied());
-    return implied && std::all_of(implied->begin(), implied->end(), is_almost_zero);
+    std::vector<int> others = order.left;
+    others.insert(others.end(), motions.implied().begin(), motions.implied().end());
+    const auto value = evaluate(motions.program(), state, others);
+    return value && std::all_of(value->begin(), value->end(), is_almost_zero);
 }
 
 /// Solves for accelerations and multipliers. With friction on constraints the signs of the multipliers are tried,
@@ -433,7 +449,10 @@ private:
     }
 
     static void put_near(RealState& state, const Key& key, const numeric& x, const numeric& step) {
-        const numeric moved = decimal((x + step).to_double(), 4);
+        constexpr double farthest = 1e9;  // a secant that is nearly level leads anywhere
+        const double aim = (x + step).to_double();
+        if (!(std::abs(aim) < farthest)) return;
+        const numeric moved = decimal(aim, 4);
         const bool keeps_sign = key.first == Variable::Kind::parameter || key.first == Variable::Kind::time;
         if (!keeps_sign || moved.csgn() == at(state, key).csgn()) put(state, key, moved);
     }
@@ -455,9 +474,11 @@ std::optional<RealState> drawn(const Motions& motions, const Program& claims, co
     for (const Key& key : variables.all) {
         if (variables.is_angle(key))
             put_angle(state, key, {numbers.tangent()});
+        else if (has_own_values(motions, seed) && key.first == Variable::Kind::parameter)
+            state.value[key] = motions.own_value(key.second);
         else if (key.first == Variable::Kind::parameter || key.first == Variable::Kind::time) {
-            const bool is_negative = key.first == Variable::Kind::parameter && motions.is_negative(key.second);
-            state.value[key] = is_negative ? -numbers.positive() : numbers.positive();
+            const int sign = key.first == Variable::Kind::parameter ? motions.sign_of_parameter(key.second) : 1;
+            state.value[key] = sign == 0 ? numbers.any() : sign * numbers.positive();
         } else
             state.value[key] =
                 seed % 2 == 1 && key.first == Variable::Kind::coordinate ? numbers.small() : numbers.any();
@@ -469,11 +490,7 @@ std::optional<RealState> drawn(const Motions& motions, const Program& claims, co
         for (int k = 0; k < motions.constraints(); ++k) state.value[{Variable::Kind::unknown, k}] = numbers.any();
     }
     if (steering != nullptr) steering->steer(state, numbers);
-    try {
-        if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
-    } catch (const cln::floating_point_exception&) {  // the search for a root has left all numbers
-        return std::nullopt;
-    }
+    if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
     return moving(motions, std::move(state), numbers, steering != nullptr ? Rates::kept : Rates::drawn);
 }
 
