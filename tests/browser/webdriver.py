@@ -14,6 +14,7 @@ import json
 import re
 import subprocess
 import tempfile
+import time
 
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-quic",
@@ -68,7 +69,16 @@ class Browser:
             self._folder.cleanup()
 
     def open(self, url):
+        """Opens a page, whose scripts have run afterwards; Chromium 150 does not always wait for them."""
+        # Only the place in the page changes where the address has the same page and a fragment.
+        self.run("const [page, ...place] = arguments[0].split('#');"
+                 "window.isLeft = !place.length || page !== location.href.split('#')[0]", url)
         self._do("POST", "url", {"url": url})
+        for _ in range(600):
+            if self.run("return !window.isLeft && document.readyState === 'complete'"):
+                return
+            time.sleep(0.05)
+        raise Refused(f"{url} is not loaded after 30 s")
 
     def resize(self, width, height, dark=False):
         """The window, in pixels, and whether a person has asked for dark pages; holds for pages opened after it."""
