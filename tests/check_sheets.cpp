@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -56,6 +57,27 @@ const std::string right = "r'' - r*th'^2 - g*cos(th) + k/m*(r - l0) = 0";
 const std::string mirrored = "r'' - r*th'^2 - g*cos(th) + k/m*(r + l0) = 0";
 
 }  // namespace
+
+TEST_CASE("derive: a sign that is used is told as a person writes it") {
+    const std::string scene = temporary("signs.toml", R"toml(
+[parameters]
+F = -2
+a = 3
+b = 1
+[coordinates]
+x = 1
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[forces]
+x = "abs(F)*sqrt((a - b)^2)*x"
+)toml");
+    const auto derived = run({"derive", scene, "--json"});
+    REQUIRE(derived.exit == 0);
+    CHECK(Json::parse(derived.out)["where"] == Json::array({"F < 0", "a - b > 0"}));
+    CHECK(run({"derive", scene}).out.find("valid while F < 0") != std::string::npos);
+}
 
 TEST_CASE("check: a spring's length along its coordinate is that coordinate, on the sheet of the initial state") {
     for (const char* spring : {R"(between = ["O", "P"])", R"x(along = "sqrt(r^2)")x",
@@ -157,6 +179,43 @@ holonomic = "(x - r*cos(th))^2 + r^2*sin(th)^2 - l^2"
     CHECK(check_of(crank("1.6"), rate)["verdict"] == "proved");
     CHECK(check_of(crank("-0.8"), rate)["verdict"] == "refuted");
     CHECK(check_of(crank("1.6"), "x = r*cos(th) + sqrt(l^2 - r^2*cos(th)^2)")["verdict"] == "refuted");
+}
+
+TEST_CASE("check: what a claim assumes stands above the initial state, is told as typed, and must be possible") {
+    const std::string scene = temporary("assumed.toml", R"toml(
+[parameters]
+m = 0.5
+k = 2.9
+s = 0.7
+[coordinates]
+x = { initial = -0.6, rate = 0.6 }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", 0]
+[forces]
+x = "-k*x - s*sign(x)"
+)toml");
+    const auto verdicts = [&](const char* assumed) {
+        return Json::parse(run({"check", scene,
+                                temporary("assumed.claims", fmt::format("where {}\n"
+                                                                        "m*x'' + k*sqrt(x^2) + s = 0\n"
+                                                                        "m*x'' - k*sqrt(x^2) - s = 0\n",
+                                                                        assumed)),
+                                "--json"})
+                               .out)["claims"];
+    };
+    for (const auto& [assumed, first, second] :
+         {std::array{"x > 0", "proved", "refuted"}, std::array{"x - 1000 > 0", "proved", "refuted"},
+          std::array{"x < -1/2", "refuted", "proved"}, std::array{"x^2 + x'^2 < -1", "undecided", "undecided"}}) {
+        INFO(assumed);
+        const Json claims = verdicts(assumed);
+        CHECK(claims[0]["verdict"] == first);
+        CHECK(claims[1]["verdict"] == second);
+        const Json& where = claims[0]["where"];
+        CHECK(std::find(where.begin(), where.end(), assumed) != where.end());
+        for (const Json& words : where) CHECK(words.get<std::string>().find('z') == std::string::npos);
+    }
 }
 
 }  // namespace check_sheets

@@ -211,6 +211,17 @@ std::optional<int> sign_on_own_branch(const Told& told, const Motions& motions, 
     return found >= enough ? sign : std::nullopt;
 }
 
+bool is_possible(const Told& told, const Motions& motions) {
+    constexpr unsigned tries = 60;
+    Program p;
+    const Cells none(p, {});
+    const StatesOnSheet states(told, motions, p, {});
+    for (const unsigned first : {0U, first_float_seed})
+        for (unsigned seed = first; seed < first + tries; ++seed)
+            if (states.in_cell(none, {}, seed)) return true;
+    return false;
+}
+
 std::optional<FoundState> state_where(const Told& told, const Motions& motions, const Program& p, int root,
                                       bool is_zero) {
     constexpr unsigned tries = 40;

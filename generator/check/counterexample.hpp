@@ -58,6 +58,9 @@ struct OpenClaim {
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,
                                              const OpenClaim& of);
 
+/// Whether there is a state in numbers at which all of told.positive are positive; false if none was found.
+bool is_possible(const Told& told, const Motions& motions);
+
 /// An expression that vanishes for all values of the loose conditions (Motions::loose) also vanishes on them if it
 /// is continuous there. Which of the roots are zero at states on them, and on the sheet of the claims, at which
 /// they have values and the equations have a unique solution?

@@ -16,10 +16,8 @@ std::string in_print(const ex& e, const Mechanism& mechanism) {
 }
 
 std::string inequality(const ex& positive, const Mechanism& mechanism) {
-    if (const ex opposite = -positive; GiNaC::is_a<GiNaC::symbol>(opposite))
-        return in_print(opposite, mechanism) + " < 0";
-    const std::string written = in_print(positive, mechanism);
-    return (written.empty() ? say("a root of the claim") : written) + " > 0";
+    const auto sign = readable_sign(mechanism.z->expand(positive), *mechanism.symbols);
+    return sign ? text(sign->of) + ' ' + sign->words : say("a root of the claim") + " > 0";
 }
 
 }  // namespace alembert

@@ -76,6 +76,8 @@ public:
         settle_apart();
         for (std::size_t k = 0; k < now_.verdicts.size(); ++k) {
             std::vector<std::string>& where = now_.verdicts[k].where;
+            for (const Inequality& assumed : now_.scene.claims[k].where)
+                where.insert(where.begin(), text_of(assumed));
             for (const ex& positive : positive_[k]) where.insert(where.begin(), inequality(positive, now_.m));
         }
         const auto [is_complete, missing, freedom] = of_right_claims();
@@ -88,6 +90,7 @@ private:
         std::vector<Diagnostic> mistakes;
         const std::vector<ex> of_scene = sheets_ ? sheets_->positive() : std::vector<ex>();
         positive_.assign(now_.scene.claims.size(), of_scene);
+        assume();
         for (const Claim& claim : now_.scene.claims) try {
                 now_.forms.emplace_back();
                 if (sheets_) sheets_->take_needed();
@@ -105,11 +108,20 @@ private:
             }
         if (!mistakes.empty()) fail(now_.scene, mistakes);
         constants_.emplace(now_.scene, claims_, now_.forms);
+    }
+
+    /// Reads what the claims assume, which is the same for all of one mode.
+    void assume() {
         if (now_.scene.claims.empty()) return;
-        for (const Inequality& assumed : now_.scene.claims[0].where)  // those of one mode assume the same
+        if (sheets_) sheets_->take_needed();
+        for (const Inequality& assumed : now_.scene.claims[0].where)
             now_.assumed.push_back(claims_.read(assumed.greater) - claims_.read(assumed.less));
-        for (std::vector<ex>& positive : positive_)
-            positive.insert(positive.end(), now_.assumed.begin(), now_.assumed.end());
+        if (!sheets_) return;
+        for (const ex& needed : sheets_->take_needed())
+            for (std::size_t k = 0; k < positive_.size(); ++k) add_positive(k, needed);
+        std::vector<ex> supposed;
+        for (const ex& assumed : now_.assumed) supposed.push_back(now_.m.z->expand(assumed));
+        sheets_->suppose(std::move(supposed));
     }
 
     void add_positive(std::size_t claim, ex needed) {
@@ -121,7 +133,7 @@ private:
 
     /// From now on the sheet is that of these claims: a claim alone is not judged by what another one needs.
     void compare_on_sheet_of(const std::vector<std::size_t>& claims) {
-        now_.positive.clear();
+        now_.positive = now_.assumed;
         for (const std::size_t k : claims)
             for (const ex& positive : positive_[k])
                 if (std::none_of(now_.positive.begin(), now_.positive.end(),
@@ -203,7 +215,7 @@ private:
                                           [](const Mechanism::Constraint& c) { return c.position.has_value(); });
         const bool may_combine = at == Motions::At::rest || (now_.at == Claim::At::motion && is_bound);
         compare_on_sheet_of(asked);
-        const std::vector<std::size_t> here = may_combine ? without_combinations(now_, asked, at) : asked;
+        std::vector<std::size_t> here = may_combine ? without_combinations(now_, asked, at) : asked;
         if (here.empty()) return;
         const bool knows_own = knows_own_branch();
         std::unique_ptr<ExactStates> made, made_on_own_branch;
@@ -241,6 +253,7 @@ private:
         if (knows_own && (states->motions.has_branches() || !states->motions.loose().empty()))
             now_.on_own_branch = usable(true, std::min(most_halves, std::max(halvings, states->motions.halves())),
                                         made_on_own_branch);
+        std::erase_if(here, [&](std::size_t k) { return assumes_what_cannot_be(k, states->motions); });
         std::vector<std::size_t> open;
         for (const std::size_t k : here)
             if (now_.forms[k].open.empty())
@@ -271,6 +284,15 @@ private:
                        });
             },
             static_cast<double>(roots.size()));
+    }
+
+    /// Whether no state was found where all that the claim assumes is so; then it is not judged.
+    bool assumes_what_cannot_be(std::size_t k, const Motions& motions) {
+        if (now_.assumed.empty()) return false;
+        compare_on_sheet_of({k});
+        if (is_possible(told(now_), motions)) return false;
+        now_.verdicts[k].reason = say("no state was found at which all that it assumes is so");
+        return true;
     }
 
     /// Refutes a claim about rest by a state in numbers, where there are no exact states.

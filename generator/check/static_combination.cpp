@@ -181,7 +181,8 @@ private:
     int claim_ = 0;
     std::vector<bool> is_zero_;  ///< for each independent parameter, in the scene
     std::vector<int> equations_, factors_;
-    std::vector<int> parameters_, denominators_;  ///< by which the claim may be multiplied, of those that are not zero
+    std::vector<int> parameters_,
+        denominators_;  ///< by which the claim may be multiplied, of those that are not zero
 };
 
 }  // namespace

@@ -123,7 +123,7 @@ std::optional<ex> RootSheets::root(const ex& square, Intermediates& z, Of of) {
         std::for_each(found->begin(), found->end(), sort);
     else
         sort(*found);
-    const double size = at_start(length);
+    const double size = size_of(length);
     if (!std::isfinite(size) || std::abs(size) < almost_zero) return std::nullopt;
     const ex e = size > 0 ? length : ex(-length);
     assume(e);
@@ -131,7 +131,15 @@ std::optional<ex> RootSheets::root(const ex& square, Intermediates& z, Of of) {
 }
 
 bool RootSheets::is_known_positive(const ex& e) const {
-    return GiNaC::is_a<numeric>(e) ? e.info(GiNaC::info_flags::positive) : is_impossible({-e}, above_zero_);
+    if (GiNaC::is_a<numeric>(e)) return e.info(GiNaC::info_flags::positive);
+    std::vector<ex> opposite = supposed_;
+    opposite.push_back(-e);
+    return is_impossible(opposite, above_zero_);
+}
+
+double RootSheets::size_of(const ex& e) const {
+    if (is_known_positive(e)) return 1;
+    return !supposed_.empty() && is_known_positive(-e) ? -1 : at_start(e);
 }
 
 void RootSheets::assume(const ex& e) {
@@ -150,7 +158,7 @@ std::optional<RootSheets::Split> RootSheets::split(const ex& e, const Intermedia
     const Factorization factors = Factorizer()(f->polynomial());
     Split result{.constant = 1, .rest = 1};
     const auto take = [&](const ex& base, const ex& power, bool is_odd) {
-        const double size = is_known_positive(base) ? 1 : at_start(base);
+        const double size = size_of(base);
         if (!std::isfinite(size) || std::abs(size) < almost_zero) {
             result.rest *= power;
             return;

@@ -28,6 +28,9 @@ class RootSheets {
 public:
     explicit RootSheets(const Mechanism& mechanism);
 
+    /// Takes these to be positive from now on, wherever the motion starts.
+    void suppose(std::vector<GiNaC::ex> positive) { supposed_ = std::move(positive); }
+
     /// What the square of a length is: a distance in the mechanism, or what somebody writes as a root, where a sum
     /// with coordinates, √((x − a)²), is no length of its own.
     enum class Of { distance, formula };
@@ -55,6 +58,8 @@ private:
     /// Keeps that e is positive, unless it is so for all positive parameters.
     void assume(const GiNaC::ex& e);
     bool is_known_positive(const GiNaC::ex& e) const;
+    /// Its sign by what is supposed, or else at the initial state, as a number of that sign.
+    double size_of(const GiNaC::ex& e) const;
     double at_start(const GiNaC::ex& e) const;
     bool is_of_positions(const GiNaC::ex& e) const;
     std::optional<GiNaC::ex> square_root(const GiNaC::ex& square, const Intermediates& z) const;
@@ -63,7 +68,7 @@ private:
     GiNaC::exmap start_;  ///< coordinates, rates, t and parameters → numbers
     std::vector<GiNaC::symbol> moving_;
     std::vector<GiNaC::symbol> above_zero_;  ///< parameters
-    std::vector<GiNaC::ex> positive_, needed_;
+    std::vector<GiNaC::ex> supposed_, positive_, needed_;
 };
 
 struct OnSheets {

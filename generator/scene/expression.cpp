@@ -465,18 +465,32 @@ Inequality parse_inequality(const std::string& typed, const std::vector<Place>& 
     left.tree = parse(left, false, diagnostics, names);
     right.tree = parse(right, false, diagnostics, names);
     return text[sign] == '>' ? Inequality{std::move(left), std::move(right)}
-                             : Inequality{std::move(right), std::move(left)};
+                             : Inequality{std::move(right), std::move(left), true};
 }
 
-std::string text_of(const Equality& equation) {
+namespace {
+
+std::string without_superfluous_blanks(const std::string& text) {
     std::string result;
-    for (const char c : equation.lhs.text + " = " + equation.rhs.text) {
+    for (const char c : text) {
         const bool blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
         if (blank && (result.empty() || result.back() == ' ')) continue;
         result += blank ? ' ' : c;
     }
     while (!result.empty() && result.back() == ' ') result.pop_back();
     return result;
+}
+
+}  // namespace
+
+std::string text_of(const Equality& equation) {
+    return without_superfluous_blanks(equation.lhs.text + " = " + equation.rhs.text);
+}
+
+std::string text_of(const Inequality& inequality) {
+    const auto& [greater, less, begins_with_less] = inequality;
+    return without_superfluous_blanks(begins_with_less ? less.text + " < " + greater.text
+                                                       : greater.text + " > " + less.text);
 }
 
 }  // namespace alembert

@@ -72,13 +72,15 @@ struct Equality {
 /// An inequality `greater > less`, or `less < greater`.
 struct Inequality {
     Expression greater, less;
+    bool begins_with_less = false;  ///< whether it was typed as `less < greater`
 };
 
 Inequality parse_inequality(const std::string& text, const std::vector<Place>& places,
                             std::vector<Diagnostic>& diagnostics, const KnownNames* names = nullptr);
 
-/// The text `lhs = rhs` without superfluous blanks.
+/// The text `lhs = rhs` without superfluous blanks, and that of an inequality as it was typed.
 std::string text_of(const Equality& equation);
+std::string text_of(const Inequality& inequality);
 
 /// With `rates_before`, `x'(-)`, the rate before an impact, is allowed: it becomes a call named `(-)` whose
 /// argument is the name x with one prime.

@@ -336,6 +336,15 @@ Phrase ReadableWriter::operator()(const Fourier& f) {
     return writer.write(writer.energy_lines(f));
 }
 
+std::optional<ReadableSign> readable_sign(const GiNaC::ex& positive, const Symbols& symbols) {
+    const auto f = fourier(positive, symbols);
+    if (!f) return std::nullopt;
+    if (Phrase of = readable(*f); of.kind != Phrase::Kind::negative) return ReadableSign{std::move(of), "> 0"};
+    const auto opposite = fourier(-positive, symbols);
+    if (!opposite) return std::nullopt;
+    return ReadableSign{readable(*opposite), "< 0"};
+}
+
 ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs, const std::optional<SymbolInfo>& own) {
     const bool decimals = has_decimals(lhs) || has_decimals(rhs);
     Composer compose(decimals);

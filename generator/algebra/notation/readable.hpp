@@ -35,6 +35,14 @@ private:
     Composer in_fractions_{false}, in_decimals_{true};
 };
 
+/// The sign of an expression that is not zero: F < 0, and not −F > 0.
+struct ReadableSign {
+    Phrase of;
+    const char* words;  ///< "> 0" or "< 0"
+};
+/// That of an expression that is positive; nothing if it has no normal form.
+std::optional<ReadableSign> readable_sign(const GiNaC::ex& positive, const Symbols& symbols);
+
 struct ReadableEquation {
     Phrase lhs, rhs;
     std::optional<Phrase> divided_by;  ///< none if nothing was divided out

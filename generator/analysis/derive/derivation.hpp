@@ -43,8 +43,7 @@ struct Derivation {
     std::string choice;                             ///< a sentence about the speeds, if the program chose them
     std::vector<Statement> reactions;  ///< reactions of each constraint along each coordinate, on request
     std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: the expression that is zero
-    /// Expressions that are positive on the sheet of roots on which the derivation holds.
-    std::vector<Phrase> positive;
+    std::vector<ReadableSign> signs;                   ///< on the sheet of roots on which the derivation holds
     std::vector<ReadableEquation> shares;              ///< relations between multipliers of dependent constraints
     std::vector<std::pair<std::string, Phrase>> gaps;  ///< by name: the expression that is not negative
     /// Dry friction: the contact slides with the velocity `slip` against the force `sliding`, or sticks with a

@@ -114,7 +114,8 @@ DerivedScene derive(Scene scene, const ShowOptions& options) {
     DerivedScene d = explained(std::move(equations), [&](double part) { tell(0.3 + 0.4 * part); });
     if (d.sheets)
         for (const GiNaC::ex& positive : d.sheets->positive())
-            if (const auto f = fourier(positive, *d.mechanism.symbols)) d.shown.positive.push_back(readable(*f));
+            if (auto sign = readable_sign(positive, *d.mechanism.symbols))
+                d.shown.signs.push_back(std::move(*sign));
     for (Derivation::Rubs& friction : d.shown.frictions)
         for (const FrictionRule& rule : d.scene.frictions) {
             if (rule.name.text != friction.name) continue;

@@ -121,8 +121,8 @@ public:
         const std::size_t choice = seed % (other_orders_.size() + 1);
         return choice == 0 ? steps_ : other_orders_[choice - 1].steps;
     }
-    /// At rest, orders whose conditions that are left contradict the others, but for some values of parameters that
-    /// are zero or equal.
+    /// At rest, orders whose conditions that are left contradict the others, but for some values of parameters
+    /// that are zero or equal.
     const std::vector<SolvingOrder>& contradicted() const { return contradicted_; }
 
     /// The entries of the system as nodes, which can also be evaluated in other arithmetic.

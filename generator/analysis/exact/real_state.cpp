@@ -165,8 +165,8 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
     return solve_for(motions, state, motions.loose(), keys, std::move(x));
 }
 
-/// Whether a state of rest has the scene's own values of the parameters: where some are zero or equal, there can be
-/// more states of rest.
+/// Whether a state of rest has the scene's own values of the parameters: where some are zero or equal, there can
+/// be more states of rest.
 bool has_own_values(const Motions& motions, unsigned seed) {
     return motions.where() == Motions::At::rest && seed % 4 == 3;
 }

@@ -156,7 +156,7 @@ Json as_json(const DerivedScene& d, bool dimensions) {
         if (e.divided_by) one["divided_by"] = text(*e.divided_by);
         result["equations"].push_back(std::move(one));
     }
-    for (const Phrase& positive : shown.positive) result["where"].push_back(text(positive) + " > 0");
+    for (const ReadableSign& sign : shown.signs) result["where"].push_back(text(sign.of) + ' ' + sign.words);
     for (const ReadableEquation& e : shown.shares)
         result["shares"].push_back(
             {{"text", text(e.lhs) + " = " + text(e.rhs)}, {"latex", latex(e.lhs) + " = " + latex(e.rhs)}});
@@ -267,8 +267,8 @@ private:
         if (shown_.has_unit_quaternions)
             begin(say("e.e = 1 of each quaternion e has been used in all terms, after differentiation."),
                   Kind::equation);
-        for (const Phrase& positive : shown_.positive)
-            begin(say("valid while {} > 0", n_.inline_phrase(positive)), Kind::equation);
+        for (const ReadableSign& sign : shown_.signs)
+            begin(say("valid while {} {}", n_.inline_phrase(sign.of), sign.words), Kind::equation);
         if (!shown_.kinematics.empty()) {
             begin(say("with the rates of the coordinates:"), Kind::equation);
             add(shown_.kinematics);
