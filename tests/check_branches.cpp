@@ -170,4 +170,42 @@ TEST_CASE("check: ten loops in a row are decided, though most draws of their roo
     }
 }
 
+namespace {
+
+/// Two particles on an axis, and others, bound to each other.
+std::string bound(const std::string& coordinates, const std::vector<std::string>& constraints) {
+    std::string scene = "[parameters]\nm = 1.5\nk = 3.5\n[coordinates]\n" + coordinates + "\n";
+    for (const char* name : {"a", "b", "e"})
+        if (("\n" + coordinates).find(fmt::format("\n{} = ", name)) != std::string::npos)
+            scene += fmt::format("[[particle]]\nname = \"P{0}\"\nmass = \"m\"\nposition = [\"{0}\", 0]\n", name);
+    scene += "[forces]\na = \"-k*a - 1.8\"\nb = 1.1\n";
+    for (std::size_t k = 0; k < constraints.size(); ++k)
+        scene += fmt::format("[[constraint]]\nname = \"z{}\"\nholonomic = \"{}\"\n", k, constraints[k]);
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("check: on branches for whose numbers exact arithmetic has no place, their digits decide") {
+    check_verdicts(
+        checked_on_sheets(bound("a = -0.75\nb = -1.5", {"(a - 0.5*b)*(a - sqrt(3)*b)*(a + b)"}),
+                          "a = 0.5*b\na*(a - 0.5*b) = 0\na' - 0.5*b' = 0\na = sqrt(3)*b\na = -b\na = 0.5001*b\n"
+                          "m*a'' + 2*m*b'' = -k*a + 0.4\nm*a'' + 2*m*b'' = -k*a + 0.5\n"),
+        {proved, proved, proved, refuted, refuted, refuted, proved, refuted});
+    check_verdicts(
+        checked_on_sheets(bound("a = { initial = \"0.485*sqrt(2)\" }\nb = -0.485", {"(a^2 - 2*b^2)*(a - 3)"}),
+                          "a' + sqrt(2)*b' = 0\na' - sqrt(2)*b' = 0\na^2 = 2*b^2\na = 3\n"),
+        {proved, refuted, proved, refuted});
+    const std::string triple = "4*cos(a)^3 - 3*cos(a) - cos(3*b)";
+    const std::string turned =
+        "a = { initial = 0.2, rate = -0.9 }\nb = { initial = \"0.2 - 4/3*pi\", rate = -0.9 }";
+    const std::string angles = "b' = a'\nb = a - 4*pi/3\ncos(3*a) = cos(3*b)\ncos(a) = cos(b)\nb = -a\n";
+    for (const std::string& product : {triple, "sin(3*a - b + 1)*(" + triple + ")"})
+        check_verdicts(checked_on_sheets(bound(turned, {product}), angles),
+                       {proved, proved, proved, refuted, refuted});
+    check_verdicts(checked_on_sheets(bound(turned + "\ne = 1", {triple, "(cos(a) - cos(b))*(e - 1)"}),
+                                     angles + "e = 1\ne' = 0\ne = 2\n"),
+                   {proved, proved, proved, refuted, refuted, proved, proved, refuted});
+}
+
 }  // namespace check_branches

@@ -152,6 +152,25 @@ bool is_whole_turns(Comparison& now, std::size_t k, const Motions& motions, Exac
            holds_on_own_branch(now, motions, p, roots[0]);
 }
 
+/// Whether what exact arithmetic has no states for holds on the scene's own branch by its digits; nothing if these
+/// do not tell. A smooth function that is zero near a state of a branch is zero on all of it.
+std::optional<bool> holds_by_digits(Comparison& now, std::size_t k, const Motions& motions) {
+    if (now.at != Claim::At::motion || !motions.own() || motions.has_sides() || !motions.rubbed().empty() ||
+        !now.spoken.empty() || !now.forms[k].open.empty())
+        return std::nullopt;
+    Program p;
+    const int root = now.claims.lower(p, {now.forms[k].residual})[0];
+    if (!is_smooth(p, root)) return std::nullopt;
+    const InNumbers told_by_digits = in_many_digits(told(now), motions, p, root);
+    return told_by_digits == InNumbers::unknown ? std::nullopt : std::optional(told_by_digits == InNumbers::holds);
+}
+
+void prove_by_digits(CheckedClaim& c) {
+    constexpr double failure = -60;  // three states, and one of 2²⁰ numbers for each degree of the claim
+    c.verdict = Verdict::proved;
+    c.failure = failure;
+}
+
 /// Of a claim that holds on one branch of the constraints and fails on another, the scene's own branch decides.
 /// Returns whether it did.
 bool settle_by_branch(Comparison& now, std::size_t k, ExactStates& states, const Program& p, int root) {
@@ -173,6 +192,11 @@ bool settle_by_branch(Comparison& now, std::size_t k, ExactStates& states, const
             return false;
         c.verdict = Verdict::proved;
         c.failure = failure;
+        tell_other_branch(now, k, states.motions, p, root, Verdict::refuted);
+        return true;
+    }
+    if (holds_by_digits(now, k, states.motions) == true) {
+        prove_by_digits(c);
         tell_other_branch(now, k, states.motions, p, root, Verdict::refuted);
         return true;
     }
@@ -238,6 +262,20 @@ void hold_against_own(Comparison& now, std::size_t k, const Motions& motions) {
 }
 
 }  // namespace
+
+bool settle_without_states(Comparison& now, std::size_t k, const Motions& motions) {
+    Program p;
+    const int root = now.claims.lower(p, {now.forms[k].residual})[0];
+    if (p.is_zero(root) || is_identity(p, root)) return false;
+    const std::optional<bool> holds = holds_by_digits(now, k, motions);
+    if (holds == true) prove_by_digits(now.verdicts[k]);
+    if (holds == false) {
+        Told own = told(now);
+        own.on_own_branch = true;
+        if (const auto shown = counterexample(own, motions, p, root)) refute(now.verdicts[k], *shown);
+    }
+    return now.verdicts[k].verdict != Verdict::undecided;
+}
 
 void settle_closed_claim(Comparison& now, std::size_t k, ExactStates& states) {
     LetterClaim claim(now, k, states);

@@ -12,4 +12,7 @@ namespace alembert {
 /// `states`: states that obey the law and the constraints of `now`.
 void settle_closed_claim(Comparison& now, std::size_t claim, ExactStates& states);
 
+/// Where there are no such states, digits may decide on the scene's own branch. Whether they did.
+bool settle_without_states(Comparison& now, std::size_t claim, const Motions& motions);
+
 }  // namespace alembert

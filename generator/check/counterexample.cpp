@@ -211,6 +211,27 @@ std::optional<int> sign_on_own_branch(const Told& told, const Motions& motions, 
     return found >= enough ? sign : std::nullopt;
 }
 
+InNumbers in_many_digits(const Told& told, const Motions& motions, const Program& program, int root) {
+    constexpr long digits = 2000, zeros = 1500;
+    constexpr unsigned tries = 12;
+    const ManyDigits many(digits);
+    const numeric least = GiNaC::pow(numeric(10), numeric(-zeros));
+    Program p = program;
+    std::vector<int> roots = told.claims.lower(p, told.positive);
+    roots.push_back(root);
+    int found = 0;
+    for (unsigned seed = 1; seed <= tries && found < enough_states; ++seed) {
+        const auto state = real_state_on_own_branch(motions, p, roots, seed, Draws::at_random);
+        const auto value = state ? evaluate(p, *state, roots) : std::nullopt;
+        if (!value ||
+            !std::all_of(value->begin(), value->end() - 1, [](const numeric& x) { return x.is_positive(); }))
+            continue;
+        if (!(GiNaC::abs(value->back()) < least)) return InNumbers::fails;
+        ++found;
+    }
+    return found >= enough_states ? InNumbers::holds : InNumbers::unknown;
+}
+
 bool is_possible(const Told& told, const Motions& motions) {
     constexpr unsigned tries = 60;
     Program p;
@@ -234,8 +255,8 @@ std::optional<FoundState> state_where(const Told& told, const Motions& motions, 
         if (!value || is_small((*value)[0]) != is_zero) continue;
         FoundState result{.where = {}, .values = described(told, *state, (*value)[0]).values};
         for (int i = 0; i < told.mechanism.size(); ++i)
-            result.where += (i == 0 ? "" : ", ") + told.mechanism.q[i].get_name() + " = " +
-                            text_of(*state, {Variable::Kind::coordinate, i});
+            result.where.emplace_back(told.mechanism.q[i].get_name(),
+                                      text_of(*state, {Variable::Kind::coordinate, i}));
         return result;
     }
     return std::nullopt;

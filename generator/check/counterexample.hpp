@@ -58,6 +58,12 @@ struct OpenClaim {
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,
                                              const OpenClaim& of);
 
+/// What 2000 digits say of `root` at random states of the scene's own branch, of which three are enough. Where it
+/// is an algebraic number that is not zero, its digits begin before: it is no smaller than its degree and height
+/// allow. Only for what has no sides; one value that is not zero is enough to fail.
+enum class InNumbers { holds, fails, unknown };
+InNumbers in_many_digits(const Told& told, const Motions& motions, const Program& program, int root);
+
 /// Whether there is a state in numbers at which all of told.positive are positive; false if none was found.
 bool is_possible(const Told& told, const Motions& motions);
 
@@ -69,7 +75,6 @@ std::vector<bool> hold_in_numbers(const Told& told, const Motions& motions, cons
 
 /// Is the root zero at a few states on the sheet of the claims? It is unknown if fewer than three are found at
 /// which it has a value.
-enum class InNumbers { holds, fails, unknown };
 InNumbers in_numbers(const Told& told, const Motions& motions, const Program& program, int root);
 
 /// What states in numbers on the sheet of the claims say of a node in one cell of its program.
@@ -97,7 +102,7 @@ std::optional<int> sign_on_own_branch(const Told& told, const Motions& motions, 
 /// The first state, on any branch of the constraints, at which the node is zero, or is not zero; `where` are its
 /// coordinates. Nothing if none of the first states is of that kind.
 struct FoundState {
-    std::string where;
+    std::vector<std::pair<std::string, std::string>> where;
     std::vector<std::pair<std::string, std::string>> values;
 };
 std::optional<FoundState> state_where(const Told& told, const Motions& motions, const Program& program, int root,

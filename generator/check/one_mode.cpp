@@ -242,6 +242,7 @@ private:
             for (const std::size_t k : here) {
                 CheckedClaim& c = now_.verdicts[k];
                 if (at == Motions::At::rest && fails_in_numbers(k, states->motions)) continue;
+                if (at == Motions::At::motion && settle_without_states(now_, k, states->motions)) continue;
                 c.reason = !states->motions.obstacle().empty() ? states->motions.obstacle()
                            : at == Motions::At::rest
                                ? say("no state was found in which the equations allow rest")

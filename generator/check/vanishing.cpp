@@ -117,6 +117,30 @@ bool depends_on_sides(const Program& p, const std::vector<int>& roots) {
     });
 }
 
+bool is_smooth(const Program& p, int root) {
+    const std::vector<int> needed = p.needed(std::array{root});
+    return std::all_of(needed.begin(), needed.end(), [&](int id) {
+        switch (p[id].op) {
+            case Op::number:
+            case Op::pi:
+            case Op::variable:
+            case Op::sum:
+            case Op::product:
+            case Op::sin:
+            case Op::cos:
+            case Op::tan:
+            case Op::atan:
+            case Op::sinh:
+            case Op::cosh:
+            case Op::tanh:
+            case Op::exp:
+                return true;
+            default:
+                return p[id].depends == 0;  // a number
+        }
+    });
+}
+
 bool has_long_numbers(const Program& p, const std::vector<int>& roots) {
     constexpr int short_enough = 20;
     const auto is_long = [](const Rational& r) {

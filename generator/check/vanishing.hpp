@@ -44,6 +44,10 @@ bool vanishes_at_two(ExactStates& states, const Program& program, int root);
 /// in exact arithmetic, and it knows no order. A root is the one of two that counts as positive: that of 9 is −3.
 bool depends_on_sides(const Program& program, const std::vector<int>& roots);
 
+/// Whether the node is analytic wherever it has a value, so that it is zero on all of a branch if it is so on a
+/// part.
+bool is_smooth(const Program& program, int root);
+
 /// Whether numbers of more than twenty binary digits occur, by which a multiple of the prime may be made: what
 /// vanishes in exact arithmetic then has to vanish in numbers too.
 bool has_long_numbers(const Program& program, const std::vector<int>& roots);

@@ -31,7 +31,8 @@ enum class Verdict { proved, refuted, undecided, vacuous };
 /// Another branch of the constraints, on which the claim is otherwise.
 struct OtherBranch {
     Verdict verdict = Verdict::undecided;  ///< proved or refuted
-    std::string where{};  ///< a place on it, "a = 0.3, b = -0.6"; empty if none was found in numbers
+    std::vector<std::pair<std::string, std::string>>
+        where{};  ///< a place on it; empty if none was found in numbers
     std::vector<std::pair<std::string, std::string>> counterexample{};  ///< a state there, if the claim is refuted
 };
 

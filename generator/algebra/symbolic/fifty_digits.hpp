@@ -3,18 +3,25 @@
 
 #include <ginac/ginac.h>
 
+#include <algorithm>
+
 namespace alembert {
 
-/// Sets GiNaC's precision, which is one for the whole program, to fifty digits during its lifetime.
-class FiftyDigits {
+/// Sets GiNaC's precision, which is one for the whole program, to at least so many digits during its lifetime.
+class ManyDigits {
 public:
-    FiftyDigits() : former_(GiNaC::Digits) { GiNaC::Digits = 50; }
-    ~FiftyDigits() { GiNaC::Digits = former_; }
-    FiftyDigits(const FiftyDigits&) = delete;
-    FiftyDigits& operator=(const FiftyDigits&) = delete;
+    explicit ManyDigits(long digits) : former_(GiNaC::Digits) { GiNaC::Digits = std::max(former_, digits); }
+    ~ManyDigits() { GiNaC::Digits = former_; }
+    ManyDigits(const ManyDigits&) = delete;
+    ManyDigits& operator=(const ManyDigits&) = delete;
 
 private:
     long former_;
+};
+
+class FiftyDigits : public ManyDigits {
+public:
+    FiftyDigits() : ManyDigits(50) {}
 };
 
 }  // namespace alembert

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/exact/angle_variables.hpp"
 #include "analysis/exact/solve_together.hpp"
@@ -166,7 +167,8 @@ bool has_left_tangent(const Program& program, const std::vector<int>& conditions
     Eigen::VectorXd moved = Eigen::VectorXd::Zero(n), actual(n);
     double largest = 0;
     for (const auto& [key, value] : state.value) {
-        const double change = value.to_double() - value_at(place, key);
+        double change = value.to_double() - value_at(place, key);
+        if (state.angle.contains(key)) change = std::remainder(change, 2 * std::numbers::pi);
         const auto column = slopes_in(program, place, key, conditions);
         if (!column) continue;
         const Eigen::VectorXd slope = Eigen::Map<const Eigen::VectorXd>(column->data(), n);

@@ -25,9 +25,10 @@ using Key = RealState::Key;
 /// Small numbers for the first seeds, less simple ones for larger seeds.
 class Numbers {
 public:
-    explicit Numbers(unsigned seed)
-        : random_(seed), spread_(3 + std::min(seed, 400U) / 20), below_(pick(3, 4 + spread_)) {}
+    explicit Numbers(unsigned seed, Draws draws = Draws::simple)
+        : random_(seed), draws_(draws), spread_(3 + std::min(seed, 400U) / 20), below_(pick(3, 4 + spread_)) {}
     numeric positive() {
+        if (draws_ == Draws::at_random) return numeric(1 + static_cast<int>(random_() >> 2U)) / numeric(1 << 28);
         const int below = pick(1, 1 + spread_ / 4);  // drawn first: operands of one expression have no order
         return numeric(pick(1, spread_)) / numeric(below);
     }
@@ -38,8 +39,11 @@ public:
         const int below = pick(0, 1) != 0 ? below_ : -below_;
         return numeric(pick(1, below_ - 1)) / numeric(below);
     }
-    /// Between −1 and 1, in hundredths.
-    double share() { return static_cast<double>(pick(-100, 100)) / 100; }
+    /// Between −1 and 1, in hundredths unless at random.
+    double share() {
+        if (draws_ == Draws::at_random) return std::ldexp(static_cast<double>(random_() >> 2U), -29) - 1;
+        return static_cast<double>(pick(-100, 100)) / 100;
+    }
     unsigned choice(unsigned count) { return static_cast<unsigned>(pick(0, static_cast<int>(count) - 1)); }
     numeric tangent() {
         const int below = pick(2, 2 + spread_ / 2);
@@ -52,6 +56,7 @@ private:
         return low + static_cast<int>(random_() % static_cast<unsigned>(high - low + 1));
     }
     std::mt19937 random_;
+    Draws draws_;
     int spread_, below_;
 };
 
@@ -252,12 +257,15 @@ bool solve_accelerations(const Motions& motions, RealState& state, Numbers& numb
         for (std::size_t r = 0; r < rubbed.size(); ++r)
             for (std::size_t i = 0; i < n; ++i)
                 system[i][n + static_cast<std::size_t>(rubbed[r])] -= sign(r) * friction[r][i];
-        for (const std::size_t k : motions.open_unknowns()) {
-            system.emplace_back(n + m + 1);
-            system.back()[k] = 1;
-            system.back()[n + m] = numbers.any();
+        auto solution = solve_rows(system, n + m);  // on another branch all may be determined
+        if (!solution && !motions.open_unknowns().empty()) {
+            for (const std::size_t k : motions.open_unknowns()) {
+                system.emplace_back(n + m + 1);
+                system.back()[k] = 1;
+                system.back()[n + m] = numbers.any();
+            }
+            solution = solve_rows(std::move(system), n + m);
         }
-        const auto solution = solve_rows(std::move(system), n + m);
         if (!solution) return false;
         bool fits = true;
         for (std::size_t r = 0; r < rubbed.size(); ++r)
@@ -508,11 +516,11 @@ std::optional<RealState> real_state_towards(const Motions& motions, const Progra
 }
 
 std::optional<RealState> real_state_on_own_branch(const Motions& motions, const Program& claims,
-                                                  const std::vector<int>& roots, unsigned seed) {
+                                                  const std::vector<int>& roots, unsigned seed, Draws draws) {
     constexpr double reach = 0.02;
     if (!motions.own() || motions.own()->places.empty()) return std::nullopt;
     const FiftyDigits digits;
-    Numbers numbers(seed);
+    Numbers numbers(seed, draws);
     std::vector<int> conditions = motions.loose();
     for (const SolvingStep& step : motions.steps()) {
         conditions.push_back(step.node);
@@ -523,8 +531,10 @@ std::optional<RealState> real_state_on_own_branch(const Motions& motions, const 
     if (solved.size() < conditions.size()) return std::nullopt;
     const auto put = [&](RealState& to, const Key& key, double value) {
         const bool stays = seed == 0 && key.first != Variable::Kind::coordinate;
-        to.value[key] = stays ? decimal(value, 12)
-                              : decimal(value + reach * numbers.share() * (value == 0 ? 1 : std::abs(value)), 3);
+        const double beside = value + reach * numbers.share() * (value == 0 ? 1 : std::abs(value));
+        to.value[key] = stays                       ? decimal(value, 12)
+                        : draws == Draws::at_random ? numeric(cln::cl_N(cln::rational(cln::cl_DF(beside))))
+                                                    : decimal(beside, 3);
     };
     auto state = state_beside(motions.program(), conditions, place, solved, reach, put);
     if (!state) return std::nullopt;

@@ -10,7 +10,9 @@ using GiNaC::numeric;
 std::optional<std::vector<numeric>> solve_together(const NumericConditions& conditions, std::vector<numeric> x,
                                                    double reach) {
     const auto as_float = [](const numeric& value) { return GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf()); };
-    const numeric small = as_float(GiNaC::pow(numeric(10), numeric(-25)));
+    const long digits = GiNaC::Digits;
+    const numeric small = as_float(GiNaC::pow(numeric(10), numeric(-digits / 2)));
+    const numeric smallest = GiNaC::pow(numeric(10), numeric(5 - digits));
     for (numeric& value : x) value = as_float(value);
     for (int round = 0; round < 60; ++round) {
         const auto f = conditions(x);
@@ -42,7 +44,7 @@ std::optional<std::vector<numeric>> solve_together(const NumericConditions& cond
             length += GiNaC::abs(step);
         }
         if (length.to_double() > reach) return std::nullopt;
-        if (length < GiNaC::pow(numeric(10), numeric(-45))) return x;
+        if (length < smallest) return x;
     }
     return std::nullopt;
 }

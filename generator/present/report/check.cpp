@@ -64,11 +64,15 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     if (!checked.holds_where.empty()) json["holds_where"] = checked.holds_where;
     if (checked.other_branch) {
         const OtherBranch& other = *checked.other_branch;
-        Json state = Json::object();
+        Json state = Json::object(), where = nullptr;
         for (const auto& [name, value] : other.counterexample) state[name] = value;
-        json["other_branches"] = {{{"where", other.where.empty() ? Json(nullptr) : Json(other.where)},
-                                   {"verdict", name_of(other.verdict)},
-                                   {"counterexample", state}}};
+        if (!other.where.empty()) {
+            std::vector<std::string> equations;
+            for (const auto& [name, value] : other.where) equations.push_back(fmt::format("{} = {}", name, value));
+            where = fmt::format("{}", fmt::join(equations, ", "));
+        }
+        json["other_branches"] = {
+            {{"where", where}, {"verdict", name_of(other.verdict)}, {"counterexample", state}}};
     }
     return json;
 }
@@ -87,7 +91,7 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
     if (!c.reason.empty()) line("", c.reason);
     if (c.other_branch) {
         const bool holds = c.other_branch->verdict == Verdict::proved;
-        const std::string& where = c.other_branch->where;
+        const std::string where = text_of_state(c.other_branch->where);
         if (where.empty())
             line("", holds ? say("on another branch of the constraints it holds")
                            : say("on another branch of the constraints it fails"));
