@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
 
 #include "algebra/symbolic/distance.hpp"
 #include "algebra/symbolic/functions.hpp"
@@ -32,6 +33,8 @@ numeric exact_number(const std::string& literal) {
         } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
             digits += c;
             if (after_point) --exponent;
+        } else {
+            throw std::invalid_argument(literal + " is no literal of a number");
         }
     }
     const numeric mantissa(digits.empty() ? "0" : digits.c_str());

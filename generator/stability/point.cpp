@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/constant.hpp"
 #include "program/lower/lower.hpp"
 
 namespace alembert {
@@ -26,10 +27,13 @@ Certain constant_of(const Mechanism& m, const ex& value) {
     return interpret(program, State<Expansion>())[node].value();
 }
 
-std::optional<Certain> typed(const ExactOverrides& exact_at, const std::string& name) {
+std::optional<Certain> typed(const Mechanism& m, const ExactOverrides& exact_at, const std::string& name) {
     for (const auto& [known, text] : exact_at)
-        if (known == name)
-            return exact_of(exact_number(text[0] == '-' ? text.substr(1) : text) * (text[0] == '-' ? -1 : 1));
+        if (known == name) {
+            const ex value = constant_value(text);
+            const std::optional<Certain> fraction = exact_of(value);
+            return fraction ? fraction : constant_of(m, value);
+        }
     return {};
 }
 
@@ -45,7 +49,7 @@ CertainVector exact_parameters(const Mechanism& m, const Start& start, const Exa
     CertainVector result;
     for (const Mechanism::Parameter& p : m.parameters) {
         if (!p.independent) continue;
-        std::optional<Certain> exact = typed(exact_at, p.symbol.get_name());
+        std::optional<Certain> exact = typed(m, exact_at, p.symbol.get_name());
         if (!exact) exact = exact_of(p.value);
         if (!exact) exact = constant_of(m, p.value);
         const double in_use = start.parameters[result.size()];
@@ -74,7 +78,7 @@ ExactStart exact_start(const Mechanism& m, const Start& start, const ExactOverri
     std::size_t next = 0;
     const auto take = [&](const std::string& name) {
         const Certain own = value[nodes[next++]].value();
-        return typed(exact_at, name).value_or(own);
+        return typed(m, exact_at, name).value_or(own);
     };
     for (int i = 0; i < m.size(); ++i) result.q.push_back(exact_or(take(m.q[i].get_name()), start.q[i]));
     for (int i = 0; i < m.size(); ++i)

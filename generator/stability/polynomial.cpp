@@ -11,6 +11,7 @@
 #include "algebra/notation/text.hpp"
 #include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
+#include "model/constant.hpp"
 #include "model/formalism/routh.hpp"
 #include "model/parameter_values.hpp"
 #include "program/lower/lower.hpp"
@@ -35,9 +36,12 @@ std::string in_letters(const ex& e, const Symbols& symbols) {
 /// One text for each condition; none at all if one is too long to be read.
 std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols& symbols) {
     std::vector<std::string> result;
-    for (const ex& condition : conditions) {
+    for (const ex& positive : conditions) {
         std::string shown;
-        if (GiNaC::is_a<GiNaC::numeric>(condition)) return {};  // the condition does not depend on parameters
+        if (GiNaC::is_a<GiNaC::numeric>(positive)) return {};  // the condition does not depend on parameters
+        const bool has_minus = GiNaC::is_a<GiNaC::mul>(positive) && GiNaC::is_a<GiNaC::numeric>(*(positive.end() - 1)) &&
+                               (positive.end() - 1)->info(GiNaC::info_flags::negative);
+        const ex condition = has_minus ? ex(-positive) : positive;
         if (GiNaC::is_a<GiNaC::mul>(condition)) {               // factor by factor
             for (const ex& factor : condition) {
                 std::string part = in_letters(factor, symbols);
@@ -52,7 +56,7 @@ std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols&
             shown = in_letters(condition, symbols);
         }
         if (shown.empty() || shown.size() > longest_condition) return {};
-        result.push_back(shown + " > 0");
+        result.push_back(shown + (has_minus ? " < 0" : " > 0"));
     }
     return result;
 }
@@ -139,8 +143,8 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
     std::vector<ex> q0 = m.q_start, u0 = m.qdot_start;
     for (const auto& [name, number] : exact_at)
         for (int i = 0; i < m.size(); ++i) {
-            if (name == m.q[i].get_name()) q0[i] = exact_number(number);
-            if (name == m.q[i].get_name() + "'") u0[i] = exact_number(number);
+            if (name == m.q[i].get_name()) q0[i] = constant_value(number);
+            if (name == m.q[i].get_name() + "'") u0[i] = constant_value(number);
         }
     // Is the state in use that of the scene? With constraints it is if the scene's obeys them.
     if (m.constraints.empty())
