@@ -117,7 +117,7 @@ TEST_CASE("check: a root in a velocity has the sign of the scene's branch, at re
             CAPTURE(k);
             CHECK(result.claims[k].verdict == ((k % 2 == 0) == above ? proved : refuted));
             if (result.claims[k].verdict == proved)
-                CHECK(result.claims[k].where ==
+                CHECK(conditions_of(result.claims[k]) ==
                       std::vector<std::string>{above ? "x - r*cos(theta) > 0" : "r*cos(theta) - x > 0"});
         }
     }

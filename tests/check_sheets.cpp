@@ -218,4 +218,36 @@ x = "-k*x - s*sign(x)"
     }
 }
 
+TEST_CASE("check: what a verdict rests on is told by its kind") {
+    using Texts = std::vector<std::pair<std::string, std::string>>;
+    const auto assumed = [](const std::string& scene, const std::string& claim) {
+        const auto result = run({"check", scene, temporary("rests.claims", claim + "\n"), "--json"});
+        INFO(result.err);
+        REQUIRE(!result.out.empty());
+        Texts texts;
+        const Json claims = Json::parse(result.out)["claims"];
+        for (const Json& one : claims.back()["assumed"]) texts.emplace_back(one["kind"], one["text"]);
+        return texts;
+    };
+    CHECK(assumed(spring_pendulum("1.1"), right) == Texts{{"side", "r > 0"}});
+    CHECK(assumed(spring_pendulum("1.1"), "where th > 0\n" + right) ==
+          Texts{{"side", "r > 0"}, {"stated", "th > 0"}});
+    CHECK(assumed(spring_pendulum("1.1"), "where th > 0\n" + right + "\nwhere\n" + right) ==
+          Texts{{"side", "r > 0"}});
+    const auto particle = [](const std::string& more) {
+        return temporary("rests.toml",
+                         "[parameters]\nm = 1\nF = -2\n[coordinates]\nx = 1\ny = 1\n[[particle]]\nname = \"P\"\n"
+                         "mass = \"m\"\nposition = [\"x\", \"y\"]\n[forces]\nx = \"F\"\n" +
+                             more);
+    };
+    CHECK(assumed(particle(""), "m*x'' = F").empty());
+    CHECK(assumed(particle(""), "m*x'' = -abs(F)") == Texts{{"parameter", "F < 0"}});
+    const std::string bound = particle("[[constraint]]\nname = \"z\"\nholonomic = \"x^2 - y^2\"\n");
+    CHECK(assumed(bound, "x = y") == Texts{{"branch", "the branch of the constraints on which the scene starts"}});
+    CHECK(assumed(bound, "x^2 = y^2").empty());
+    const std::string wall = particle("[[unilateral]]\nname = \"wall\"\ngap = \"x - 1\"\n");
+    CHECK(assumed(wall, "m*x'' = F").empty());
+    CHECK(assumed(wall, "closed wall\nx'' = 0") == Texts{{"closed", "contact wall is closed"}});
+}
+
 }  // namespace check_sheets

@@ -186,9 +186,11 @@ TEST_CASE("stability: conditions in the parameters with a constraint") {
 TEST_CASE("stability: conditions are those of the state that was asked for, however its number was typed") {
     const std::string scene = temporary(
         "turned.toml",
-        "[parameters]\nm = 1\nl = 1.6\nT0 = 0.4\n[coordinates]\ntheta = { initial = -0.4 }\n[[particle]]\nname = \"P\"\n"
+        "[parameters]\nm = 1\nl = 1.6\nT0 = 0.4\n[coordinates]\ntheta = { initial = -0.4 }\n[[particle]]\nname = "
+        "\"P\"\n"
         "mass = \"m\"\nposition = [\"l*sin(theta)\", \"-l*cos(theta)\"]\n[forces]\ntheta = \"-T0*sin(theta)\"\n");
-    for (const char* const at : {"theta=pi", "theta=-pi", "theta=180 deg", "theta=3*pi", "theta=2*atan(1) + pi/2"}) {
+    for (const char* const at :
+         {"theta=pi", "theta=-pi", "theta=180 deg", "theta=3*pi", "theta=2*atan(1) + pi/2"}) {
         CAPTURE(at);
         CHECK(asked({"stability", scene, "--json", "--at", at}, 1)["conditions"] == Json{"T0 < 0"});
     }

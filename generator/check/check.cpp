@@ -92,8 +92,15 @@ public:
                 result.missing = checked.missing;
                 result.freedom = checked.freedom;
             }
-            for (std::size_t i = 0; i < claims.size(); ++i)
-                result.claims[claims[i]] = std::move(checked.claims[i]);
+            for (std::size_t i = 0; i < claims.size(); ++i) {
+                CheckedClaim& claim = result.claims[claims[i]] = std::move(checked.claims[i]);
+                for (const std::string& contact : mode.held.closed)
+                    claim.assumed.push_back(
+                        {Assumption::Kind::closed, say("contact {} is closed", contact), false});
+                for (const std::string& friction : mode.held.sticking)
+                    claim.assumed.push_back(
+                        {Assumption::Kind::stated, say("friction {} sticks", friction), false});
+            }
         }
         withdraw_what_holds_when_closed(scene, result);
         return result;

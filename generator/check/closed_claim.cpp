@@ -165,6 +165,10 @@ std::optional<bool> holds_by_digits(Comparison& now, std::size_t k, const Motion
     return told_by_digits == InNumbers::unknown ? std::nullopt : std::optional(told_by_digits == InNumbers::holds);
 }
 
+void assume_branch(CheckedClaim& c, const std::vector<std::string>& where) {
+    for (const std::string& words : where) c.assumed.push_back({Assumption::Kind::branch, words});
+}
+
 void prove_by_digits(CheckedClaim& c) {
     constexpr double failure = -60;  // three states, and one of 2²⁰ numbers for each degree of the claim
     c.verdict = Verdict::proved;
@@ -202,7 +206,7 @@ bool settle_by_branch(Comparison& now, std::size_t k, ExactStates& states, const
     }
     if (const auto sheet = branch_of(now, k, own.get(0) != nullptr ? own : states)) {
         c.verdict = Verdict::proved;
-        c.where = *sheet;
+        assume_branch(c, *sheet);
         return true;
     }
     if (const auto shown = counterexample(told(now), own.motions, p, root)) {
@@ -368,7 +372,7 @@ void settle_as_it_stands(Comparison& now, std::size_t k, ExactStates& states) {
     }
     if (const auto branch = branch_of(now, k, states)) {
         c.verdict = Verdict::proved;
-        c.where = *branch;
+        assume_branch(c, *branch);
         c.reason = say("on the branch of the initial state");
         return;
     }

@@ -31,7 +31,7 @@ void tell_kinematics(Comparison& now) {
     std::vector<std::size_t> here;
     for (std::size_t k = 0; k < now.forms.size(); ++k) {
         const CheckedClaim& c = now.verdicts[k];
-        if (now.scene.claims[k].at == Claim::At::motion && c.verdict == Verdict::proved && c.where.empty() &&
+        if (now.scene.claims[k].at == Claim::At::motion && c.verdict == Verdict::proved && c.assumed.empty() &&
             now.forms[k].open.empty() && !now.forms[k].third &&
             !now.m.z->depends(now.forms[k].residual, multipliers))
             here.push_back(k);

@@ -75,10 +75,9 @@ public:
         tell_kinematics(now_);
         settle_apart();
         for (std::size_t k = 0; k < now_.verdicts.size(); ++k) {
-            std::vector<std::string>& where = now_.verdicts[k].where;
-            for (const Inequality& assumed : now_.scene.claims[k].where)
-                where.insert(where.begin(), text_of(assumed));
-            for (const ex& positive : positive_[k]) where.insert(where.begin(), inequality(positive, now_.m));
+            std::vector<Assumption> assumed = assumptions(k);
+            std::vector<Assumption>& list = now_.verdicts[k].assumed;
+            list.insert(list.begin(), assumed.begin(), assumed.end());
         }
         const auto [is_complete, missing, freedom] = of_right_claims();
         return {
@@ -122,6 +121,29 @@ private:
         std::vector<ex> supposed;
         for (const ex& assumed : now_.assumed) supposed.push_back(now_.m.z->expand(assumed));
         sheets_->suppose(std::move(supposed));
+    }
+
+    /// What the verdict on a claim rests on, but for branches that were found on the way.
+    std::vector<Assumption> assumptions(std::size_t claim) const {
+        using Kind = Assumption::Kind;
+        std::vector<Assumption> result;
+        std::vector<GiNaC::symbol> moving = now_.m.moving();
+        moving.push_back(now_.m.t);
+        for (const ex& positive : positive_[claim])
+            result.push_back({now_.m.z->depends(positive, moving) ? Kind::side : Kind::parameter,
+                              inequality(positive, now_.m)});
+        for (const Inequality& stated : now_.scene.claims[claim].where)
+            result.push_back({Kind::stated, text_of(stated)});
+        if (now_.verdicts[claim].other_branch)
+            result.push_back(
+                {Kind::branch, say("the branch of the constraints on which the scene starts"), false});
+        if (now_.scene.claims[claim].at == Claim::At::impact)
+            for (std::size_t i = 0; i < now_.m.q.size(); ++i)
+                result.push_back(
+                    {Kind::pose,
+                     now_.m.q[i].get_name() + " = " + in_print(now_.m.z->expand(now_.m.q_start[i]), now_.m),
+                     false});
+        return result;
     }
 
     void add_positive(std::size_t claim, ex needed) {

@@ -43,6 +43,22 @@ struct UpTo {
     std::string text{};  ///< the constant, or F; empty if it was not found in a short form
 };
 
+/// What a verdict rests on besides the equations of the scene.
+struct Assumption {
+    enum class Kind {
+        side,       ///< of a root: a length is positive
+        branch,     ///< of the constraints, or of a root with coordinates that depend on each other
+        parameter,  ///< the sign of what consists of parameters
+        pose,       ///< the one in which the scene's impulses act
+        closed,     ///< these contacts are
+        stated      ///< by the claim itself
+    };
+    Kind kind;
+    std::string text;          ///< "r > 0"
+    bool is_condition = true;  ///< whether it is an inequality
+};
+const char* name_of(Assumption::Kind kind);
+
 struct CheckedClaim {
     Verdict verdict = Verdict::undecided;
     bool normal_form = false;  ///< proved by normal form
@@ -57,10 +73,13 @@ struct CheckedClaim {
     std::optional<Slip> likely;
     std::optional<UpTo> up_to;  ///< of a claim that is proved
     std::optional<OtherBranch> other_branch;
-    std::vector<std::string> where;  ///< the sheet or branch of roots on which the verdict holds: "r > 0"
+    std::vector<Assumption> assumed;  ///< nothing for a verdict without conditions
     /// Of a refuted claim: on which sides it holds all the same, each with what must hold there together: "x > 0,
     /// y < 0".
     std::vector<std::string> holds_where;
 };
+
+/// The inequalities among its assumptions.
+std::vector<std::string> conditions_of(const CheckedClaim& claim);
 
 }  // namespace alembert

@@ -39,10 +39,11 @@ std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols&
     for (const ex& positive : conditions) {
         std::string shown;
         if (GiNaC::is_a<GiNaC::numeric>(positive)) return {};  // the condition does not depend on parameters
-        const bool has_minus = GiNaC::is_a<GiNaC::mul>(positive) && GiNaC::is_a<GiNaC::numeric>(*(positive.end() - 1)) &&
+        const bool has_minus = GiNaC::is_a<GiNaC::mul>(positive) &&
+                               GiNaC::is_a<GiNaC::numeric>(*(positive.end() - 1)) &&
                                (positive.end() - 1)->info(GiNaC::info_flags::negative);
         const ex condition = has_minus ? ex(-positive) : positive;
-        if (GiNaC::is_a<GiNaC::mul>(condition)) {               // factor by factor
+        if (GiNaC::is_a<GiNaC::mul>(condition)) {  // factor by factor
             for (const ex& factor : condition) {
                 std::string part = in_letters(factor, symbols);
                 if (part.empty()) return {};

@@ -60,7 +60,10 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     if (checked.up_to)
         json["up_to"] = {{"kind", checked.up_to->kind == UpTo::Kind::constant ? "constant" : "derivative"},
                          {"text", checked.up_to->text}};
-    if (!checked.where.empty()) json["where"] = checked.where;
+    if (const auto where = conditions_of(checked); !where.empty()) json["where"] = where;
+    json["assumed"] = Json::array();
+    for (const Assumption& one : checked.assumed)
+        json["assumed"].push_back({{"kind", name_of(one.kind)}, {"text", one.text}});
     if (!checked.holds_where.empty()) json["holds_where"] = checked.holds_where;
     if (checked.other_branch) {
         const OtherBranch& other = *checked.other_branch;
@@ -87,7 +90,8 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
         page += fmt::format("{:<9}  {}{}\n", "", label, text);
     };
     if (!claim.source.empty()) line("", claim.source);
-    if (!c.where.empty()) line(say("where "), fmt::format("{}", fmt::join(c.where, ", ")));
+    if (const auto where = conditions_of(c); !where.empty())
+        line(say("where "), fmt::format("{}", fmt::join(where, ", ")));
     if (!c.reason.empty()) line("", c.reason);
     if (c.other_branch) {
         const bool holds = c.other_branch->verdict == Verdict::proved;
