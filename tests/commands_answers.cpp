@@ -198,6 +198,49 @@ TEST_CASE("stability: conditions are those of the state that was asked for, howe
     CHECK(asked({"stability", scene, "--json", "--at", "theta=-2*pi"})["conditions"] == Json{"T0 > 0"});
 }
 
+// About a minimum of the potential with c = 0 the roots are on the axis: the sign of the power decides.
+TEST_CASE("stability and equilibrium: drag that is no linear damping decides by the energy") {
+    const auto asked_of = [](const std::string& parameters, const std::string& forces) {
+        const std::string scene =
+            temporary("drag.toml",
+                      "[parameters]\nm = 1\nk = 3\n" + parameters +
+                          "\n[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = \"m\"\n"
+                          "position = [\"x\", \"y\"]\n[[spring]]\nstiffness = \"k\"\nalong = \"x\"\n[[spring]]\n"
+                          "stiffness = \"2*k\"\nalong = \"y\"\n[forces]\n" +
+                          forces + "\n");
+        const Json rest = Json::parse(run({"equilibrium", scene, "--json"}).out)["equilibria"][0];
+        const Json verdict = Json::parse(run({"stability", scene, "--json"}).out)["verdict"];
+        return std::pair<std::string, std::string>(rest["stable"], verdict);
+    };
+    using Told = std::pair<std::string, std::string>;
+    const std::string drag = "x = \"-c*norm(vel(P))*x'\"\ny = \"-c*norm(vel(P))*y'\"";
+    CHECK(asked_of("c = 0.2", drag) == Told("yes", "stable"));
+    CHECK(asked_of("c = -0.2", drag) == Told("undecided", "undecided"));
+    CHECK(asked_of("c = 0.2", "x = \"-c*abs(x')*x' - c*y*abs(x')\"\ny = \"-y'*max(0, abs(y') - 1)\"") ==
+          Told("undecided", "undecided"));
+    CHECK(asked_of("c = 0.2", "x = \"-c*abs(x')*x' - c*y'\"\ny = \"c*x' - y'*max(0, abs(y') - 1)\"") ==
+          Told("yes", "stable"));
+    CHECK(asked_of("c = 0.2", "x = \"-c*abs(x')*x' - c*y\"\ny = \"c*x\"") == Told("undecided", "undecided"));
+    const auto pendulum = [](const std::string& sign) {
+        return temporary(
+            "pendulum.toml",
+            "gravity = [0, \"-g\"]\n[parameters]\nm = 1\nl = 2\ng = 9.81\nc = 0.5\n[coordinates]\nth = 0\n"
+            "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"l*sin(th)\", \"-l*cos(th)\"]\n[forces]\n"
+            "th = \"" +
+                sign + "c*abs(th')*th'\"\n");
+    };
+    for (const auto& [sign, word, verdict] :
+         {std::array{"-", "yes", "stable"}, std::array{"", "no", "unstable"}}) {
+        CAPTURE(sign);
+        const std::string scene = pendulum(sign);
+        const Json list = Json::parse(run({"equilibrium", scene, "--json"}).out)["equilibria"];
+        REQUIRE(list.size() == 2);
+        for (const Json& one : list)
+            CHECK(one["stable"] == (std::abs(one["coordinates"]["th"].get<double>()) < 1 ? word : "no"));
+        CHECK(Json::parse(run({"stability", scene, "--json"}).out)["verdict"] == verdict);
+    }
+}
+
 TEST_CASE("derive --steps leads from positions to velocities, squares of speeds, T and d/dt, and check reads it") {
     const std::string scene = source_path("scenes/textbook/double_pendulum.toml");
     const std::string text = run({"derive", scene, "--steps"}).out;

@@ -316,9 +316,27 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
 }
 
 /// Where the equations have no Taylor series at the state.
+/// By the energy, where the equations are not analytic; undecided if it does not tell.
+Decision decide_by_energy(const LinearizedScene& near) try {
+    const SteadyProblem problem(near.mechanism, near.equations, near.start);
+    const StabilityHint hint = judge(problem, energy_rate(near.mechanism, problem), problem.start());
+    if (!hint.by_energy) return {};
+    return hint.stable == Stable::yes
+               ? Decision{StabilityVerdict::stable, StabilityTheorem::lagrange_dirichlet, hint.because}
+               : Decision{StabilityVerdict::unstable, StabilityTheorem::lyapunov_instability, hint.because};
+} catch (const ModelError&) {
+    return {};
+} catch (const IntegrationError&) {
+    return {};
+}
+
 void judge_in_numbers(Stability& result, const std::string& lyapunov) {
     result.eigenvalues = eigenvalues_of(blurred(result.A), false);
     take(result, decide_first(result.eigenvalues));
+    if (result.verdict == StabilityVerdict::undecided)
+        if (const Decision decision = decide_by_energy(*result.near);
+            decision.verdict != StabilityVerdict::undecided)
+            take(result, decision);
     if (result.verdict == StabilityVerdict::undecided) take(result, undecided(result.eigenvalues));
     if (is_inexact_fold(*result.near, result.eigenvalues)) take(result, undecided_at_fold());
     if (!lyapunov.empty()) judge_function(result, lyapunov, nullptr);

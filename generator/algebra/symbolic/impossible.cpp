@@ -87,6 +87,13 @@ private:
     }
     static bool is_bounded(const ex& e) { return is_named(e, {"sin", "cos", "tanh"}); }
 
+    static bool is_never_negative(const ex& e) {
+        if (is_named(e, {"abs", "absolute"})) return true;
+        return is_named(e, {"maximum"}) && std::any_of(e.begin(), e.end(), [](const ex& one) {
+                   return one.info(GiNaC::info_flags::nonnegative);
+               });
+    }
+
     bool is_positive(const ex& e) const {
         if (e.is_equal(GiNaC::Pi) || is_named(e, {"exp", "cosh"})) return true;
         return std::any_of(above_zero_.begin(), above_zero_.end(), [&](const auto& s) { return e.is_equal(s); });
@@ -100,7 +107,7 @@ private:
             if (GiNaC::is_a<GiNaC::numeric>(factor)) return;
             if (is_positive(base)) {
                 result.known *= factor;
-            } else if ((is_power && !factor.op(1).info(GiNaC::info_flags::odd)) || is_named(base, {"abs"})) {
+            } else if ((is_power && !factor.op(1).info(GiNaC::info_flags::odd)) || is_never_negative(base)) {
                 result.known *= factor;  // an even power, or a root
                 result.is_strict = false;
             } else {

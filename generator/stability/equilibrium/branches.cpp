@@ -33,9 +33,11 @@ public:
           starts_(result.mechanism, names_),
           problem_(result.mechanism, result.equations,
                    start_at(options.from + inside_ * (options.to - options.from))),
-          conservative_(is_conservative(result.mechanism, problem_.residuals())),
+          energy_(energy_rate(result.mechanism, problem_)),
           left_out_(result.mechanism) {
         check_name();
+        // The sign of a power was proved for the scene's value of the parameter that is varied.
+        if (energy_ != EnergyRate::constant) energy_ = EnergyRate::open;
     }
 
     void go() {
@@ -117,7 +119,7 @@ private:
             return;
         }
         if (options_.progress) options_.progress(say("following"), 0.5);
-        Followed followed = follow(tracer, start, {options_.from, options_.to}, result_.is_angle, conservative_);
+        Followed followed = follow(tracer, start, {options_.from, options_.to}, result_.is_angle, energy_);
         result_.cut = result_.cut || followed.cut;
         crossings_.insert(crossings_.end(), followed.crossings.begin(), followed.crossings.end());
         Branch branch{.points = {}, .closed = followed.closed};
@@ -186,7 +188,7 @@ private:
     std::vector<std::string> names_;
     Starts starts_;
     SteadyProblem problem_;
-    bool conservative_;
+    EnergyRate energy_;
     LeftOut left_out_;
     std::vector<std::vector<Column>> curves_;
     std::vector<std::pair<TracedPoint, BranchCrossing>> crossings_;

@@ -192,14 +192,14 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
     result.cyclic.clear();
     for (int i = 0; i < result.mechanism.size(); ++i)
         if (!problem.essential()[i]) result.cyclic.push_back(result.mechanism.q[i].get_name());
-    const bool conservative = is_conservative(result.mechanism, problem.residuals());
+    const EnergyRate energy = energy_rate(result.mechanism, problem);
     const auto add = [&](const FoundRoot& root) {
         Equilibrium one{.start = problem.start_at(start, root.at),
                         .moving = {},
                         .residual = static_cast<double>(root.residual),
                         .family = root.family,
                         .multipliers = multipliers_at(problem, root.at),
-                        .judgement = judge(problem, conservative, root.at)};
+                        .judgement = judge(problem, energy, root.at)};
         if (penetrates(result, one.start)) return;
         // Coordinates that are cyclic, or moved by a constraint, from rest too.
         const VectorOf<long double> udot = problem.linearized_at(root.at, root.at.u).tangent.udot;

@@ -17,8 +17,8 @@ constexpr long double farthest = 1e3L;  // in units of the scales
 
 class Following {
 public:
-    Following(const Tracer& tracer, const FollowRange& range, const std::vector<bool>& is_angle, bool conservative)
-        : tracer_(tracer), range_(range), is_angle_(is_angle), conservative_(conservative) {}
+    Following(const Tracer& tracer, const FollowRange& range, const std::vector<bool>& is_angle, EnergyRate energy)
+        : tracer_(tracer), range_(range), is_angle_(is_angle), energy_(energy) {}
 
     /// Along the start's tangent or against it.
     void go(const TracedPoint& start, bool backward) {
@@ -63,7 +63,7 @@ private:
         return p >= std::min(range_.from, range_.to) && p <= std::max(range_.from, range_.to);
     }
     FollowedPoint judged(const TracedPoint& point) const {
-        return {.point = point, .judgement = judge(tracer_.problem(), conservative_, point.at)};
+        return {.point = point, .judgement = judge(tracer_.problem(), energy_, point.at)};
     }
 
     std::optional<TracedPoint> next_point(const TracedPoint& from, long double& sigma) const {
@@ -182,7 +182,7 @@ private:
         const bool on_axis = before > -1e-10L * size;  // pairs of eigenvalues meet on the axis and leave it
         const long double level = on_axis ? 1e-8L * size : 0;
         const auto found = located(here.point, there.point, [&](const TracedPoint& point) {
-            return real_part(judge(tracer_.problem(), conservative_, point.at)) - level;
+            return real_part(judge(tracer_.problem(), energy_, point.at)) - level;
         });
         if (found) add(all, *found, on_axis ? PointKind::hamiltonian_hopf : PointKind::hopf);
     }
@@ -190,14 +190,14 @@ private:
     const Tracer& tracer_;
     FollowRange range_;
     const std::vector<bool>& is_angle_;
-    bool conservative_;
+    EnergyRate energy_;
 };
 
 }  // namespace
 
 Followed follow(const Tracer& tracer, const TracedPoint& start, const FollowRange& range,
-                const std::vector<bool>& is_angle, bool conservative) {
-    Following following(tracer, range, is_angle, conservative);
+                const std::vector<bool>& is_angle, EnergyRate energy) {
+    Following following(tracer, range, is_angle, energy);
     following.go(start, false);
     if (!following.result.closed) following.go(start, true);
     return std::move(following.result);

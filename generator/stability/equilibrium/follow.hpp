@@ -30,6 +30,6 @@ struct Followed {
 /// Follows a branch from the start in both directions until the parameter leaves the range, or once around a
 /// closed curve.
 Followed follow(const Tracer& tracer, const TracedPoint& start, const FollowRange& range,
-                const std::vector<bool>& is_angle, bool conservative);
+                const std::vector<bool>& is_angle, EnergyRate energy);
 
 }  // namespace alembert

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "algebra/symbolic/fourier.hpp"
 #include "base/language/say.hpp"
 #include "stability/linear/dense_long.hpp"
 #include "stability/linear/paths.hpp"
@@ -169,40 +168,8 @@ Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at)
     return growing == 2 ? Meeting::grows : Meeting::open;
 }
 
-namespace {
-
-/// Do the loads follow from a potential, that is, are they functions Q(q) with ∂Q_i/∂q_j = ∂Q_j/∂q_i?
-bool loads_have_potential(const Mechanism& m) {
-    constexpr double largest_tree = 2000;
-    if (m.loads.empty()) return true;
-    std::vector<GiNaC::ex> Q = m.generalized_forces(false);
-    for (const GiNaC::ex& damping : m.generalized_forces(true)) Q.push_back(damping);
-    for (GiNaC::ex& force : Q) {
-        if (m.z->tree_size(force) > largest_tree) return false;
-        force = m.z->expand(force);
-        if (force.has(m.t)) return false;
-        for (const GiNaC::symbol& rate : m.qdot)
-            if (force.has(rate)) return false;
-    }
-    for (int i = 0; i < m.size(); ++i)
-        for (int j = 0; j < i; ++j) {
-            const auto curl = fourier(Q[i].diff(m.q[j]) - Q[j].diff(m.q[i]), *m.symbols, 500);
-            if (!curl || !is_zero(*curl)) return false;
-        }
-    return true;
-}
-
-}  // namespace
-
 const char* name_of(Stable stable) {
     return stable == Stable::yes ? to_say("yes") : stable == Stable::no ? to_say("no") : to_say("undecided");
-}
-
-bool is_conservative(const Mechanism& m, const Residuals& residuals) {
-    const bool holonomic = std::all_of(m.constraints.begin(), m.constraints.end(),
-                                       [](const Mechanism::Constraint& c) { return c.position.has_value(); });
-    return loads_have_potential(m) && m.inputs.empty() && !m.has_kicks() && holonomic &&
-           residuals.rates_are_speeds;
 }
 
 MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Instant<long double>& at) {
@@ -211,7 +178,7 @@ MatrixOf<long double> essential_motion(const SteadyProblem& problem, const Insta
     return r ? r->A : MatrixOf<long double>();
 }
 
-StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at) {
+StabilityHint judge(const SteadyProblem& problem, EnergyRate energy, const Instant<long double>& at) {
     const Residuals& residuals = problem.residuals();
     if (!problem.has_first_approximation(at)) return {.because = say("the equations have a kink here")};
     const SteadySystem here = problem.linearized_at(at, at.u);
@@ -256,9 +223,13 @@ StabilityHint judge(const SteadyProblem& problem, bool conservative, const Insta
         result.because = zeros == 0
                              ? say("all eigenvalues have negative real parts")
                              : say("all eigenvalues but those of the cyclic rates have negative real parts");
-    } else if (conservative && is_minimum(r, t, static_cast<Index>(here.split.q.size()))) {
-        result.stable = Stable::yes;
-        result.because = say("the energy is at a minimum");
+    } else if (energy != EnergyRate::open && is_minimum(r, t, static_cast<Index>(here.split.q.size()))) {
+        result.stable = energy == EnergyRate::grows ? Stable::no : Stable::yes;
+        result.by_energy = true;
+        result.because = energy == EnergyRate::constant ? say("the energy is at a minimum")
+                         : energy == EnergyRate::falls
+                             ? say("the energy is at a minimum, and no motion makes it grow")
+                             : say("the energy is at a minimum, and every motion makes it grow");
     } else {
         result.because =
             say("eigenvalues on the imaginary axis, about which the first approximation says nothing");

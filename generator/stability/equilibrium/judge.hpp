@@ -3,17 +3,17 @@
 
 /// A first judgement of stability, from the eigenvalues or the energy. The verb `stability` goes further.
 ///
-///     const StabilityHint is = judge(problem, mechanism, root.at);
+///     const StabilityHint is = judge(problem, energy_rate(mechanism, problem), root.at);
 ///     is.stable == Stable::yes, is.because, is.eigenvalues
 ///
 /// It concerns the essential coordinates and all speeds. There is also a steady motion for every other value of a
 /// given cyclic rate; the zero eigenvalues that belong to these rates are not counted. If eigenvalues lie on the
-/// imaginary axis, energy decides if only a potential acts: the motion is stable if V − T₀ + ½ Σ momenta²/inertia
-/// has a minimum (Lagrange and Dirichlet; Routh for steady motions).
+/// imaginary axis, energy decides if it never grows: the motion is stable if V − T₀ + ½ Σ momenta²/inertia has a
+/// minimum (Lagrange and Dirichlet; Routh for steady motions).
 
 #include <complex>
 
-#include "stability/linear/steady.hpp"
+#include "stability/equilibrium/energy_rate.hpp"
 
 namespace alembert {
 
@@ -23,14 +23,12 @@ const char* name_of(Stable stable);
 struct StabilityHint {
     Stable stable = Stable::undecided;
     std::string because;
+    bool by_energy = false;
     bool singular = false;  ///< whether some inertia vanishes here, as at a pole of spherical coordinates
     std::vector<std::complex<double>> eigenvalues =
         {};  ///< by real part, then imaginary part; a real part that is only rounding is 0
     std::vector<std::complex<long double>> exact = {};  ///< as they were computed
 };
-
-/// Whether only a potential and ideal holonomic constraints act, so that the energy decides.
-bool is_conservative(const Mechanism& mechanism, const Residuals& residuals);
 
 /// x' = A x for small deviations of the essential coordinates and all speeds; no rows if inertia is singular or
 /// the equations have a kink.
@@ -43,6 +41,6 @@ enum class Meeting { none, grows, open };
 Meeting meeting_at(const SteadyProblem& problem, const Instant<long double>& at);
 
 /// Undecided, with the reason, if inertia is singular.
-StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at);
+StabilityHint judge(const SteadyProblem& problem, EnergyRate energy, const Instant<long double>& at);
 
 }  // namespace alembert
