@@ -33,31 +33,40 @@ std::string in_letters(const ex& e, const Symbols& symbols) {
     return text(readable(*f));
 }
 
+/// `e` or −e, whichever begins without a minus or, of two sums, earlier in the alphabet: GiNaC's order, and so the sign
+/// of a factor, is another one at every run.
+ex written_side(const ex& e, const Symbols& symbols) {
+    const std::string one = in_letters(e, symbols), other = in_letters(-e, symbols);
+    const auto begins = [](const std::string& text) { return std::pair(!text.empty() && text[0] == '-', text); };
+    return begins(other) < begins(one) ? ex(-e) : e;
+}
+
 /// One text for each condition; none at all if one is too long to be read.
 std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols& symbols) {
     std::vector<std::string> result;
     for (const ex& positive : conditions) {
-        std::string shown;
         if (GiNaC::is_a<GiNaC::numeric>(positive)) return {};  // the condition does not depend on parameters
-        const bool has_minus = GiNaC::is_a<GiNaC::mul>(positive) &&
-                               GiNaC::is_a<GiNaC::numeric>(*(positive.end() - 1)) &&
-                               (positive.end() - 1)->info(GiNaC::info_flags::negative);
-        const ex condition = has_minus ? ex(-positive) : positive;
-        if (GiNaC::is_a<GiNaC::mul>(condition)) {  // factor by factor
-            for (const ex& factor : condition) {
-                std::string part = in_letters(factor, symbols);
-                if (part.empty()) return {};
-                const bool is_sum = GiNaC::is_a<GiNaC::add>(factor.expand());
-                shown += (shown.empty() ? "" : "*") + (is_sum ? "(" + part + ")" : part);
+        const ex factors = GiNaC::is_a<GiNaC::mul>(positive) ? positive : ex(GiNaC::lst{positive});
+        std::string shown;
+        ex condition = 1;
+        for (const ex& factor : factors) {  // factor by factor
+            if (GiNaC::is_a<GiNaC::numeric>(factor)) {
+                condition *= GiNaC::abs(factor);
+                if (!factor.is_equal(-1)) shown = in_letters(GiNaC::abs(factor), symbols) + (shown.empty() ? "" : "*") + shown;
+                continue;
             }
-            if (const std::string whole = in_letters(condition, symbols);
-                !whole.empty() && whole.size() <= shown.size())
-                shown = whole;
-        } else {
-            shown = in_letters(condition, symbols);
+            const bool is_sum = GiNaC::is_a<GiNaC::add>(factor.expand());
+            const ex side = is_sum ? written_side(factor, symbols) : factor;
+            const std::string part = in_letters(side, symbols);
+            if (part.empty()) return {};
+            shown += (shown.empty() ? "" : "*") + (is_sum && factors.nops() > 1 ? "(" + part + ")" : part);
+            condition *= side;
         }
+        if (const std::string whole = in_letters(condition, symbols); !whole.empty() && whole.size() <= shown.size())
+            shown = whole;
         if (shown.empty() || shown.size() > longest_condition) return {};
-        result.push_back(shown + (has_minus ? " < 0" : " > 0"));
+        const bool is_opposite = (condition + positive).expand().is_zero();
+        result.push_back(shown + (is_opposite ? " < 0" : " > 0"));
     }
     return result;
 }
@@ -169,8 +178,12 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
     result.conditions =
         texts(odd_vanish ? real_frequency_conditions(p, positive) : hurwitz_conditions(p, positive), *m.symbols);
     if (result.conditions.empty()) return;
-    result.conditions_for =
-        odd_vanish ? say("distinct frequencies in the first approximation") : say("asymptotic stability");
+    const bool is_first = result.theorem == StabilityTheorem::first_approximation ||
+                          result.theorem == StabilityTheorem::hurwitz ||
+                          result.theorem == StabilityTheorem::kelvin_chetaev;
+    result.conditions_for = odd_vanish ? say("distinct frequencies in the first approximation")
+                            : is_first ? say("asymptotic stability")
+                                       : say("asymptotic stability in the first approximation");
 }
 
 }  // namespace alembert

@@ -319,7 +319,7 @@ void judge_function(Stability& result, const std::string& V, const Local* local)
 /// By the energy, where the equations are not analytic; undecided if it does not tell.
 Decision decide_by_energy(const LinearizedScene& near) try {
     const SteadyProblem problem(near.mechanism, near.equations, near.start);
-    const StabilityHint hint = judge(problem, energy_rate(near.mechanism, problem), problem.start());
+    const StabilityHint hint = judge(problem, energy_rate(near.mechanism, problem, near.start.parameters), problem.start());
     if (!hint.by_energy) return {};
     return hint.stable == Stable::yes
                ? Decision{StabilityVerdict::stable, StabilityTheorem::lagrange_dirichlet, hint.because}
@@ -405,6 +405,7 @@ Stability stability(Scene scene, const StabilityOptions& wishes) {
         decision = critical_case(*local, power, result.eigenvalues);
     else
         name_forces(decision, *local, power);
+    if (decision.verdict == StabilityVerdict::undecided) decision = decide_by_energy(near);
     if (decision.verdict == StabilityVerdict::undecided) decision = undecided(result.eigenvalues);
     if (decision.verdict == StabilityVerdict::asymptotically_stable && !local->cyclic_momenta.empty()) {
         decision.verdict = StabilityVerdict::stable;

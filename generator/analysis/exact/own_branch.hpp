@@ -20,7 +20,8 @@
 namespace alembert {
 
 struct OwnBranch {
-    std::vector<State<double>> places;  ///< t, parameters and positions; no two branches meet there
+    std::vector<State<double>> places;   ///< t, parameters and positions; no two branches meet there
+    std::vector<State<double>> farther;  ///< likewise, along the branch as far as no other comes near
 };
 
 /// The slopes of conditions in variables, at the places of the branch.

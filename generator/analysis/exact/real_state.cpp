@@ -526,12 +526,18 @@ std::optional<RealState> real_state_on_own_branch(const Motions& motions, const 
         conditions.push_back(step.node);
         if (step.second) conditions.push_back(step.second->node);
     }
-    const State<double>& place = motions.own()->places[seed % motions.own()->places.size()];
+    const bool goes_far = seed >= first_far_seed && !motions.own()->farther.empty();
+    const std::vector<State<double>>& places = goes_far ? motions.own()->farther : motions.own()->places;
+    const State<double>& place = places[seed % places.size()];
     const auto solved = OwnSlopes(motions.program(), *motions.own()).determined(conditions, place);
     if (solved.size() < conditions.size()) return std::nullopt;
+    std::set<Key> angles, plain;
+    find_variables(motions.program(), conditions, angles, plain);
     const auto put = [&](RealState& to, const Key& key, double value) {
         const bool stays = seed == 0 && key.first != Variable::Kind::coordinate;
-        const double beside = value + reach * numbers.share() * (value == 0 ? 1 : std::abs(value));
+        const bool is_angle = angles.contains(key) && !plain.contains(key);
+        const double size = value == 0 || is_angle ? 1 : std::abs(value);
+        const double beside = value + reach * numbers.share() * size;
         to.value[key] = stays                       ? decimal(value, 12)
                         : draws == Draws::at_random ? numeric(cln::cl_N(cln::rational(cln::cl_DF(beside))))
                                                     : decimal(beside, 3);

@@ -15,7 +15,7 @@
 
 namespace alembert {
 
-inline constexpr unsigned first_float_seed = 400;
+inline constexpr unsigned first_float_seed = 400, first_far_seed = 60;
 
 /// A state that obeys the constraints. The larger the seed, the less simple are the numbers; from first_float_seed
 /// on, floats are used if a constraint has no fraction as a solution. `roots` of `claims` will be evaluated at the
@@ -36,7 +36,7 @@ std::optional<RealState> real_state_towards(const Motions& motions, const Progra
                                             const std::vector<int>& roots, const Wanted& wanted, unsigned seed);
 
 /// The same on the scene's own branch, for motions that know it: near a place of it, and at seed 0 with the
-/// scene's parameters. Positions that follow from others are floats. At random what is free is one of 2³⁰
+/// scene's parameters; from first_far_seed on also far from where the scene starts. Positions that follow from others are floats. At random what is free is one of 2³⁰
 /// fractions, so that an equation which holds there by chance is unlikely.
 enum class Draws { simple, at_random };
 std::optional<RealState> real_state_on_own_branch(const Motions& motions, const Program& claims,

@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 
@@ -73,6 +74,25 @@ public:
             if (next) here = *next;
         }
         return here;
+    }
+
+    /// Places along a walk that keeps its direction, as long as `may_go_on`.
+    std::vector<Start> along(const Start& start, bool forwards, const std::function<bool(const Start&)>& may_go_on) {
+        constexpr int most_steps = 60, between = 6;
+        const double length = step_length * (1 + Eigen::Map<const Eigen::VectorXd>(start.q.data(), n_).lpNorm<Eigen::Infinity>());
+        std::vector<Start> result;
+        Start here = start;
+        Eigen::VectorXd change = along_rates(here, forwards);
+        for (int k = 1; k <= most_steps; ++k) {
+            const auto next = step(here, change);
+            if (!next || !may_go_on(*next)) break;
+            const Eigen::Map<const Eigen::VectorXd> from(here.q.data(), n_), to(next->q.data(), n_);
+            change = to - from;
+            change *= length / change.lpNorm<Eigen::Infinity>();
+            here = *next;
+            if (k % between == 0) result.push_back(here);
+        }
+        return result;
     }
 
     Start beside(Start start) {
@@ -186,7 +206,18 @@ std::optional<OwnBranch> own_branch(const Mechanism& mechanism) try {
         }
     for (const auto& [size, place] : places)
         if (size >= near_a_meeting * largest) branch.places.push_back(place.state());
-    return branch.places.empty() ? std::nullopt : std::optional(std::move(branch));
+    if (branch.places.empty()) return std::nullopt;
+    constexpr int most_coordinates = 8;
+    constexpr double largest_value = 10;  // of an angle far from zero the steps would be whole turns
+    const auto is_alone = [&](const Start& at) { return independence(at) >= near_a_meeting * largest; };
+    const bool is_near_zero = std::all_of(start.q.begin(), start.q.end(),
+                                          [](double q) { return std::abs(q) <= largest_value; });
+    if (mechanism.size() <= most_coordinates && is_near_zero && is_alone(start)) {
+        Walk walk(mechanism, program, true, 1);
+        for (const bool forwards : {true, false})
+            for (const Start& place : walk.along(start, forwards, is_alone)) branch.farther.push_back(place.state());
+    }
+    return branch;
 } catch (const std::runtime_error&) {
     return std::nullopt;
 }

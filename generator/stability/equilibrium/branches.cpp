@@ -33,7 +33,7 @@ public:
           starts_(result.mechanism, names_),
           problem_(result.mechanism, result.equations,
                    start_at(options.from + inside_ * (options.to - options.from))),
-          energy_(energy_rate(result.mechanism, problem_)),
+          energy_(energy_rate(result.mechanism, problem_, start_at(options.from).parameters)),
           left_out_(result.mechanism) {
         check_name();
         // The sign of a power was proved for the scene's value of the parameter that is varied.

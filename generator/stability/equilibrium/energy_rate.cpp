@@ -38,6 +38,20 @@ bool have_potential(const std::vector<ex>& Q, const Mechanism& m) {
     return true;
 }
 
+/// Each parameter with the sign that it has at these values: 0, or c, or −c for a positive symbol c.
+std::pair<GiNaC::exmap, std::vector<GiNaC::symbol>> signs_in_use(const Mechanism& m,
+                                                                 const std::vector<double>& parameters) {
+    const ParameterValues values(m, parameters);
+    std::pair<GiNaC::exmap, std::vector<GiNaC::symbol>> result;
+    for (const Mechanism::Parameter& p : m.parameters) {
+        const double value = values.number(p.symbol);
+        if (value < 0) result.first[p.symbol] = -p.symbol;
+        if (value == 0) result.first[p.symbol] = 0;
+        if (value < 0 || value > 0) result.second.push_back(p.symbol);
+    }
+    return result;
+}
+
 /// Whether `e` is a sum of products of positive numbers and parameters with even powers, or absolute values, of v.
 bool is_positive_but_for(const ex& e, const GiNaC::symbol& v, const std::vector<GiNaC::symbol>& above_zero) {
     const auto is_kept = [&](const ex& factor) {
@@ -58,7 +72,7 @@ bool is_positive_but_for(const ex& e, const GiNaC::symbol& v, const std::vector<
 
 }  // namespace
 
-EnergyRate energy_rate(const Mechanism& m, const SteadyProblem& problem) {
+EnergyRate energy_rate(const Mechanism& m, const SteadyProblem& problem, const std::vector<double>& parameters) {
     const bool holonomic = std::all_of(m.constraints.begin(), m.constraints.end(),
                                        [](const Mechanism::Constraint& c) { return c.position.has_value(); });
     if (!m.inputs.empty() || m.has_kicks() || !holonomic || !problem.residuals().rates_are_speeds)
@@ -82,7 +96,8 @@ EnergyRate energy_rate(const Mechanism& m, const SteadyProblem& problem) {
     for (int i = 0; i < m.size(); ++i)
         if (!problem.essential()[static_cast<std::size_t>(i)] && power.has(m.qdot[i])) acts_on_cyclic = true;
     if (acts_on_cyclic) return EnergyRate::open;
-    const std::vector<GiNaC::symbol> above_zero = positive_parameters(m);
+    const auto [signs, above_zero] = signs_in_use(m, parameters);
+    power = power.subs(signs, GiNaC::subs_options::no_pattern).expand();
     if (power.is_zero() || is_impossible({power}, above_zero)) return EnergyRate::falls;
     const bool is_one = m.size() == 1 && m.constraints.empty();
     return is_one && is_positive_but_for(power, m.qdot[0], above_zero) ? EnergyRate::grows : EnergyRate::open;

@@ -192,7 +192,7 @@ void search_in(Equilibria& result, const Start& start, const EquilibriumOptions&
     result.cyclic.clear();
     for (int i = 0; i < result.mechanism.size(); ++i)
         if (!problem.essential()[i]) result.cyclic.push_back(result.mechanism.q[i].get_name());
-    const EnergyRate energy = energy_rate(result.mechanism, problem);
+    const EnergyRate energy = energy_rate(result.mechanism, problem, start.parameters);
     const auto add = [&](const FoundRoot& root) {
         Equilibrium one{.start = problem.start_at(start, root.at),
                         .moving = {},

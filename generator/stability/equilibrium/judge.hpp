@@ -3,7 +3,7 @@
 
 /// A first judgement of stability, from the eigenvalues or the energy. The verb `stability` goes further.
 ///
-///     const StabilityHint is = judge(problem, energy_rate(mechanism, problem), root.at);
+///     const StabilityHint is = judge(problem, energy_rate(mechanism, problem, start.parameters), root.at);
 ///     is.stable == Stable::yes, is.because, is.eigenvalues
 ///
 /// It concerns the essential coordinates and all speeds. There is also a steady motion for every other value of a
